@@ -135,11 +135,11 @@ bench-domains: bench-extra  ## measure on the competition's domains beside Fast 
 
 bench-limits: $(READY)  ## measure how well limits of time and memory are kept: an hour or more, two processes at a time
 	@mkdir -p build/bench
-	@missed=0; LIMITS="$(BIN)/python -m benchmarks.limits --suite $(PROBLEMS)/codmap15 --jobs 2 --csv build/bench/limits"; \
-	$$LIMITS-plan.csv plan || missed=1; \
-	$$LIMITS-plan-10.csv plan --limits 10 --rotate 3 || missed=1; \
-	$$LIMITS-verify.csv verify --rotate 5 || missed=1; \
-	$$LIMITS-memory.csv memory || missed=1; exit $$missed
+	@missed=0; LIMITS="$(BIN)/python -m benchmarks.limits --suite $(PROBLEMS)/codmap15 --jobs 2 --record build/bench/limits"; \
+	$$LIMITS-plan.jsonl plan || missed=1; \
+	$$LIMITS-plan-10.jsonl plan --limits 10 --rotate 3 || missed=1; \
+	$$LIMITS-verify.jsonl verify --rotate 5 || missed=1; \
+	$$LIMITS-memory.jsonl memory || missed=1; exit $$missed
 
 bench-extra: $(READY)
 	@$(BIN)/python -c 'import sys; from serendipity.evaluation.benchmark.fast_downward import absent; sys.exit(bool(absent()))' \

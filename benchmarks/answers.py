@@ -9,77 +9,74 @@ modes at two discounts.  A change that is meant to change nothing
 gives the same file: compare with ``diff``.
 """
 
-import argparse
-import contextlib
 import json
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import suppress
+from functools import partial
+from itertools import chain, product
 from pathlib import Path
 from random import Random
-from typing import Any
+from typing import Annotated, Any
+
+import typer
 
 import serendipity
 from benchmarks.problems import PROBLEMS
-from serendipity import SerendipityError, Task
+from serendipity import Result, SerendipityError, Task
 from serendipity.testing.generator.calls import PlanCall, random_call
 
 TIMED = ("elapsed_seconds", "seconds", "gap")
 """What depends on the clock: improvements are told of now and then."""
 
+Ask = Callable[[], Any]
 
-def main() -> None:
+
+def main(
+    output: Annotated[Path, typer.Option("-o", "--output")],
+    count: int = 600,
+    usar: Path = PROBLEMS / "usar200",
+) -> None:
     """Write the file, and say how many lines it has."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("-o", "--output", type=Path, required=True)
-    parser.add_argument("--count", type=int, default=600, help="random calls")
-    parser.add_argument("--usar", type=Path, default=PROBLEMS / "usar200")
-    arguments = parser.parse_args()
     lines = 0
-    with arguments.output.open("w") as out:
-        for name, answer in _all(arguments):
-            out.write(f"{json.dumps([name, answer], sort_keys=True)}\n")
+    with output.open("w") as out:
+        for name, ask in chain(chain.from_iterable(map(_random, range(count))), _usar(usar)):
+            out.write(f"{json.dumps([name, _said(ask)], sort_keys=True)}\n")
             lines += 1
             if lines % 100 == 0:
                 print(f"\r{lines} answers", end="", file=sys.stderr)
-    print(f"\r{lines} answers in {arguments.output}")
+    print(f"\r{lines} answers in {output}")
 
 
-def _all(arguments: argparse.Namespace) -> Iterator[tuple[str, Any]]:
-    for seed in range(arguments.count):
-        yield from _random(seed)
-    yield from _usar(arguments.usar)
-
-
-def _random(seed: int) -> Iterator[tuple[str, Any]]:
+def _random(seed: int) -> Iterator[tuple[str, Ask]]:
     """What is asked of one random task."""
     call = random_call(seed)
     task, dice = call.task, Random(f"answers {seed}")
     result = None
-    with contextlib.suppress(SerendipityError):
+    with suppress(SerendipityError):
         result = serendipity.plan(task, human_plan=call.human_plan, **call.keywords())
-    yield f"plan {seed}", _said(lambda: _last(call))
+    yield f"plan {seed}", lambda: _last(call)
     if result is not None:
-        yield f"result {seed}", _without_times(result.to_dict())
-        yield f"check {seed}", _said(lambda: serendipity.check(task, result).to_dict())
-        if seed % 3 == 0:
-            yield f"verify {seed}", _said(lambda: serendipity.verify(task, result).to_dict())
-        if result.plan is not None:
-            for model in ("observant", "local"):
-                yield (
-                    f"simulate {seed} {model}",
-                    _said(lambda model=model: serendipity.simulate(task, result, model).to_dict()),
-                )
-        if seed % 4 == 0:
-            yield f"explain {seed}", _said(lambda: serendipity.explain(task, result).to_dict())
+        yield from _about(seed, task, result)
     if seed % 4 == 1:
-        yield (
-            f"interruptions {seed}",
-            _said(lambda: serendipity.interruptions(task, discount="0.5").to_dict()),
-        )
+        yield f"interruptions {seed}", lambda: serendipity.interruptions(task, discount="0.5").to_dict()
     if seed % 2 == 0:
         yield from _goals(seed, task, dice)
     if len(task.agents) == 2 and not task.robot_goal:
-        yield from _silent(f"assistance {seed}", task, dice)
+        ties = dice.choice(("fixed", "robust", "optimistic", "expected"))
+        yield f"assistance {seed}", lambda: _certified(task, mode="assistance", ties=ties, discount="0")
+
+
+def _about(seed: int, task: Task, result: Result) -> Iterator[tuple[str, Ask]]:
+    yield f"result {seed}", result.to_dict
+    yield f"check {seed}", lambda: serendipity.check(task, result).to_dict()
+    if seed % 3 == 0:
+        yield f"verify {seed}", lambda: serendipity.verify(task, result).to_dict()
+    if result.plan is not None:
+        for model in ("observant", "local"):
+            yield f"simulate {seed} {model}", partial(_simulated, task, result, model)
+    if seed % 4 == 0:
+        yield f"explain {seed}", lambda: serendipity.explain(task, result).to_dict()
 
 
 def _last(call: PlanCall) -> dict[str, Any]:
@@ -87,50 +84,43 @@ def _last(call: PlanCall) -> dict[str, Any]:
     return last.to_dict()
 
 
-def _goals(seed: int, task: Task, dice: Random) -> Iterator[tuple[str, Any]]:
+def _goals(seed: int, task: Task, dice: Random) -> Iterator[tuple[str, Ask]]:
     facts = [fact for fact in task.facts if not fact.startswith("(not")]
-    goals = [
-        {"name": str(i), "goal": [fact]} for i, fact in enumerate(dice.sample(facts, min(3, len(facts))))
-    ]
+    chosen = dice.sample(facts, min(3, len(facts)))
+    goals = [{"name": str(i), "goal": [fact]} for i, fact in enumerate(chosen)]
     mine = [task.actions[i].name for i in task.human_actions]
     observed = dice.sample(mine, 1) if mine and dice.random() < 0.5 else []
     discount = dice.choice(("0", "0.5", "0.9"))
-    yield f"recognise {seed}", _said(lambda: serendipity.recognise(task, goals, observed).to_dict())
-
-    def certified() -> list[Any]:
-        result = serendipity.plan(task, goals=goals, observed=observed, discount=discount)
-        return [
-            result.to_dict(),
-            serendipity.check(task, result).to_dict(),
-            serendipity.verify(task, result).to_dict(),
-        ]
-
-    yield f"goals {seed}", _said(certified)
+    yield f"recognise {seed}", lambda: serendipity.recognise(task, goals, observed).to_dict()
+    yield f"goals {seed}", lambda: _certified(task, goals=goals, observed=observed, discount=discount)
 
 
-def _silent(name: str, task: Task, dice: Random) -> Iterator[tuple[str, Any]]:
-    ties = dice.choice(("fixed", "robust", "optimistic", "expected"))
-
-    def certified() -> list[Any]:
-        result = serendipity.plan(task, mode="assistance", ties=ties, discount="0")
-        return [result.to_dict(), serendipity.check(task, result).to_dict()]
-
-    yield name, _said(certified)
+def _certified(task: Task, **options: Any) -> list[Any]:
+    """An answer, checked by the rules, and certified where the goal is not known."""
+    result = serendipity.plan(task, **options)
+    judges = (serendipity.check, serendipity.verify)[: 2 if "goals" in options else 1]
+    return [result.to_dict(), *(judge(task, result).to_dict() for judge in judges)]
 
 
-def _usar(folder: Path) -> Iterator[tuple[str, Any]]:
+def _usar(folder: Path) -> Iterator[tuple[str, Ask]]:
     for path in sorted(folder.glob("test*")):
         task = serendipity.load(path)
-        for mode in ("serendipity", "communication", "composite"):
-            for discount in ("0", "0.6"):
-                result = serendipity.plan(task, mode=mode, discount=discount)
-                yield f"{path.name} {mode} {discount}", _without_times(result.to_dict())
+        for mode, discount in product(("serendipity", "communication", "composite"), ("0", "0.6")):
+            yield f"{path.name} {mode} {discount}", partial(_planned, task, mode=mode, discount=discount)
 
 
-def _said(answer: Callable[[], Any]) -> Any:
+def _planned(task: Task, **options: Any) -> dict[str, Any]:
+    return serendipity.plan(task, **options).to_dict()
+
+
+def _simulated(task: Task, result: Result, model: Any) -> dict[str, Any]:
+    return serendipity.simulate(task, result, model).to_dict()
+
+
+def _said(ask: Ask) -> Any:
     """An answer, or the error that came instead."""
     try:
-        return _without_times(answer())
+        return _without_times(ask())
     except SerendipityError as error:
         return f"{type(error).__name__}: {error}"
 
@@ -144,4 +134,5 @@ def _without_times(value: Any) -> Any:
 
 
 if __name__ == "__main__":
-    main()
+    main.__doc__ = __doc__
+    typer.run(main)

@@ -1,162 +1,245 @@
-"""Time of a certificate, parse to verdict, over a folder of tasks (one thread).
+"""Time of a certificate, and what is proved: on folders of tasks, buildings of any size, suites of domains.
 
-    python -m benchmarks.certificates FOLDER [--encoding automata] [--solver highs] [--method auto]
-        [--stride N] [--limit N] [--mode MODE] [--discount D] [--time-limit SECONDS] [--csv FILE]
+    python -m benchmarks.certificates [FOLDER] [--human H] [--buildings 84x3,84x3x2,210x6] [--seeds 5]
+        [--suite FOLDER] [--domains NAME,...] [--stride N] [--limit N] [--modes NAME,...] [--discounts D,...]
+        [--plan-limit SECONDS] [--time-limit SECONDS] [--encoding automata] [--solver highs] [--method auto]
+        [--proofs] [--apart] [--only WORD] [--record FILE]
 
-Each task is read, planned, read again and verified; only the second reading and the
-verification are timed.  The table is in seconds of processor time, the solver's included, which
-other work on the machine leaves as it is; the rows have the deadline's seconds too, which
-``--time-limit`` is about.  With ``--csv`` the rows are appended and a later run with the same
-file goes on where the first one stopped.
+A building is named by its rooms, medkits and robots.  Each task is read, planned, read again and verified.
+What a limit left unplanned is left out.  ``seconds`` are from the second reading to the verdict, of
+processor time, the solver's included, which other work on the machine leaves as it is; ``by the clock`` is
+the certificate alone.  With ``--apart`` all is done in processes of their own, whose memory is told.
+
+With ``--proofs`` a proof is written: ``write`` is all of ``verify --proof``, reading included;
+``check`` is the checker alone, from the file to its verdict, as in a process that has started; and
+``compare`` is ``check-proof`` with task and result, which reads the task and makes the programs again.
+
+With ``--record`` answers and what comes of them are written down, and a later run with the same file goes
+on where the first one stopped.
 """
 
-import argparse
-import csv
-import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import product
 from pathlib import Path
 from statistics import median
-from time import perf_counter, process_time
+from tempfile import TemporaryDirectory
+from time import perf_counter
+from typing import Annotated, Any
+
+import typer
 
 import serendipity
-from serendipity.model import Result
+from serendipity import Result, SerendipityError, Task
+from serendipity.evaluation.benchmark.coverage.rows import MODES
+from serendipity.evaluation.measuring.figures import peak_memory, percentile, timed
+from serendipity.evaluation.measuring.record import Record
+from serendipity.evaluation.measuring.running import apart, measured
+from serendipity.evaluation.measuring.suites import Problem, Roles, folders, may_alone, problems, roles
+from serendipity.evaluation.measuring.tables import as_markdown, grouped, spreads, table
+from serendipity.model.telling import Line
 from verify.certificate.certify import certify
-from verify.programs.effort import METHODS
+from verify.proofs import checker
 
-KEY = ("test", "mode", "discount", "encoding", "solver", "method")
-FIELDS = (*KEY, "verdict", "processor", "seconds", "load", "variables", "constraints", "calls")
-MODES = ("serendipity", "communication")
-DISCOUNTS = ("0", "0.5", "0.9")
+FIGURES = ("write", "KiB", "check", "compare", "columns", "rows", "leaves")
 
-
-def main() -> None:
-    """Measure and print a table."""
-    arguments = _arguments()
-    done = _read(arguments.csv)
-    rows = list(done.values())
-    for folder in folders(arguments):
-        for mode in arguments.mode or MODES:
-            for discount in arguments.discount or DISCOUNTS:
-                key = (folder.name, mode, discount, *_settings(arguments))
-                if key not in done:
-                    row = _measure(folder, mode, discount, arguments)
-                    rows.append(row)
-                    append(arguments.csv, row)
-    settings = _settings(arguments)
-    _table([row for row in rows if tuple(row[name] for name in KEY[-3:]) == settings])
+Row = Mapping[str, Any]
 
 
-def _settings(arguments: argparse.Namespace) -> tuple[str, str, str]:
-    return arguments.encoding, arguments.solver, arguments.method
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What is planned for: a task of a group, by what makes it, and options.
+
+    Attributes:
+        source: a folder and the human; rooms, medkits, robots and seed; or files, human and robots.
+    """
+
+    group: str
+    source: tuple[Any, ...]
+    mode: str
+    discount: str
+    limit: float | None
+
+    def load(self) -> Task:
+        """The task."""
+        if isinstance(self.source[0], int):
+            rooms, medkits, robots, seed = self.source
+            with TemporaryDirectory() as place:
+                serendipity.generate_usar(place, rooms=rooms, medkits=medkits, robots=robots, seed=seed)
+                return serendipity.load(place)
+        if len(self.source) == 2:
+            return serendipity.load(self.source[0], human=self.source[1])
+        domain, problem, human, *robots = self.source
+        return serendipity.load_pddl(domain, problem, human, robots)
 
 
-def _arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--human", default=None)
-    parser.add_argument("--encoding", default="automata", choices=("automata", "paper"))
-    parser.add_argument("--solver", default="highs", choices=("highs", "cbc"))
-    parser.add_argument("--method", default="auto", choices=METHODS)
-    parser.add_argument("--stride", type=int, default=1, help="every N-th task")
-    parser.add_argument("--limit", type=int, default=None, help="at most N tasks")
-    parser.add_argument("--mode", action="append", choices=MODES, help="these modes only")
-    parser.add_argument("--discount", action="append", choices=DISCOUNTS, help="these discounts only")
-    parser.add_argument("--time-limit", type=float, default=None, help="seconds for a certificate")
-    parser.add_argument("--csv", type=Path, default=None, help="append rows here, and resume from it")
-    return parser.parse_args()
+@dataclass(frozen=True, slots=True)
+class Job:
+    """How an answer is verified."""
+
+    asked: Asked
+    how: tuple[tuple[str, Any], ...]
+    proofs: bool
 
 
-def folders(arguments: argparse.Namespace) -> list[Path]:
-    """The tasks that are asked for: every ``stride``-th of ``folder``, ``limit`` at most."""
-    found = sorted((p for p in arguments.folder.iterdir() if p.is_dir()), key=lambda p: (len(p.name), p.name))
-    return found[:: arguments.stride][: arguments.limit]
-
-
-def _measure(folder: Path, mode: str, discount: str, arguments: argparse.Namespace) -> dict[str, str]:
-    task = serendipity.load(folder, human=arguments.human)
-    planned = serendipity.plan(task, mode=mode, discount=discount)
-    data = planned.to_dict()
-    started, worked = perf_counter(), processor()
-    task = serendipity.load(folder, human=arguments.human)
-    loaded = perf_counter()
-    certificate = certify(
-        task,
-        Result.from_dict(data),
-        encoding=arguments.encoding,
-        solver=arguments.solver,
-        method=arguments.method,
-        time_limit=arguments.time_limit,
+def main(
+    folder: Annotated[Path | None, typer.Argument()] = None,
+    human: str | None = None,
+    buildings: str = "",
+    seeds: int = 5,
+    suite: Path | None = None,
+    domains: str = "",
+    stride: int = 1,
+    limit: int | None = None,
+    modes: str = "serendipity,communication",
+    discounts: str = "0,0.5,0.9",
+    plan_limit: float | None = None,
+    time_limit: float | None = None,
+    encoding: str = "automata",
+    solver: str = "highs",
+    method: str = "auto",
+    proofs: bool = False,
+    separate: Annotated[bool, typer.Option("--apart")] = False,
+    only: str = "",
+    record: Path | None = None,
+) -> None:
+    """Plan, verify, print a table."""
+    sources = (
+        [(place.parent.name, (str(place), human)) for place in folders(folder, stride, limit)]
+        if folder
+        else []
     )
-    seconds, spent = perf_counter() - started, processor() - worked
+    sources += _buildings(buildings, seeds)
+    sources += _problems(suite, domains, stride) if suite else []
+    how = {"encoding": encoding, "solver": solver, "method": method, "time_limit": time_limit}
+    asked = [
+        Asked(group, source, mode, discount, plan_limit)
+        for (group, source), mode, discount in product(sources, modes.split(","), discounts.split(","))
+    ]
+    rows, kept = [], Record(record)
+    for each in (each for each in asked if only in repr(each)):
+        answer = _once(kept, each, planned, separate)
+        if answer["status"] in ("optimal", "infeasible"):
+            job = Job(each, tuple(how.items()), proofs)
+            row = _once(kept, job, partial(verified, answer=answer), separate)
+            rows.append({"group": each.group, "mode": each.mode, "discount": each.discount, **row})
+            if not proofs and row["verdict"] != "proved":
+                print(
+                    f"{each.source} {each.mode} {each.discount}: {row['verdict']}: {row['reason']}",
+                    flush=True,
+                )
+    print(as_markdown(_proofs(rows) if proofs else [_certificates(rows)]), end="")
+
+
+def _once(record: Record, job: Any, work: Callable[[Any], Any], separate: bool) -> Any:
+    """What a job comes to, in a process of its own where that is asked for."""
+    ((_, found),) = measured([job], partial(apart, work) if separate else work, record)
+    return found
+
+
+def _buildings(names: str, seeds: int) -> Iterator[tuple[str, tuple[Any, ...]]]:
+    for name in filter(None, names.split(",")):
+        size = (*map(int, name.split("x")), 1)[:3]
+        yield from ((name, (*size, seed)) for seed in range(1, seeds + 1))
+
+
+def _problems(suite: Path, domains: str, stride: int) -> Iterator[tuple[str, tuple[Any, ...]]]:
+    for problem in problems(suite, [name for name in domains.split(",") if name], stride):
+        who = apart(_roles, problem)
+        yield problem.domain, (str(problem.domain_file), str(problem.problem_file), who.human, *who.robots)
+
+
+def _roles(problem: Problem) -> Roles:
+    return roles(problem, 2, may_alone)
+
+
+def planned(asked: Asked) -> dict[str, Any]:
+    """An answer, as JSON has it."""
+    options = {**MODES[asked.mode], "discount": asked.discount, "time_limit": asked.limit}
+    try:
+        return serendipity.plan(asked.load(), **options).to_dict()
+    except SerendipityError as error:
+        return {"status": f"refused: {error}"}
+
+
+def verified(job: Job, answer: dict[str, Any]) -> dict[str, Any]:
+    """What comes of a certificate."""
+    result, how = Result.from_dict(answer), dict(job.how)
+    if job.proofs:
+        return _proof(job.asked.load, result, how["time_limit"])
+
+    def work() -> tuple[Any, float]:
+        task = job.asked.load()
+        started = perf_counter()
+        return certify(task, result, **how), perf_counter() - started
+
+    (certificate, clock), seconds = timed(work)
+    unproved = [claim for claim in certificate.claims if claim.verdict != "proved"]
     return {
-        "test": folder.name,
-        "mode": mode,
-        "discount": discount,
-        "encoding": arguments.encoding,
-        "solver": arguments.solver,
-        "method": arguments.method,
         "verdict": certificate.verdict,
-        "processor": f"{spent:.4f}",
-        "seconds": f"{seconds:.4f}",
-        "load": f"{loaded - started:.4f}",
-        "variables": str(certificate.size.get("variables", 0)),
-        "constraints": str(certificate.size.get("constraints", 0)),
-        "calls": str(certificate.solver_calls),
+        "reason": f"{unproved[0].claim}: {unproved[0].reason}" if unproved else "",
+        "seconds": seconds,
+        "clock": clock,
+        "memory": peak_memory(),
+        "calls": certificate.solver_calls,
+        "columns": certificate.size.get("variables", 0),
+        "rows": certificate.size.get("constraints", 0),
     }
 
 
-def processor() -> float:
-    """Seconds of processor time so far, those of finished children (CBC is one) included."""
-    times = os.times()
-    return process_time() + times.children_user + times.children_system
+def _proof(load: Callable[[], Task], result: Result, limit: float | None) -> dict[str, Any]:
+    with TemporaryDirectory() as scratch:
+        file = Path(scratch, "proof.json.gz")
+        _, write = timed(lambda: serendipity.verify(load(), result, proof=file, time_limit=limit))
+        if not file.exists():
+            return {}
+        programs, check = timed(lambda: checker.check(checker.read(file)))
+        found, compare = timed(lambda: serendipity.check_proof(file, load(), result))
+        figures = (write, file.stat().st_size / 1024, check, compare)
+    columns, rows = (max(getattr(each, name) for each in programs) for name in ("columns", "rows"))
+    sizes = (columns, rows, sum(each.leaves for each in programs))
+    return {"accepted": found.verdict == "accepted", **dict(zip(FIGURES, (*figures, *sizes), strict=True))}
 
 
-def _read(path: Path | None) -> dict[tuple[str, ...], dict[str, str]]:
-    if path is None or not path.exists():
-        return {}
-    with path.open(newline="") as file:
-        rows = list(csv.DictReader(file))
-    return {tuple(row[name] for name in KEY): row for row in rows}
+def _certificates(rows: Sequence[Row]) -> Any:
+    def verdicts(of: Sequence[Row], verdict: str) -> int:
+        return sum(row["verdict"] == verdict for row in of)
 
+    def middle(of: Sequence[Row], name: str) -> str:
+        return f"{median(row[name] for row in of):.0f}"
 
-def append(path: Path | None, row: dict[str, str], fields: Sequence[str] = FIELDS) -> None:
-    """One more row of a CSV file, which begins with the names of its fields."""
-    if path is None:
-        return
-    new = not path.exists()
-    with path.open("a", newline="") as file:
-        writer = csv.DictWriter(file, fields)
-        if new:
-            writer.writeheader()
-        writer.writerow(row)
-
-
-def _table(rows: list[dict[str, str]]) -> None:
-    print(
-        f"{'mode':<14}{'discount':>9}{'n':>5}{'proved':>8}{'undecided':>10}{'median':>9}{'95 %':>9}{'max':>9}"
-        f"{'calls':>7}{'columns':>9}{'rows':>7}"
+    groups = grouped(rows, lambda row: (row["group"], row["mode"], row["discount"]))
+    groups |= {("all", mode, ""): of for mode, of in grouped(rows, lambda row: row["mode"]).items()}
+    return table(
+        ("group", "mode", "discount"),
+        groups | {("all", "", ""): [*rows]},
+        {
+            "certificates": len,
+            **{name: partial(verdicts, verdict=name) for name in ("proved", "undecided", "refuted")},
+            "seconds: median": lambda of: f"{median(row['seconds'] for row in of):.3f}",
+            "95 %": lambda of: f"{percentile([row['seconds'] for row in of], 0.95):.3f}",
+            "longest": lambda of: f"{max(row['seconds'] for row in of):.3f}",
+            "by the clock: median": lambda of: f"{median(row['clock'] for row in of):.3f}",
+            "most": lambda of: f"{max(row['clock'] for row in of):.3f}",
+            "MiB": lambda of: f"{max(row['memory'] for row in of):.0f}",
+            "calls": lambda of: sum(row["calls"] for row in of),
+            **{name: partial(middle, name=name) for name in ("columns", "rows")},
+        },
     )
-    for line in _lines(rows):
-        print(line)
 
 
-def _lines(rows: list[dict[str, str]]) -> Iterator[str]:
-    for mode in MODES:
-        for discount in (*DISCOUNTS, "all"):
-            chosen = [row for row in rows if row["mode"] == mode and discount in (row["discount"], "all")]
-            if not chosen or (discount == "all" and len({row["discount"] for row in chosen}) < 2):
-                continue
-            times = sorted(float(row["processor"]) for row in chosen)
-            verdicts = [row["verdict"] for row in chosen]
-            worst = times[max(0, -(-len(times) * 95 // 100) - 1)]
-            yield (
-                f"{mode:<14}{discount:>9}{len(times):>5}{verdicts.count('proved'):>8}"
-                f"{verdicts.count('undecided'):>10}{median(times):>8.3f}s{worst:>8.3f}s{times[-1]:>8.3f}s"
-                f"{sum(int(row['calls']) for row in chosen):>7}"
-                f"{median(int(row['variables']) for row in chosen):>9.0f}"
-                f"{median(int(row['constraints']) for row in chosen):>7.0f}"
-            )
+def _proofs(rows: Sequence[Row]) -> list[Any]:
+    parts: list[Any] = []
+    for mode, of in [*grouped(rows, lambda row: row["mode"]).items(), ("all", rows)]:
+        files = [row for row in of if "accepted" in row]
+        accepted = sum(row["accepted"] for row in files)
+        figures = {name: lambda row, name=name: float(row[name]) for name in FIGURES}
+        parts.append(Line(f"{mode}: {len(of)} certificates, {len(files)} files, {accepted} accepted"))
+        parts.append(spreads(files, figures))
+    return parts
 
 
 if __name__ == "__main__":
-    main()
+    main.__doc__ = __doc__
+    typer.run(main)

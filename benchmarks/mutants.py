@@ -8,8 +8,6 @@ time (so a busy machine is no overrun).  Each such mutant is named by its number
 written down.  What takes longer than twenty seconds is given up, and counted as hanging.
 """
 
-import argparse
-import resource
 import signal
 import sys
 import tempfile
@@ -20,8 +18,11 @@ from pathlib import Path
 from random import Random
 from typing import NoReturn, TypeVar
 
+import typer
+
 import serendipity
 from serendipity import SerendipityError
+from serendipity.evaluation.measuring.figures import peak_memory
 from tests.pddl.mutants import Mutant, mutant
 
 T = TypeVar("T")
@@ -110,28 +111,23 @@ class Trial:
 
     def summary(self) -> str:
         """The counts, and the peak of memory."""
-        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
         counts = ", ".join(f"{what} {count}" for what, count in sorted(self.counts.items()))
-        return f"{counts}; peak {peak} MiB"
+        return f"{counts}; peak {peak_memory():.0f} MiB"
 
 
-def main() -> None:
+def main(count: int = 2_000, start: int = 0, keep: Path | None = None) -> None:
     """Print what has happened, and exit with 1 if something did that must not."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--count", type=int, default=2_000)
-    parser.add_argument("--start", type=int, default=0, help="number of the first mutant")
-    parser.add_argument("--keep", type=Path, help="where mutants are written that show something wrong")
-    options = parser.parse_args()
     signal.signal(signal.SIGALRM, give_up)
-    trial = Trial(options.keep)
+    trial = Trial(keep)
     started = time.perf_counter()
-    for number in range(options.start, options.start + options.count):
+    for number in range(start, start + count):
         trial.run(number)
         if number % 1_000 == 999:
             print(f"{number + 1}: {trial.summary()}", flush=True)
-    print(f"{options.count} mutants in {time.perf_counter() - started:.0f} s: {trial.summary()}")
+    print(f"{count} mutants in {time.perf_counter() - started:.0f} s: {trial.summary()}")
     sys.exit(bool(trial.wrong))
 
 
 if __name__ == "__main__":
-    main()
+    main.__doc__ = __doc__
+    typer.run(main)

@@ -4,14 +4,17 @@
 
 Prints two Markdown tables.  The first refutes results that were doctored, each with the claim
 (and the rule) that falls; the second plants bugs in the planner, one at a time, and certifies its
-answers to a corpus of calls until one is refuted.  ``--quick`` leaves the second one out.
+answers to a corpus of N calls until one is refuted.  ``--quick`` leaves the second one out.
 """
 
-import argparse
+import sys
 from collections import Counter
-from time import perf_counter
 
+import typer
+
+from serendipity.evaluation.measuring.tables import as_markdown
 from serendipity.model import InputError
+from serendipity.model.telling import Grid, Line
 from tests.verify.doctored import DOCTORED, Doctored
 from tests.verify.planted import PLANTED
 from tests.verify.planted.judge import fate
@@ -19,27 +22,22 @@ from verify.certificate.certify import certify
 from verify.rules import check
 
 
-def main() -> None:
+def main(count: int = 1000, quick: bool = False) -> None:
     """Print both tables."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--count", type=int, default=1000, help="random calls in the corpus")
-    parser.add_argument("--quick", action="store_true", help="doctored results only")
-    arguments = parser.parse_args()
-    _doctored()
-    if not arguments.quick:
-        print()
-        _planted(arguments.count)
+    print(as_markdown(_doctored()), flush=True)
+    if not quick:
+        print(as_markdown(_planted(count)), end="")
 
 
-def _doctored() -> None:
-    started = perf_counter()
+def _doctored() -> list[Line | Grid]:
     rows = [(name, *_refutation(doctored)) for name, doctored in DOCTORED.items()]
-    right = sum(row[3] for row in rows)
-    print(f"{len(rows)} doctored results, {right} refuted for the right reason.\n")
-    print("| doctored | refuted as | because |\n|---|---|---|")
-    for name, claim, reason, fine in rows:
-        print(f"| {name} | {claim}{'' if fine else ' (expected another)'} | {_cell(reason)} |")
-    _note(f"{perf_counter() - started:.1f} s")
+    right = sum(fine for *_, fine in rows)
+    shown = [
+        (name, f"{claim}{'' if fine else ' (expected another)'}", _cell(reason))
+        for name, claim, reason, fine in rows
+    ]
+    told = Line(f"{len(rows)} doctored results, {right} refuted for the right reason.")
+    return [told, Grid(("doctored", "refuted as", "because"), shown)]
 
 
 def _refutation(doctored: Doctored) -> tuple[str, str, bool]:
@@ -57,28 +55,25 @@ def _refutation(doctored: Doctored) -> tuple[str, str, bool]:
     return claim, refuted.reason, refuted.claim == doctored.claim and (named or doctored.rule is None)
 
 
-def _planted(count: int) -> None:
-    started = perf_counter()
+def _planted(count: int) -> list[Line | Grid]:
     clean = fate(None, count)
-    print(f"Without a bug: {clean.calls} calls, {clean.how}.\n")
-    print("| role | bug | fate | calls | certificate, error, or why it survives |\n|---|---|---|---|---|")
-    fates: Counter[str] = Counter()
+    rows = []
     for bug in PLANTED:
         seen = fate(bug, count)
-        fates[seen.how] += 1
         reason = seen.reason or bug.survives or "not explained"
-        print(f"| {bug.role} | {bug.what} | {seen.how} | {seen.calls} | {_cell(reason)} |", flush=True)
-    words = ", ".join(f"{how} {number}" for how, number in fates.most_common())
-    _note(f"{len(PLANTED)} bugs: {words}; {perf_counter() - started:.0f} s")
+        rows.append((bug.role, bug.what, seen.how, str(seen.calls), _cell(reason)))
+        print(f"{bug.what}: {seen.how}", file=sys.stderr, flush=True)
+    fates = ", ".join(f"{how} {number}" for how, number in Counter(row[2] for row in rows).most_common())
+    return [
+        Line(f"Without a bug: {clean.calls} calls, {clean.how}. {len(PLANTED)} bugs: {fates}."),
+        Grid(("role", "bug", "fate", "calls", "certificate, error, or why it survives"), rows),
+    ]
 
 
 def _cell(text: str) -> str:
     return text.replace("|", "\\|")
 
 
-def _note(text: str) -> None:
-    print(f"\n({text})")
-
-
 if __name__ == "__main__":
-    main()
+    main.__doc__ = __doc__
+    typer.run(main)

@@ -11,21 +11,23 @@ dice where robots do nothing); whether its log replays; and whether each reason 
 (see ``tests.execution.reasons``).  Prints a table in Markdown, and what is wrong.
 """
 
-import argparse
 import json
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from itertools import product
 from pathlib import Path
 from typing import Any
 
+import typer
+
 import serendipity
-from benchmarks.execution import DISCOUNT, buildings, on_processor_time, smallest, task_of
-from benchmarks.record import Record
+from benchmarks.execution import DISCOUNT, Source, buildings, on_processor_time, smallest, task_of
 from serendipity import Task
-from serendipity.evaluation.benchmark.coverage.suite import Problem, Roles
+from serendipity.evaluation.measuring.record import Record
+from serendipity.evaluation.measuring.running import measured
+from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
 from serendipity.execution import LogLine, replay
 from serendipity.model import Condition
 from tests.execution.reasons import untrue
@@ -43,7 +45,7 @@ class Job:
     """A run: which task, who the person is, what goes wrong, and the seed of its dice."""
 
     domain: str
-    source: Path | tuple[Problem, Roles, int]
+    source: Source
     human: str
     faults: str | None
     seed: int
@@ -54,11 +56,6 @@ class Job:
         """The line of the table that it counts for."""
         return self.domain, self.human, "yes" if self.faults else "no"
 
-    @property
-    def key(self) -> str:
-        """What it is found by in a record."""
-        return f"{'/'.join(self.line)} {self.seed} in {self.deadline:g} s"
-
 
 def jobs(runs: int, deadline: float) -> Iterator[Job]:
     """As many runs as are wanted, the same number on each line; the lines come again and again."""
@@ -67,7 +64,7 @@ def jobs(runs: int, deadline: float) -> Iterator[Job]:
     cells = len(DOMAINS) * len(PEOPLE) * len(FAULTS)
     for seed in range(-(-runs // cells)):
         for domain, human, faults in product(DOMAINS, PEOPLE, FAULTS):
-            source: Path | tuple[Problem, Roles, int]
+            source: Source
             if domain == "buildings":
                 if not folders:
                     continue
@@ -80,7 +77,7 @@ def jobs(runs: int, deadline: float) -> Iterator[Job]:
 
 
 @lru_cache(maxsize=2)
-def _task(source: Path | tuple[Problem, Roles, int]) -> Task:
+def _task(source: Source) -> Task:
     return task_of(source)
 
 
@@ -130,69 +127,76 @@ def _out_of_reach(task: Task, log: tuple[dict[str, Any], ...], state: frozenset[
     return serendipity.plan(left, mode="composite", horizon="inf", time_limit=60).status == "infeasible"
 
 
-HEAD = ("domain", "person", "faults", "runs", "arrived", "nobody could", "missed", "less than alone", "more")
-MORE = ("saved", "helped", "stopped", "late epochs", "epochs", "logs replay", "reasons untrue")
+Found = dict[str, Any]
+"""What came of a run."""
 
 
-def cells(found: list[dict[str, Any]]) -> list[object]:
-    """What the runs of a line come to."""
-    arrived = [one for one in found if one["arrived"]]
-    missed = sum(not one["arrived"] and not one["out of reach"] for one in found)
-    return [
-        len(found),
-        len(arrived),
-        sum(one["out of reach"] for one in found),
-        missed,
-        sum(one["paid"] < one["least"] - 1e-9 for one in arrived),
-        sum(one["paid"] > one["least"] + 1e-9 for one in arrived),
-        f"{sum(one['least'] - one['cost'] for one in arrived):.1f}",
-        sum(one["helped"] for one in found),
-        sum(one["stopped"] for one in found),
-        sum(one["late"] for one in found),
-        sum(one["epochs"] for one in found),
-        sum(one["replays"] for one in found),
-        sum(len(one["untrue"]) for one in found),
-    ]
+def _count(holds: Callable[[Found], bool]) -> Callable[[Sequence[Found]], int]:
+    """How many runs are so."""
+    return lambda of: sum(map(holds, of))
 
 
-def main() -> None:
+def _total(name: str) -> Callable[[Sequence[Found]], int]:
+    """A figure over all runs."""
+    return lambda of: sum(one[name] for one in of)
+
+
+def _beyond(one: Found) -> float:
+    """What somebody who got there paid more than alone."""
+    return one["paid"] - one["least"] if one["arrived"] else 0.0
+
+
+COLUMNS: dict[str, Callable[[Sequence[Found]], object]] = {
+    "runs": len,
+    "arrived": _total("arrived"),
+    "nobody could": _total("out of reach"),
+    "missed": _count(lambda one: not one["arrived"] and not one["out of reach"]),
+    "less than alone": _count(lambda one: _beyond(one) < -1e-9),
+    "more": _count(lambda one: _beyond(one) > 1e-9),
+    "saved": lambda of: f"{sum(one['least'] - one['cost'] for one in of if one['arrived']):.1f}",
+    "helped": _total("helped"),
+    "stopped": _total("stopped"),
+    "late epochs": _total("late"),
+    "epochs": _total("epochs"),
+    "logs replay": _total("replays"),
+    "reasons untrue": lambda of: sum(len(one["untrue"]) for one in of),
+}
+
+
+def main(
+    runs: int = 2000,
+    deadline: float = 0.1,
+    seconds: float | None = None,
+    processor_time: bool = False,
+    record: Path | None = None,
+    only_print: bool = False,
+) -> None:
     """Run, and print the table."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--runs", type=int, default=2000, help="at least so many, the same number a line")
-    parser.add_argument("--deadline", type=float, default=0.1, help="seconds for each decision")
-    parser.add_argument("--seconds", type=float, help="begin no run after so many")
-    parser.add_argument("--record", type=Path, help="a file of what is done, which is not done again")
-    parser.add_argument("--only-print", action="store_true", help="what is in the record")
-    parser.add_argument(
-        "--processor-time",
-        action="store_true",
-        help="deadlines are of processor time, which other programs do not take part of",
-    )
-    asked = parser.parse_args()
-    if asked.processor_time:
+    if processor_time:
         on_processor_time()
-    record, started = Record(asked.record), time.perf_counter()
-    lines: dict[tuple[str, ...], list[dict[str, Any]]] = {}
-    for job in jobs(asked.runs, asked.deadline):
-        if job.key not in record and not asked.only_print:
-            if asked.seconds is not None and time.perf_counter() - started > asked.seconds:
-                break
-            record.add(job.key, done(job))
-        found = record.get(job.key)
+    started, rows = time.perf_counter(), []
+    for job, found in measured(jobs(runs, deadline), done, Record(record), begin=not only_print):
         if found is not None:
-            lines.setdefault(job.line, []).append(found)
-            for complaint in found["untrue"]:
-                print(f"{job.key}: {complaint}", flush=True)
-            if not (found["replays"] and (found["arrived"] or found["out of reach"])):
-                print(f"{job.key}: {found}", flush=True)
-            if found["arrived"] and found["paid"] > found["least"] + 1e-9:
-                print(f"{job.key}: paid {found['paid']} instead of {found['least']}", flush=True)
-    print(f"\n| {' | '.join((*HEAD, *MORE))} |\n|{'---|' * len((*HEAD, *MORE))}")
-    for line, runs in sorted(lines.items(), key=lambda pair: DOMAINS.index(pair[0][0])):
-        print(f"| {' | '.join(map(str, (*line, *cells(runs))))} |")
-    everything = [run for runs in lines.values() for run in runs]
-    print(f"| all | | | {' | '.join(map(str, cells(everything)))} |")
+            rows.append((job.line, found))
+            for complaint in _complaints(found):
+                print(f"{' '.join(job.line)} {job.seed}: {complaint}", flush=True)
+        if seconds is not None and time.perf_counter() - started > seconds:
+            break
+    rows.sort(key=lambda pair: DOMAINS.index(pair[0][0]))
+    lines = {line: [found for _, found in of] for line, of in grouped(rows, lambda pair: pair[0]).items()}
+    lines["all", "", ""] = [found for _, found in rows]
+    print(as_markdown([table(("domain", "person", "faults"), lines, COLUMNS)]), end="")
+
+
+def _complaints(found: Found) -> Iterator[str]:
+    """What is wrong about a run."""
+    yield from found["untrue"]
+    if not (found["replays"] and (found["arrived"] or found["out of reach"])):
+        yield str(found)
+    if _beyond(found) > 1e-9:
+        yield f"paid {found['paid']} instead of {found['least']}"
 
 
 if __name__ == "__main__":
-    main()
+    main.__doc__ = __doc__
+    typer.run(main)

@@ -1,21 +1,23 @@
 """The house in figures: rooms, the arrows between them, circles, sizes, names that mean several things.
 
-    python -m benchmarks.rooms [FOLDER]
+    python -m benchmarks.rooms
 
 A *room* is a folder of modules, or a module by itself where folders stand beside it; an *arrow* is an
 import, for types included, of one room by another of the same package.  A *circle* is a set of rooms
 that reach each other by arrows.
 """
 
-import argparse
 import ast
 import re
 from collections import Counter
-from collections.abc import Iterator
 from pathlib import Path
 from statistics import median, quantiles
 
+import grimp
 import networkx as nx
+
+from serendipity.evaluation.measuring.tables import as_markdown
+from serendipity.model.telling import Grid, Line
 
 PACKAGES = ("search", "verify", "serendipity")
 
@@ -31,85 +33,66 @@ PATTERNS = {
 
 def main() -> None:
     """Print one table for all packages."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("folder", type=Path, nargs="?", default=Path())
-    folder = parser.parse_args().folder
-    classes: Counter[str] = Counter()
-    print(f"{'':14}" + "".join(f"{package:>14}" for package in PACKAGES))
-    columns = []
-    for package in PACKAGES:
-        modules = dict(_modules(folder, package))
-        trees = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in modules.items()}
-        classes.update(
-            node.name for tree in trees.values() for node in tree.body if isinstance(node, ast.ClassDef)
-        )
-        columns.append(dict([*_rooms(package, modules, trees), *_sizes(modules, trees)]))
-    for row in columns[0]:
-        print(f"{row:14}" + "".join(f"{column[row]:>14}" for column in columns))
-    repeated = sorted(name for name, count in classes.items() if count > 1 and not name.startswith("_"))
-    print(f"\nclass names that are there more than once: {len(repeated)}: {', '.join(repeated)}")
-    texts = [path for package in PACKAGES for path in dict(_modules(folder, package)).values()]
+    graph = grimp.build_graph(*PACKAGES)
+    files = {package: sorted(Path(package).rglob("*.py")) for package in PACKAGES}
+    texts = {path: path.read_text(encoding="utf-8") for of in files.values() for path in of}
+    trees = {path: ast.parse(text) for path, text in texts.items()}
+    columns = [
+        _rooms(package, graph) | _sizes([trees[path] for path in files[package]]) for package in PACKAGES
+    ]
+    columns = [
+        column
+        | {"most files": max(Counter(path.parent for path in files[package]).values())}
+        | {"median module": int(median(lines)), "longest": max(lines), "lines": sum(lines)}
+        for package, column in zip(PACKAGES, columns, strict=True)
+        if (lines := [texts[path].count("\n") for path in files[package]])
+    ]
+    grid = Grid(["", *PACKAGES], [[name, *(str(column[name]) for column in columns)] for name in columns[0]])
+    names = Counter(
+        node.name for tree in trees.values() for node in tree.body if isinstance(node, ast.ClassDef)
+    )
+    repeated = sorted(name for name, count in names.items() if count > 1 and not name.startswith("_"))
+    told = [Line(f"Class names that are there more than once: {len(repeated)}: {', '.join(repeated)}")]
     for name, pattern in PATTERNS.items():
-        within = [path for path in texts if "outside" not in name or "model" not in path.parts]
-        found = sum(len(re.findall(pattern, path.read_text(encoding="utf-8"))) for path in within)
-        print(f"{name}: {found}")
+        within = (path for path in texts if "outside" not in name or "model" not in path.parts)
+        told.append(Line(f"{name}: {sum(len(re.findall(pattern, texts[path])) for path in within)}"))
+    print(as_markdown([grid, *told]), end="")
 
 
-def _modules(folder: Path, package: str) -> Iterator[tuple[str, Path]]:
-    """Modules by dotted name."""
-    for path in sorted((folder / package).rglob("*.py")):
-        parts = path.relative_to(folder).with_suffix("").parts
-        yield ".".join(parts[:-1] if parts[-1] == "__init__" else parts), path
+def _rooms(package: str, graph: grimp.ImportGraph) -> dict[str, int]:
+    arrows = nx.DiGraph()
+    modules = {module for module in graph.modules if module.startswith(f"{package}.")}
+    rooms = {module: _room(package, module, graph) for module in modules}
+    arrows.add_nodes_from({*rooms.values()} - {package})
+    for module in modules:
+        found = {
+            rooms[other] for other in graph.find_modules_directly_imported_by(module) if other in modules
+        }
+        arrows.add_edges_from((rooms[module], other) for other in found - {rooms[module], package})
+    circles = [each for each in nx.strongly_connected_components(arrows) if len(each) > 1]
+    return {
+        "modules": len(modules) + 1,
+        "rooms": len(arrows),
+        "arrows": arrows.number_of_edges(),
+        "circles": len(circles),
+    }
 
 
-def _rooms(package: str, modules: dict[str, Path], trees: dict[str, ast.Module]) -> Iterator[tuple[str, str]]:
-    rooms = {name: _room(package, name, path) for name, path in modules.items()}
-    graph = nx.DiGraph()
-    graph.add_nodes_from(set(rooms.values()) - {package})
-    for name, tree in trees.items():
-        for imported in _imports(tree, modules):
-            arrow = rooms[name], rooms[imported]
-            if arrow[0] != arrow[1] and package not in arrow:
-                graph.add_edge(*arrow)
-    circles = [sorted(each) for each in nx.strongly_connected_components(graph) if len(each) > 1]
-    folders = Counter(path.parent for path in modules.values())
-    yield "rooms", str(len(graph))
-    yield "arrows", str(graph.number_of_edges())
-    yield "circles", str(len(circles))
-    yield "most files", str(max(folders.values()))
-
-
-def _room(package: str, name: str, path: Path) -> str:
+def _room(package: str, module: str, graph: grimp.ImportGraph) -> str:
     """The folder of a module; the module itself where it stands beside folders."""
-    parent = name if path.name == "__init__.py" else name.rpartition(".")[0]
-    return name if parent == package or any(path.parent.glob("*/__init__.py")) else parent
+    parent = module if graph.find_children(module) else module.rpartition(".")[0]
+    beside = any(graph.find_children(child) for child in graph.find_children(parent))
+    return module if parent == package or beside else parent
 
 
-def _imports(tree: ast.Module, modules: dict[str, Path]) -> Iterator[str]:
-    for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and node.module:
-            for alias in node.names:
-                full = f"{node.module}.{alias.name}"
-                found = full if full in modules else node.module
-                if found in modules:
-                    yield found
-        elif isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names if alias.name in modules)
-
-
-def _sizes(modules: dict[str, Path], trees: dict[str, ast.Module]) -> Iterator[tuple[str, str]]:
-    lines = [len(path.read_text(encoding="utf-8").splitlines()) for path in modules.values()]
+def _sizes(trees: list[ast.Module]) -> dict[str, int]:
     functions = [
         (node.end_lineno or node.lineno) - node.lineno + 1
-        for tree in trees.values()
+        for tree in trees
         for node in ast.walk(tree)
         if isinstance(node, ast.FunctionDef)
     ]
-    yield "modules", str(len(lines))
-    yield "lines", str(sum(lines))
-    yield "median module", f"{median(lines):.0f}"
-    yield "longest", str(max(lines))
-    yield "function p95", f"{quantiles(functions, n=20)[-1]:.0f}"
+    return {"function p95": round(quantiles(functions, n=20)[-1])}
 
 
 if __name__ == "__main__":

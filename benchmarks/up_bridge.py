@@ -1,6 +1,6 @@
 """What the bridge to unified-planning comes to: the library's own report, and tasks there and back.
 
-    python -m benchmarks.up_bridge report CHECKOUT [--packages P ...] [--timeout S]
+    python -m benchmarks.up_bridge report CHECKOUT [--packages "P ..."] [--timeout S]
     python -m benchmarks.up_bridge random [--count N]
     python -m benchmarks.up_bridge suite [FOLDER] [--time-limit S] [--stride N]
     python -m benchmarks.up_bridge files CHECKOUT
@@ -12,7 +12,6 @@ problems of the library and read again, ``suite`` also the tasks themselves; ``f
 its teams with those of the MA-PDDL that its writer makes of them, factored and unfactored.
 """
 
-import argparse
 import importlib
 import re
 import subprocess
@@ -22,13 +21,15 @@ import warnings
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+import typer
 
 import serendipity
 from benchmarks.problems import PROBLEMS
 from serendipity import Result, SerendipityError, Task
-from serendipity.evaluation.benchmark.coverage.suite import problems
 from serendipity.evaluation.crosscheck import random_call
+from serendipity.evaluation.measuring.suites import problems
 from serendipity.pddl import read_pddl
 from serendipity.pddl.write import write_pddl
 from serendipity.up import from_problem, to_plan, to_problem
@@ -50,31 +51,26 @@ _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _TIMES = re.compile(r"\b[0-9.]+s\b( \([0-9.]+s\))?")
 
 
-def main() -> None:
-    """Print what was asked for."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("what", choices=("report", "random", "suite", "files"))
-    parser.add_argument("folder", nargs="?", type=Path, help="see above")
-    parser.add_argument("--packages", nargs="+", default=[], help="of test cases; default: all")
-    parser.add_argument("--timeout", type=float, default=10.0, help="seconds for each case of the report")
-    parser.add_argument("--count", type=int, default=200, help="random tasks")
-    parser.add_argument(
-        "--time-limit",
-        type=float,
-        default=3.0,
-        help="seconds for each call of a suite; 0: compare tasks only",
-    )
-    parser.add_argument("--stride", type=int, default=1, help="every n-th problem of a domain")
-    arguments = parser.parse_args()
-    if arguments.what == "report":
-        report(arguments.folder, arguments.packages, arguments.timeout)
-    elif arguments.what == "random":
-        told(random(arguments.count))
-    elif arguments.what == "suite":
-        folder = arguments.folder or PROBLEMS / "codmap15"
-        told(suite(folder, arguments.time_limit, arguments.stride))
+def main(
+    what: str,
+    folder: Annotated[Path | None, typer.Argument()] = None,
+    packages: str = "",
+    timeout: float = 10,
+    count: int = 200,
+    time_limit: float = 3,
+    stride: int = 1,
+) -> None:
+    """Print what was asked for; a time limit of 0 compares tasks only."""
+    if what == "random":
+        told(random(count))
+    elif what == "suite":
+        told(suite(folder or PROBLEMS / "codmap15", time_limit, stride))
+    elif folder is not None and what == "report":
+        report(folder, packages.split(), timeout)
+    elif folder is not None and what == "files":
+        told(files(folder))
     else:
-        told(files(arguments.folder))
+        raise typer.BadParameter("expected random, suite, report CHECKOUT or files CHECKOUT")
 
 
 def report(checkout: Path, packages: list[str], timeout: float) -> None:
@@ -226,4 +222,5 @@ def written(folder: Path, human: str) -> Task:
 
 
 if __name__ == "__main__":
-    main()
+    main.__doc__ = __doc__
+    typer.run(main)

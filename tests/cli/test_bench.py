@@ -9,12 +9,13 @@ from pathlib import Path
 import pytest
 
 from serendipity.cli.app import main
-from serendipity.evaluation.benchmark import AXES, CONTENDERS
-from serendipity.evaluation.benchmark.coverage import CONTENDERS as SUITE_CONTENDERS
-from serendipity.evaluation.benchmark.coverage import Call, Outcome, Row, as_table
-from serendipity.evaluation.benchmark.coverage import Contender as SuiteContender
-from serendipity.evaluation.benchmark.fast_downward import installed
-from serendipity.evaluation.benchmark.scaling import Axis, Size
+from serendipity.evaluation.benchmark import fast_downward
+from serendipity.evaluation.benchmark.contenders import Contender, Outcome
+from serendipity.evaluation.benchmark.coverage.rows import CONTENDERS as SUITE_CONTENDERS
+from serendipity.evaluation.benchmark.coverage.rows import Call, Row
+from serendipity.evaluation.benchmark.coverage.table import as_table
+from serendipity.evaluation.benchmark.measure import CONTENDERS
+from serendipity.evaluation.benchmark.scaling import AXES, Axis, Size
 from serendipity.scenarios.examples import DATA
 from serendipity.writing.rows import written
 
@@ -48,9 +49,9 @@ def test_an_absent_contender_is_left_out_with_one_line(
 
 
 def test_absence_is_noticed_without_an_import(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(installed, "_has_translator", lambda: False)
-    monkeypatch.setattr(installed, "binary", lambda: None)
-    reason = installed.absent()
+    monkeypatch.setattr(fast_downward, "_has_translator", lambda: False)
+    monkeypatch.setattr(fast_downward, "binary", lambda: None)
+    reason = fast_downward.absent()
     assert reason is not None
     assert "no fast-downward.translate and no up-fast-downward" in reason
 
@@ -152,7 +153,7 @@ def test_an_interrupted_suite_leaves_what_was_measured(
             signal.raise_signal(signal.SIGINT)
         return Outcome(status, 1.0)
 
-    monkeypatch.setitem(SUITE_CONTENDERS, "search", SuiteContender(answer))
+    monkeypatch.setitem(SUITE_CONTENDERS, "search", Contender(answer))
     shutil.copytree(DATA / "flights", tmp_path / "suite" / "flights")
     rows = tmp_path / "rows.csv"
     assert main(["bench", str(tmp_path / "suite"), "--contenders", "search", "-o", str(rows)]) == 130

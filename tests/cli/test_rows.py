@@ -8,8 +8,10 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.evaluation import benchmark
-from serendipity.evaluation.benchmark import coverage
+from serendipity.evaluation.benchmark import measure, scaling
+from serendipity.evaluation.benchmark.contenders import Outcome
+from serendipity.evaluation.benchmark.coverage.rows import Row
+from serendipity.evaluation.benchmark.coverage.table import as_table, read_rows
 from serendipity.model.table import Table, table_of
 from serendipity.writing.rows import FORMATS
 from serendipity.writing.rows import written as written_as
@@ -76,9 +78,9 @@ def test_reproduce(run: Runs) -> None:
 def test_bench(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
     command = "bench --rooms 8 --seeds 1 --modes communication --discounts 0.9 --repeat 1 --contenders search"
     room2 = serendipity.example("room2")
-    timings = list(benchmark.measure([room2], ["communication"], ["0.9"], ["search"], repeat=1))
-    monkeypatch.setattr(benchmark, "measure", lambda *_, **__: iter(timings))
-    table = table_of(benchmark.Timing, timings)
+    timings = list(measure.measure([room2], ["communication"], ["0.9"], ["search"], repeat=1))
+    monkeypatch.setattr(measure, "measure", lambda *_, **__: iter(timings))
+    table = table_of(measure.Timing, timings)
     assert [row[1:4] for row in table.rows] == [("communication", "0.9", "search")]
     for rows in saved(run, f"{command} --quiet", table).values():
         assert rows == list(table.rows)
@@ -96,27 +98,27 @@ def test_bench_scaling(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
         "expanded": 9,
     }
     samples = [
-        benchmark.Sample(value=float(rooms), rooms=rooms, cost=cost, **asked, **took, **more)  # type: ignore[arg-type]
+        scaling.Sample(value=float(rooms), rooms=rooms, cost=cost, **asked, **took, **more)  # type: ignore[arg-type]
         for rooms, cost in ((8, 12.6), (16, None))
     ]
-    monkeypatch.setattr(benchmark, "scale", lambda *_, **__: iter(samples))
-    table = table_of(benchmark.Sample, samples)
+    monkeypatch.setattr(scaling, "scale", lambda *_, **__: iter(samples))
+    table = table_of(scaling.Sample, samples)
     for rows in saved(run, "bench --scaling rooms --seeds 1 --quiet", table).values():
         assert rows == list(table.rows)
 
 
 def test_bench_of_a_suite(run: Runs) -> None:
     said = [
-        coverage.Outcome("optimal", 12.6, lower_bound=12.6, seconds=0.25, reason="+1"),
-        coverage.Outcome("unknown", None, reason="=time-limit, first"),
+        Outcome("optimal", 12.6, lower_bound=12.6, seconds=0.25, reason="+1"),
+        Outcome("unknown", None, reason="=time-limit, first"),
     ]
     asked = {"domain": "d", "task": "t", "human": "h", "robots": "r1 r2", "alone": True, "discount": 0.9}
-    rows = [coverage.Row(**asked, mode="individual", contender="search", outcome=each) for each in said]
-    table = coverage.as_table(rows)
+    rows = [Row(**asked, mode="individual", contender="search", outcome=each) for each in said]
+    table = as_table(rows)
     Path("suite.csv").write_text(str(written_as(table, "csv")))
     for found in saved(run, "bench suite.csv --quiet", table).values():
         assert found == list(table.rows)
-    assert coverage.read_rows(Path("rows.csv")) == rows
+    assert read_rows(Path("rows.csv")) == rows
 
 
 @pytest.mark.parametrize("command", ["interruptions", "execute"])

@@ -1,7 +1,7 @@
 """``serendipity bench``: the search, integer programs and Fast Downward on the same calls; series, suites."""
 
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final
 
@@ -12,22 +12,24 @@ from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
 from serendipity.cli.streams.broken_tasks import broken_tasks
-from serendipity.cli.text.render import as_markdown, rendered
+from serendipity.cli.text.render import rendered
 from serendipity.model import InputError, Task, UsageError
 from serendipity.model.errors import DisagreementError
-from serendipity.model.table import table_of
+from serendipity.model.table import Table, table_of
 from serendipity.model.telling import Grid, Line
 from serendipity.writing.rows import FORMATS as ROWS
 from serendipity.writing.rows import written
 
 if TYPE_CHECKING:
-    from serendipity.evaluation.benchmark import Contender, Sample, Timing
-    from serendipity.evaluation.benchmark.coverage import Contender as SuiteContender
-    from serendipity.evaluation.benchmark.coverage import Row
+    from serendipity.evaluation.benchmark.contenders import Contender
+    from serendipity.evaluation.benchmark.coverage.rows import Row
 
 _MODES: Final = ("serendipity", "communication", "composite-inf")
 _DISCOUNTS: Final = ("0", "0.5", "0.9")
 _CONTENDERS: Final = ("search", "in-turn", "automata", "fast-downward")
+
+_Tell = Callable[[str, Table | None, str, Sequence[Any]], None]
+"""Prints a text, writes a table where there is one, and plots rows by that name where it is asked for."""
 
 
 def bench(
@@ -109,162 +111,153 @@ def bench(
 ) -> int:
     """Measure the search beside integer programs and others. -o writes every timing."""
     _check_files(output_file, plot)
+
+    def told(text: str, table: Table | None, plotted: str, rows: Sequence[Any]) -> None:
+        answers = [output.Answer(text, None)]
+        if output_file is not None and table is not None:
+            answers.append(output.Answer(written(table, _form(output_file)), output_file))
+        if plot is not None:
+            from serendipity.evaluation.benchmark import plot as plots
+
+            answers.append(output.Answer(getattr(plots, plotted)(rows, plot.suffix), plot, "--plot"))
+        output.write_answers(answers)
+
     if scaling is not None:
         if folder is not None:
             raise UsageError("--scaling: generates its buildings, so it takes no folder")
-        return _scaling(scaling, seeds, time_limit, output_file, plot)
-    from serendipity.evaluation import benchmark
-    from serendipity.evaluation.benchmark import coverage
+        return _scaling(scaling, seeds or 5, time_limit, told)
+    from serendipity.evaluation.benchmark.coverage.table import read_rows
+    from serendipity.evaluation.measuring.figures import machine
+    from serendipity.evaluation.measuring.suites import is_suite
 
     if folder is not None and folder.is_file():
-        return _covered(coverage.read_rows(folder), "", output_file, plot, markdown=markdown)
-    if folder is not None and folder.is_dir() and coverage.is_suite(folder):
+        return _covered(read_rows(folder), [], told, markdown=markdown)
+    if folder is not None and folder.is_dir() and is_suite(folder):
         asked = {"discount": discounts or "0.9", "robots": robots or 2, "time_limit": time_limit}
         rows, complete = _suite(folder, _listed(domains, ()), stride, modes, contenders, **asked)
-        where = f"{benchmark.machine()}; at most {time_limit:g} s a call by the clock."
-        code = _covered(rows, where, output_file, plot, markdown=markdown)
+        where = f"{machine()}; at most {time_limit:g} s a call by the clock."
+        code = _covered(rows, [Line(where), Line()], told, markdown=markdown)
         return code if complete else ExitCode.INTERRUPTED
-    chosen, absent = _present(_listed(contenders, _CONTENDERS), benchmark.CONTENDERS)
     errors: dict[str, Exception] = {}
-    with tempfile.TemporaryDirectory() as scratch:
-        if folder is None:
-            tasks = list(_generated(Path(scratch), rooms, medkits, robots or 1, seeds or 10))
-        else:
-            tasks = list(_loaded(folder, stride, errors))
+    if folder is None:
+        tasks = list(_generated(rooms, medkits, robots or 1, seeds or 10))
+    else:
+        tasks = list(_loaded(folder, stride, errors))
+    calls = (_listed(modes, _MODES), _listed(discounts, _DISCOUNTS), _listed(contenders, _CONTENDERS))
+    return _side_by_side(tasks, errors, calls, told, repeat=repeat, time_limit=time_limit)
+
+
+def _side_by_side(
+    tasks: Sequence[Task],
+    errors: Mapping[str, Exception],
+    calls: tuple[list[str], list[str], list[str]],
+    tell: _Tell,
+    *,
+    repeat: int,
+    time_limit: float,
+) -> int:
+    """Contenders on some modes and discounts of tasks; beside tasks that can't be read."""
+    from serendipity.evaluation.benchmark.measure import CONTENDERS, Timing, broken, measure
+    from serendipity.evaluation.benchmark.report import ratios, times
+    from serendipity.evaluation.measuring.figures import machine, peak_memory
+
+    modes, discounts, names = calls
+    present, absent = _present(names, CONTENDERS)
     timings: list[Timing] = []
-    found = benchmark.measure(
-        tasks,
-        _listed(modes, _MODES),
-        _listed(discounts, _DISCOUNTS),
-        chosen,
-        repeat=repeat,
-        time_limit=time_limit,
-    )
+    found = measure(tasks, modes, discounts, present, repeat=repeat, time_limit=time_limit)
     with progress.counting("tasks") as on_progress:
         for timing in found:
             timings.append(timing)
             on_progress(len({timing.task for timing in timings}), len(tasks))
     output.warn(*absent)
-    most = f"{benchmark.peak_memory():.0f} MiB with all tasks in memory"
+    most = f"{peak_memory():.0f} MiB with all tasks in memory"
     parts: list[Line | Grid] = [
-        Line(f"{len(tasks)} tasks; {benchmark.machine()}"),
+        Line(f"{len(tasks)} tasks; {machine()}"),
         Line(f"Processor time; at most {time_limit:g} s a call; {most}."),
         Line(),
     ]
-    ratios = benchmark.ratios(timings)
-    if ratios:
-        parts += [Grid(benchmark.RATIOS_HEADER, ratios), Line()]
-    parts.append(Grid(benchmark.TIMES_HEADER, benchmark.times(timings)))
-    broken = [benchmark.broken(task, error) for task, error in errors.items()]
-    every = _as_rows(benchmark.Timing, [*timings, *broken], output_file)
-    answers = [output.Answer(rendered(parts), None), *every]
-    if plot is not None:
-        from serendipity.evaluation.benchmark.plot import side_by_side
+    compared = ratios(timings)
+    parts += [compared, Line()] if compared.rows else []
+    unread = [broken(task, error) for task, error in errors.items()]
+    every = [*timings, *unread]
 
-        answers.append(output.Answer(side_by_side(timings, plot.suffix), plot, "--plot"))
-    output.write_answers(answers)
-    reasons = {timing.task: timing.reason or "" for timing in broken}
-    return broken_tasks(reasons) if reasons else ExitCode.ANSWERED
+    text = rendered([*parts, times(timings)])
+    tell(text, table_of(Timing, every) if every else None, "side_by_side", timings)
+    return (
+        broken_tasks({timing.task: timing.reason or "" for timing in unread}) if unread else ExitCode.ANSWERED
+    )
 
 
 def _suite(
-    folder: Path,
-    domains: Sequence[str],
-    stride: int,
-    modes: str | None,
-    contenders: str | None,
-    **asked: Any,
+    folder: Path, domains: Sequence[str], stride: int, modes: str | None, contenders: str | None, **asked: Any
 ) -> "tuple[list[Row], bool]":
     """The rows of a suite's calls, and whether these are all; Ctrl-C leaves those that are there."""
-    from serendipity.evaluation.benchmark import coverage
+    from serendipity.evaluation.benchmark.coverage.rows import CONTENDERS, MODES, measure
+    from serendipity.evaluation.measuring.suites import problems
 
-    chosen, absent = _present(_listed(contenders, coverage.CONTENDERS), coverage.CONTENDERS)
+    present, absent = _present(_listed(contenders, CONTENDERS), CONTENDERS)
     output.warn(*absent)
-    problems = coverage.problems(folder, domains, stride)
+    chosen = problems(folder, domains, stride)
     rows: list[Row] = []
     with cancelling() as cancelled, progress.counting("tasks") as on_progress:
-        for row in coverage.measure(problems, _listed(modes, coverage.MODES), chosen, **asked):
+        for row in measure(chosen, _listed(modes, MODES), present, **asked):
             if cancelled.is_set():  # which may have ended the contender, too
                 return rows, False
             rows.append(row)
-            on_progress(len({(row.domain, row.task) for row in rows}), len(problems))
+            on_progress(len({(row.domain, row.task) for row in rows}), len(chosen))
     return rows, True
 
 
-def _covered(
-    rows: "Sequence[Row]",
-    where: str,
-    output_file: Path | None,
-    plot: Path | None,
-    *,
-    markdown: bool,
-) -> int:
-    """Print and write what the rows of a suite, measured somewhere, come to.
+def _covered(rows: "Sequence[Row]", where: list[Line | Grid], tell: _Tell, *, markdown: bool) -> int:
+    """Tell what the rows of a suite, measured somewhere, come to.
 
     Raises:
         DisagreementError: contenders have proved what can't all be true.
     """
-    from serendipity.evaluation.benchmark import coverage
+    from serendipity.evaluation.benchmark.coverage import report
+    from serendipity.evaluation.benchmark.coverage.table import as_table
+    from serendipity.evaluation.measuring.tables import as_markdown
 
-    output.warn(*coverage.failures(rows))
-    order = " / ".join(coverage.contenders_in(rows))
-    titled = {
-        f"Calls decided: {order}": coverage.decided(rows),
-        f"Median seconds until the answer, reading left out: {order}": coverage.seconds(rows),
-        "Median expansions where both have decided": coverage.expansions(rows),
-        "Calls decided, and calls with a plan, after some seconds": coverage.over_time(rows),
-    }
-    parts: list[Line | Grid] = [Line(where), Line()] if where else []
-    for title, (header, lines) in titled.items():
-        parts += [Line(f"{title}."), Line(), Grid(header, lines), Line()]
-    parts.pop()
-    answers = [output.Answer((as_markdown if markdown else rendered)(parts), None)]
-    if output_file is not None:
-        answers.append(output.Answer(written(coverage.as_table(rows), _form(output_file)), output_file))
-    if plot is not None:
-        from serendipity.evaluation.benchmark.coverage.plot import over_time
-
-        answers.append(output.Answer(over_time(rows, plot.suffix), plot, "--plot"))
-    output.write_answers(answers)
-    differing = coverage.disagreements(rows)
+    output.warn(*report.failures(rows))
+    text = (as_markdown if markdown else rendered)([*where, *report.tables(rows)])
+    tell(text, as_table(rows), "over_time", rows)
+    differing = report.disagreements(rows)
     if differing:
         raise DisagreementError("; ".join(differing))
-    errors = coverage.errors(rows)
+    errors = report.errors(rows)
     return broken_tasks(errors) if errors else ExitCode.ANSWERED
 
 
-def _scaling(
-    axes: str,
-    seeds: int | None,
-    time_limit: float,
-    output_file: Path | None,
-    plot: Path | None,
-) -> int:
-    from serendipity.evaluation import benchmark
+def _scaling(axes: str, seeds: int, time_limit: float, tell: _Tell) -> int:
+    from serendipity.evaluation.benchmark.scaling import (
+        AXES,
+        Sample,
+        exponents,
+        planned,
+        scale,
+        scaling_table,
+    )
+    from serendipity.evaluation.measuring.figures import machine
 
-    names = list(benchmark.AXES) if axes == "all" else axes.split(",")
-    total = len(benchmark.planned(names, seeds or 5))
+    names = list(AXES) if axes == "all" else axes.split(",")
+    total = len(planned(names, seeds))
     samples: list[Sample] = []
     with progress.counting("tasks") as on_progress:
-        for sample in benchmark.scale(names, seeds=seeds or 5, time_limit=time_limit):
+        for sample in scale(names, seeds=seeds, time_limit=time_limit):
             samples.append(sample)
             on_progress(len(samples), total)
     parts: list[Line | Grid] = [
-        Line(f"{len(samples)} tasks, each in a process of its own; {benchmark.machine()}"),
+        Line(f"{len(samples)} tasks, each in a process of its own; {machine()}"),
         Line(f"Medians of processor time, at most {time_limit:g} s a call; the most memory."),
         Line(),
-        Grid(benchmark.SCALING_HEADER, benchmark.scaling_table(samples)),
+        scaling_table(samples),
         Line(),
         Line("Exponents of time and memory, fitted to all tasks of an axis on a log-log scale:"),
         Line(),
-        Grid(benchmark.EXPONENTS_HEADER, benchmark.exponents(samples)),
+        exponents(samples),
     ]
-    answers = [output.Answer(rendered(parts), None), *_as_rows(benchmark.Sample, samples, output_file)]
-    if plot is not None:
-        from serendipity.evaluation.benchmark.plot import series
 
-        answers.append(output.Answer(series(samples, plot.suffix), plot, "--plot"))
-    output.write_answers(answers)
+    tell(rendered(parts), table_of(Sample, samples), "series", samples)
     return ExitCode.ANSWERED
 
 
@@ -283,20 +276,11 @@ def _listed(text: str | None, default: Iterable[str]) -> list[str]:
     return text.split(",") if text else list(default)
 
 
-def _present(
-    names: Sequence[str], known: "Mapping[str, Contender | SuiteContender]"
-) -> tuple[list[str], tuple[str, ...]]:
+def _present(names: Sequence[str], known: "Mapping[str, Contender]") -> tuple[list[str], tuple[str, ...]]:
     """The contenders that can run here, and why others can't."""
     reasons = {name: known[name].absent() for name in names if name in known}
     absent = tuple(dict.fromkeys(reason for reason in reasons.values() if reason is not None))
     return [name for name in names if reasons.get(name) is None], absent
-
-
-def _as_rows(
-    row: type, rows: "Sequence[Timing] | Sequence[Sample]", output_file: Path | None
-) -> "Iterator[output.Answer]":
-    if output_file is not None and rows:
-        yield output.Answer(written(table_of(row, rows), _form(output_file)), output_file)
 
 
 def _form(output_file: Path | None) -> str:
@@ -326,11 +310,12 @@ def _loaded(folder: Path, stride: int, errors: dict[str, Exception]) -> Iterator
         raise next(iter(errors.values()))
 
 
-def _generated(scratch: Path, rooms: int, medkits: int, robots: int, seeds: int) -> Iterator[Task]:
+def _generated(rooms: int, medkits: int, robots: int, seeds: int) -> Iterator[Task]:
     from serendipity import generate_usar
     from serendipity.pddl import read_folder
 
-    for seed in range(seeds):
-        place = scratch / f"seed{seed}"
-        generate_usar(place, rooms=rooms, medkits=medkits, robots=robots, seed=seed)
-        yield read_folder(place)
+    with tempfile.TemporaryDirectory() as scratch:
+        for seed in range(seeds):
+            place = Path(scratch, f"seed{seed}")
+            generate_usar(place, rooms=rooms, medkits=medkits, robots=robots, seed=seed)
+            yield read_folder(place)

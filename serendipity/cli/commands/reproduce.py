@@ -21,7 +21,7 @@ from serendipity.writing.rows import written
 
 if TYPE_CHECKING:
     from serendipity.evaluation.reproduction import Reproduction
-    from serendipity.evaluation.reproduction.tables import Entry, ExampleAnswer, Times
+    from serendipity.evaluation.reproduction.tables import Tables
 
 log = logging.getLogger("serendipity.reproduce")
 
@@ -86,7 +86,7 @@ def reproduce(
         output.check_output(file, option)
     from serendipity.cli.streams.progress import shown
     from serendipity.evaluation.reproduction import reproduce as run_all
-    from serendipity.evaluation.reproduction.tables import examples, table_1, table_2
+    from serendipity.evaluation.reproduction.tables import tables as tables_of
 
     kept = journal
     if kept is None and to.output_file is not None:
@@ -103,15 +103,12 @@ def reproduce(
             time_limit=None if time_limit is None else limit_of("time_limit", time_limit, "seconds"),
             memory_limit=None if memory_limit is None else limit_of("memory_limit", memory_limit, "MiB"),
         )
-    entries, times, answers = table_1(run), table_2(run), examples()
-    written = [
-        output.Answer(_answer(form, run, entries, times, answers), to.output_file),
-        *_extras(report, tables, run, entries, times, answers),
-    ]
-    output.write_answers(written)
+    found = tables_of(run)
+    answers = [output.Answer(_answer(form, run, found), to.output_file), *_extras(report, tables, run, found)]
+    output.write_answers(answers)
     if journal is None and kept is not None and not run.errors:
         kept.unlink(missing_ok=True)  # the answer holds all of it
-    _tell([answer.file for answer in written if answer.file is not None])
+    _tell([answer.file for answer in answers if answer.file is not None])
     if run.errors:
         return broken_tasks(run.errors)
     known = any(row.status != "unknown" for row in run.rows)
@@ -131,30 +128,17 @@ def _listed(text: str) -> list[Any]:
     return [part for part in text.replace(",", " ").split() if part]
 
 
-def _answer(
-    form: str,
-    run: "Reproduction",
-    entries: "tuple[Entry, ...]",
-    times: "tuple[Times, ...]",
-    answers: "tuple[ExampleAnswer, ...]",
-) -> str | bytes:
+def _answer(form: str, run: "Reproduction", tables: "Tables") -> str | bytes:
     from serendipity.evaluation.reproduction import formats
 
     if form == "csv":
         return formats.rows_as_csv(run)
     if form == "json":
-        return json_of(formats.as_json(run, entries, times, answers))
-    if form in ROWS:
-        return written(run.table(), form)
-    return _text(run, entries, times, answers)
+        return json_of(formats.as_json(run, tables))
+    return written(run.table(), form) if form in ROWS else _text(run, tables)
 
 
-def _text(
-    run: "Reproduction",
-    entries: "tuple[Entry, ...]",
-    times: "tuple[Times, ...]",
-    answers: "tuple[ExampleAnswer, ...]",
-) -> str:
+def _text(run: "Reproduction", tables: "Tables") -> str:
     from serendipity.cli.text.render import rendered
     from serendipity.evaluation.reproduction.report import examples_grid, table_1_grid, table_2_grid
     from serendipity.evaluation.reproduction.rows import COLUMNS, SHORT
@@ -164,30 +148,25 @@ def _text(
     if run.unproved:
         late = f"{run.unproved} of {len(run.rows)} rows are not proved: a limit came first"
         parts.append(Line(late, "yellow"))
-    for title, (header, rows) in (
-        ("Table I: mean cost (number of tasks in which a robot helps)", table_1_grid(entries)),
-        ("Table II: seconds of a planning call", table_2_grid(times)),
-        ("The paper's examples, sections III-B to III-D", examples_grid(answers)),
+    for title, grid in (
+        ("Table I: mean cost (number of tasks in which a robot helps)", table_1_grid(tables.costs)),
+        ("Table II: seconds of a planning call", table_2_grid(tables.times)),
+        ("The paper's examples, sections III-B to III-D", examples_grid(tables.examples)),
     ):
-        parts += [Line(), Line(title, "bold"), Grid(header, rows)]
+        parts += [Line(), Line(title, "bold"), grid]
     return rendered(parts)
 
 
 def _extras(
-    report: Path | None,
-    tables: Path | None,
-    run: "Reproduction",
-    entries: "tuple[Entry, ...]",
-    times: "tuple[Times, ...]",
-    answers: "tuple[ExampleAnswer, ...]",
+    report: Path | None, prefix: Path | None, run: "Reproduction", tables: "Tables"
 ) -> Iterator[output.Answer]:
     """What was asked for besides the answer."""
-    from serendipity.evaluation.reproduction import formats
+    from serendipity.evaluation.reproduction.formats import table_as_csv
     from serendipity.evaluation.reproduction.report import html_report
 
     if report is not None:
-        yield output.Answer(html_report(run, entries, times, answers), report, "--report")
-    if tables is not None:
-        first, second = (tables.with_name(f"{tables.name}{number}.csv") for number in (1, 2))
-        yield output.Answer(formats.table_1_as_csv(entries), first, "--tables")
-        yield output.Answer(formats.table_2_as_csv(times), second, "--tables")
+        yield output.Answer(html_report(run, tables), report, "--report")
+    if prefix is not None:
+        for number, lines in ((1, tables.costs), (2, tables.times)):
+            file = prefix.with_name(f"{prefix.name}{number}.csv")
+            yield output.Answer(table_as_csv(lines), file, "--tables")

@@ -31,18 +31,6 @@ def rendered(parts: Iterable[Line | Grid], *, terminal: bool | None = None) -> s
     return as_text(parts)
 
 
-def as_markdown(parts: Iterable[Line | Grid]) -> str:
-    """The same for a page in Markdown: lines as paragraphs, grids as tables."""
-    blocks = []
-    for part in (each.printable() for each in parts):
-        if isinstance(part, Line):
-            blocks.append(part.text)
-        else:
-            rows = [part.header, ["---"] * len(part.header), *part.rows]
-            blocks.append("\n".join(f"| {' | '.join(row)} |" for row in rows))
-    return "\n\n".join(filter(None, blocks)) + "\n"
-
-
 def _coloured(parts: Iterable[Line | Grid]) -> str:
     from rich.console import Console
 

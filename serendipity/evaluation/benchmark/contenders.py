@@ -1,18 +1,57 @@
-"""Who answers the calls of a benchmark."""
+"""Who answers the calls of a benchmark, and what a contender says to one."""
 
-import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final, TypeVar
 
-from search import PreparedTask, solve
-from serendipity.evaluation.benchmark import fast_downward
-from serendipity.evaluation.benchmark.answer import Answer
-from serendipity.evaluation.benchmark.usage import children_seconds
-from serendipity.model.options import INFINITE, Options
-from serendipity.model.resources.collection import no_collection
-from serendipity.model.resources.deadline import Deadline
-from serendipity.pddl.write import composite_files
+from serendipity.model.errors import UsageError
+from serendipity.model.options import INFINITE
+
+T = TypeVar("T")
+
+MODES: Final[dict[str, dict[str, Any]]] = {
+    "individual": {"mode": "individual"},
+    "serendipity": {"mode": "serendipity"},
+    "serendipity-k0": {"mode": "serendipity", "window_weight": 0},
+    "communication": {"mode": "communication"},
+    "composite": {"mode": "composite"},
+    "composite-inf": {"mode": "composite", "horizon": INFINITE},
+}
+"""Modes by the names that benchmarks have for them; ``k0`` is for ``K`` = 0, ``inf`` for no horizon."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What a contender says, and what it took.
+
+    Attributes:
+        status: as in results; ``failed`` where it could not be asked, ``error`` where the task is broken.
+        cost: of its plan, for the team, in the domain's unit; None without one.
+        lower_bound: of the objective; None where none is known.
+        expanded: nodes.
+        seconds: until the answer, once the files are read and ground.
+        plan_seconds: likewise until the first plan; None without one.
+        read_seconds: of reading, grounding, and looking for variables.
+        process_seconds: processor time of all that it did, where that is looked at.
+        memory: its peak in MiB, where that is known.
+        reason: why it failed, or what is broken.
+    """
+
+    status: str
+    cost: float | None = None
+    lower_bound: float | None = None
+    expanded: int = 0
+    seconds: float = 0.0
+    plan_seconds: float | None = None
+    read_seconds: float = 0.0
+    process_seconds: float = 0.0
+    memory: float | None = None
+    reason: str = ""
+
+    @property
+    def proved(self) -> bool:
+        """Whether the answer is proved."""
+        return self.status in ("optimal", "infeasible")
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,73 +60,29 @@ class Contender:
 
     Attributes:
         answer: answers a call and times itself.
-        accepts: whether it can answer a call with these options at all.
+        modes: what it can be asked.
         absent: why it can't run here, or None.
         afresh: whether the task is prepared anew before each pass, without anything that earlier
             calls have found out.
         in_turn: whether a pass is all calls on a task, one after another; else it is one call.
     """
 
-    answer: Callable[[PreparedTask, Options], Answer]
-    accepts: Callable[[Options], bool] = lambda _: True
+    answer: Callable[..., Outcome]
+    modes: Sequence[str] = tuple(MODES)
     absent: Callable[[], str | None] = lambda: None
     afresh: bool = False
     in_turn: bool = False
 
 
-def _search(prepared: PreparedTask, options: Options) -> Answer:
-    """Every table that is not there yet is built inside the time."""
-    with no_collection():  # as `plan` does
-        start = time.process_time()
-        *_, outcome = solve(prepared, options, deadline=Deadline(options.time_limit))
-        seconds = time.process_time() - start
-    return Answer(seconds, outcome.status, None if outcome.cost is None else float(outcome.cost))
+def chosen(names: Iterable[str], known: Mapping[str, T], what: str, where: str = "") -> dict[str, T]:
+    """What names stand for.
 
-
-def _program(encoding: str) -> Callable[[PreparedTask, Options], Answer]:
-    def answer(prepared: PreparedTask, options: Options) -> Answer:
-        from verify.calls.solve import solve as by_program  # loads a solver
-
-        with no_collection():
-            start = time.process_time() + children_seconds()  # solvers are processes of their own
-            result = by_program(prepared.task, options, encoding=encoding)
-            seconds = time.process_time() + children_seconds() - start
-        return Answer(seconds, result.status, result.cost)
-
-    return answer
-
-
-def _fast_downward(prepared: PreparedTask, options: Options) -> Answer:
-    """``seconds`` is the search time that it prints, or all that it took until the limit."""
-    files = composite_files(prepared.task, options.discount)
-    found = fast_downward.run(files, fast_downward.LMCUT, options.time_limit, invariants=False)
-    return Answer(
-        found.process_seconds if found.status == "unknown" else found.search_seconds,
-        found.status,
-        None if found.cost is None else float(found.cost),
-        process_seconds=found.process_seconds,
-        memory=found.memory,
-    )
-
-
-def _without_horizon(options: Options) -> bool:
-    return options.horizon == INFINITE
-
-
-def _with_horizon(options: Options) -> bool:
-    return not _without_horizon(options)
-
-
-CONTENDERS: Final[dict[str, Contender]] = {
-    "search": Contender(_search, afresh=True),
-    "in-turn": Contender(_search, afresh=True, in_turn=True),
-    "again": Contender(_search),
-    "automata": Contender(_program("automata")),
-    "paper": Contender(_program("paper"), _with_horizon),  # its epochs are numbered
-    "fast-downward": Contender(_fast_downward, _without_horizon, fast_downward.absent),
-}
-"""Our search: first calls, one discount after another, the same call again; our integer program,
-the paper's, and Fast Downward."""
-
-SEARCHES: Final = ("search", "in-turn", "again")
-"""Ways to call our search: what the others are compared with."""
+    Raises:
+        UsageError: for nothing; it says ``what`` they are names of, and ``where``.
+    """
+    found = {}
+    for name in names:
+        if name not in known:
+            raise UsageError(f"{what}: expected some of {', '.join(known)}{where}, got '{name}'")
+        found[name] = known[name]
+    return found

@@ -1,31 +1,71 @@
-"""Each contender on each call, one after another, warmed up."""
+"""Side by side: each contender on each call, one after another, warmed up."""
 
 import gc
 import statistics
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Final, TypeVar
+from typing import Final
 
-from search import PreparedTask, prepare
-from serendipity.evaluation.benchmark.answer import Answer
-from serendipity.evaluation.benchmark.contenders import CONTENDERS, Contender
-from serendipity.model.errors import DisagreementError, UsageError, told
-from serendipity.model.options import INFINITE, Options
+from search import PreparedTask, prepare, solve
+from serendipity.evaluation.benchmark import contenders as every
+from serendipity.evaluation.benchmark import fast_downward
+from serendipity.evaluation.benchmark.contenders import Contender, Outcome, chosen
+from serendipity.evaluation.measuring.figures import timed
+from serendipity.model.errors import DisagreementError, told
+from serendipity.model.options import Options
+from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
+from serendipity.pddl.write import composite_files
 
-T = TypeVar("T")
-
-MODES: Final[dict[str, dict[str, Any]]] = {
-    "individual": {"mode": "individual"},
-    "serendipity": {"mode": "serendipity"},
-    "communication": {"mode": "communication"},
-    "composite": {"mode": "composite"},
-    "composite-inf": {"mode": "composite", "horizon": INFINITE},
-}
-"""Modes by the names that a benchmark has for them: composite also without a horizon."""
+MODES: Final = {name: options for name, options in every.MODES.items() if name != "serendipity-k0"}
 
 _SLOW: Final = 1.0
 """Seconds; a first pass that takes longer is no warm-up but the figure itself."""
+
+
+def _search(prepared: PreparedTask, options: Options) -> Outcome:
+    """Every table that is not there yet is built inside the time."""
+    answers, seconds = timed(lambda: list(solve(prepared, options, deadline=Deadline(options.time_limit))))
+    cost = answers[-1].cost
+    return Outcome(answers[-1].status, None if cost is None else float(cost), seconds=seconds)
+
+
+def _program(encoding: str) -> Callable[[PreparedTask, Options], Outcome]:
+    def answer(prepared: PreparedTask, options: Options) -> Outcome:
+        from verify.calls.solve import solve as by_program  # loads a solver
+
+        result, seconds = timed(lambda: by_program(prepared.task, options, encoding=encoding))
+        return Outcome(result.status, result.cost, seconds=seconds)
+
+    return answer
+
+
+def _fast_downward(prepared: PreparedTask, options: Options) -> Outcome:
+    """``seconds`` is the search time that it prints, or all that it took until the limit."""
+    files = composite_files(prepared.task, options.discount)
+    found = fast_downward.run(files, fast_downward.LMCUT, options.time_limit, invariants=False)
+    return Outcome(
+        found.status,
+        None if found.cost is None else float(found.cost),
+        seconds=found.process_seconds if found.status == "unknown" else found.search_seconds,
+        process_seconds=found.process_seconds,
+        memory=found.memory,
+    )
+
+
+CONTENDERS: Final[dict[str, Contender]] = {
+    "search": Contender(_search, afresh=True),
+    "in-turn": Contender(_search, afresh=True, in_turn=True),
+    "again": Contender(_search),
+    "automata": Contender(_program("automata")),
+    "paper": Contender(_program("paper"), [*MODES][:-1]),  # its epochs are numbered
+    "fast-downward": Contender(_fast_downward, ["composite-inf"], fast_downward.absent),
+}
+"""Our search: first calls, one discount after another, the same call again; our integer program,
+the paper's, and Fast Downward."""
+
+SEARCHES: Final = ("search", "in-turn", "again")
+"""Ways to call our search: what the others are compared with."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +113,7 @@ def measure(
     repeat: int = 5,
     time_limit: float | None = None,
 ) -> Iterator[Timing]:
-    """Time each contender on each call that it accepts: it is asked all discounts of a mode, or none.
+    """Time each contender on each call of a mode that it knows.
 
     Args:
         tasks: the tasks.
@@ -88,8 +128,7 @@ def measure(
         UsageError: a mode or contender is unknown.
         DisagreementError: two that proved an answer disagree.
     """
-    chosen = {name: _known(name, CONTENDERS, "contenders") for name in contenders}
-    kinds = {name: _known(name, MODES, "modes") for name in modes}
+    who, kinds = chosen(contenders, CONTENDERS, "contenders"), chosen(modes, MODES, "modes")
     discounts = list(discounts)
     gc.collect()
     gc.freeze()  # a caller has one task in memory, not all of these
@@ -100,8 +139,8 @@ def measure(
                 asked = [Options(discount=text, time_limit=time_limit, **fixed) for text in discounts]
                 answers = {
                     name: _answers(contender, prepared, asked, repeat)
-                    for name, contender in chosen.items()
-                    if all(map(contender.accepts, asked))
+                    for name, contender in who.items()
+                    if mode in contender.modes
                 }
                 for i, discount in enumerate(discounts):
                     found = [
@@ -118,15 +157,9 @@ def broken(task: str, error: Exception) -> Timing:
     return Timing(task, "", "", "", 0.0, 0.0, 0.0, 0, "error", None, None, None, told(error))
 
 
-def _known(name: str, known: Mapping[str, T], what: str) -> T:
-    if name not in known:
-        raise UsageError(f"{what}: expected some of {', '.join(known)}, got '{name}'")
-    return known[name]
-
-
 def _answers(
     contender: Contender, prepared: PreparedTask, calls: Sequence[Options], repeat: int
-) -> list[tuple[Answer, ...]]:
+) -> list[tuple[Outcome, ...]]:
     """All answers to each call."""
     passes = [calls] if contender.in_turn else [[call] for call in calls]
     return [answers for one in passes for answers in _repeated(contender, prepared, one, repeat)]
@@ -134,23 +167,22 @@ def _answers(
 
 def _repeated(
     contender: Contender, prepared: PreparedTask, calls: Sequence[Options], repeat: int
-) -> list[tuple[Answer, ...]]:
+) -> list[tuple[Outcome, ...]]:
     warm_up = _pass(contender, prepared, calls)
-    slow = sum(max(answer.seconds, answer.process_seconds or 0) for answer in warm_up) > _SLOW
+    slow = sum(max(answer.seconds, answer.process_seconds) for answer in warm_up) > _SLOW
     passes = [warm_up] if slow else [_pass(contender, prepared, calls) for _ in range(repeat)]
     return list(zip(*passes, strict=True))
 
 
-def _pass(contender: Contender, prepared: PreparedTask, calls: Sequence[Options]) -> list[Answer]:
+def _pass(contender: Contender, prepared: PreparedTask, calls: Sequence[Options]) -> list[Outcome]:
     if contender.afresh:
         prepared = prepare(prepared.task)
     return [contender.answer(prepared, options) for options in calls]
 
 
-def _timing(call: tuple[str, str, str, str], answers: Sequence[Answer]) -> Timing:
+def _timing(call: tuple[str, str, str, str], answers: Sequence[Outcome]) -> Timing:
     seconds = [answer.seconds for answer in answers]
     last = answers[-1]
-    of_processes = [answer.process_seconds for answer in answers if answer.process_seconds is not None]
     return Timing(
         *call,
         seconds=statistics.median(seconds),
@@ -159,7 +191,7 @@ def _timing(call: tuple[str, str, str, str], answers: Sequence[Answer]) -> Timin
         repeats=len(answers),
         status=last.status,
         cost=last.cost,
-        process_seconds=statistics.median(of_processes) if of_processes else None,
+        process_seconds=statistics.median(answer.process_seconds for answer in answers) or None,
         memory=last.memory,
     )
 

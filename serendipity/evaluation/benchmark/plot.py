@@ -1,13 +1,16 @@
-"""Timings as log-log plots, by matplotlib (the optional extra ``plot``)."""
+"""Timings as pictures, by matplotlib (the optional extra ``plot``)."""
 
 import io
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import ceil, floor, log10
 from typing import TYPE_CHECKING, Final, Literal
 
-from serendipity.evaluation.benchmark.fit import power_law
+from serendipity.evaluation.benchmark.coverage.report import contenders_in, decision_times, plan_times
+from serendipity.evaluation.benchmark.coverage.rows import Row
 from serendipity.evaluation.benchmark.measure import Timing
 from serendipity.evaluation.benchmark.scaling import AXES, Sample
+from serendipity.evaluation.measuring.figures import power_law
+from serendipity.evaluation.measuring.tables import grouped
 from serendipity.model.errors import UsageError
 
 if TYPE_CHECKING:
@@ -15,11 +18,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SUFFIXES: Final = (".png", ".svg", ".pdf")
-COLOURS: Final = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+_COLOURS: Final = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 """The Okabe-Ito palette: told apart by everybody."""
 _MARKERS: Final = "os^Dv<>"
-_RATIOS: Final = (1, 10, 100, 1000, 10000)
 _UNPROVED: Final = "x"
+_RATIOS: Final = (1, 10, 100, 1000, 10000)
+_SOONEST: Final = 0.001
+"""Seconds at which an axis of time starts: what is sooner is drawn there."""
 
 
 def check_suffix(suffix: str) -> None:
@@ -30,44 +35,40 @@ def check_suffix(suffix: str) -> None:
     """
     if suffix not in SUFFIXES:
         raise UsageError(f"--plot: expected a file that ends in {', '.join(SUFFIXES)}, got '{suffix}'")
-    new_figure(1, 1)
+    _figure(1, 1)
 
 
 def side_by_side(timings: Sequence[Timing], suffix: str) -> bytes:
     """What each contender takes over what the search takes, a point a call; crosses met the limit."""
-    modes = list(dict.fromkeys(timing.mode for timing in timings))
-    figure = new_figure(5 * len(modes), 4.6)
-    for i, mode in enumerate(modes):
-        members = [timing for timing in timings if timing.mode == mode]
+    modes = grouped(timings, lambda timing: timing.mode)
+    figure = _figure(5 * len(modes), 4.6)
+    for i, (mode, members) in enumerate(modes.items()):
         axes = figure.add_subplot(1, len(modes), i + 1)
-        axes.set_title(mode)
+        axes.set(title=mode, xlabel="search, ms", ylabel="contender, ms")
         _scatter(axes, members)
-    return as_bytes(figure, suffix)
+    return _as_bytes(figure, suffix)
 
 
 def _scatter(axes: "Axes", timings: Sequence[Timing]) -> None:
     base = {(t.task, t.discount): t.seconds * 1000 for t in timings if t.contender == "search"}
     points = [(base[t.task, t.discount], t) for t in timings if (t.task, t.discount) in base]
-    names = dict.fromkeys(t.contender for _, t in points if t.contender != "search")
-    for name, colour, marker in zip(names, COLOURS, _MARKERS, strict=False):
+    others = grouped((point for point in points if point[1].contender != "search"), lambda p: p[1].contender)
+    for (name, of), colour, marker in zip(others.items(), _COLOURS, _MARKERS, strict=False):
         for solved, shape in ((True, marker), (False, _UNPROVED)):
-            chosen = [(x, t.seconds * 1000) for x, t in points if t.contender == name and t.solved is solved]
+            chosen = [(x, t.seconds * 1000) for x, t in of if t.solved is solved]
             if chosen:
-                xs, ys = zip(*chosen, strict=True)
                 label = name if solved else f"{name}, at the limit"
+                xs, ys = zip(*chosen, strict=True)
                 axes.scatter(xs, ys, s=14, c=colour, marker=shape, label=label, alpha=0.7, clip_on=False)
-    if names:
-        axes.legend(fontsize=8, loc="upper left")
-    others = [t.seconds * 1000 for _, t in points if t.contender in names]
     if others:
+        axes.legend(fontsize=8, loc="upper left")
         low, high = _decades(axes, "x", [x for x, _ in points])
-        _, most = _decades(axes, "y", [*others, *base.values()])
+        seconds = [t.seconds * 1000 for of in others.values() for _, t in of]
+        _, most = _decades(axes, "y", [*seconds, *base.values()])
         for ratio in _RATIOS:
             if high * ratio <= most:
                 axes.plot([low, high], [low * ratio, high * ratio], color="grey", lw=0.7, ls="--", zorder=0)
                 axes.annotate(f" {ratio:,} x", (high, high * ratio), fontsize=8, color="grey", va="center")
-    axes.set_xlabel("search, ms")
-    axes.set_ylabel("contender, ms")
 
 
 def _decades(axes: "Axes", which: Literal["x", "y"], values: Sequence[float]) -> tuple[float, float]:
@@ -84,25 +85,24 @@ def _decades(axes: "Axes", which: Literal["x", "y"], values: Sequence[float]) ->
 
 def series(samples: Sequence[Sample], suffix: str) -> bytes:
     """Search time and peak memory over each axis, with the fitted power of the time."""
-    names = list(dict.fromkeys(sample.axis for sample in samples))
-    figure = new_figure(4.6 * len(names), 7.4)
-    for i, name in enumerate(names):
-        members = [sample for sample in samples if sample.axis == name]
-        upper = figure.add_subplot(2, len(names), i + 1)
-        lower = figure.add_subplot(2, len(names), len(names) + i + 1)
-        _points(upper, members, [s.search_seconds * 1000 for s in members], "first call, ms")
+    axes_of = grouped(samples, lambda sample: sample.axis)
+    figure = _figure(4.6 * len(axes_of), 7.4)
+    for i, (name, members) in enumerate(axes_of.items()):
+        upper, lower = (figure.add_subplot(2, len(axes_of), row * len(axes_of) + i + 1) for row in (0, 1))
+        times = [s.search_seconds * 1000 for s in members]
+        _points(upper, members, times, "first call, ms")
         upper.set_title(AXES[name].title, fontsize=9)
-        _decades(upper, "y", [s.search_seconds * 1000 for s in members])
-        fit = power_law([(s.value, s.search_seconds * 1000) for s in members]) if AXES[name].numeric else None
+        _decades(upper, "y", times)
+        values = [s.value for s in members]
+        fit = power_law([*zip(values, times, strict=True)]) if AXES[name].numeric else None
         if fit is not None:
-            ends = [min(s.value for s in members), max(s.value for s in members)]
-            upper.plot(
-                ends, [fit.at(x) for x in ends], color="black", lw=1, label=f"exponent {fit.exponent:.2f}"
-            )
+            ends = [min(values), max(values)]
+            label = f"exponent {fit.exponent:.2f}"
+            upper.plot(ends, [fit.at(x) for x in ends], color="black", lw=1, label=label)
             upper.legend(fontsize=8)
         _points(lower, members, [s.memory for s in members], "peak memory of the process, MiB")
         lower.set_ylim(0, 1.1 * max(s.memory for s in members))
-    return as_bytes(figure, suffix)
+    return _as_bytes(figure, suffix)
 
 
 def _points(axes: "Axes", samples: Sequence[Sample], values: Sequence[float], label: str) -> None:
@@ -110,19 +110,19 @@ def _points(axes: "Axes", samples: Sequence[Sample], values: Sequence[float], la
     for solved, marker in ((True, "o"), (False, _UNPROVED)):
         chosen = [(s.value, y) for s, y in zip(samples, values, strict=True) if s.solved is solved]
         if chosen:
+            colour = _COLOURS[0 if solved else 1]
             xs, ys = zip(*chosen, strict=True)
-            axes.scatter(xs, ys, s=14, marker=marker, c=COLOURS[0 if solved else 1], alpha=0.7)
+            axes.scatter(xs, ys, s=14, marker=marker, c=colour, alpha=0.7)
     if axis.numeric:
         from matplotlib.ticker import NullFormatter
 
-        ticks = sorted({s.value for s in samples})
+        ticks = _spread(sorted({s.value for s in samples}))
         axes.set_xscale("log")
-        axes.set_xticks(_spread(ticks), [f"{tick:g}" for tick in _spread(ticks)])
+        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
         axes.xaxis.set_minor_formatter(NullFormatter())
     else:
         axes.set_xticks(range(len(axis.labels)), axis.labels, fontsize=8)
-    axes.set_xlabel(axis.unit)
-    axes.set_ylabel(label)
+    axes.set(xlabel=axis.unit, ylabel=label)
 
 
 def _spread(ticks: Sequence[float]) -> list[float]:
@@ -131,7 +131,29 @@ def _spread(ticks: Sequence[float]) -> list[float]:
     return [*ticks[:-1:step], ticks[-1]]
 
 
-def new_figure(width: float, height: float) -> "Figure":
+def over_time(rows: Sequence[Row], suffix: str) -> bytes:
+    """Calls decided over seconds, a line a contender; dotted: those that have a plan."""
+    modes = grouped(rows, lambda row: row.mode)
+    figure = _figure(4.2 * len(modes), 3.8)
+    for i, (mode, asked) in enumerate(modes.items()):
+        axes = figure.add_subplot(1, len(modes), i + 1)
+        for name, colour in zip(contenders_in(rows), _COLOURS, strict=False):
+            of = [row for row in asked if row.contender == name]
+            if of:
+                _curve(axes, decision_times(of), color=colour, label=name)
+                _curve(axes, plan_times(of), color=colour, linestyle=":", label=f"{name}, a plan")
+        axes.set(title=mode, xscale="log", xlabel="seconds", ylabel="calls")
+        axes.set_ylim(0, None)
+        axes.legend(fontsize=8, loc="upper left")
+    return _as_bytes(figure, suffix)
+
+
+def _curve(axes: "Axes", times: Iterable[float], **style: str) -> None:
+    ordered = sorted(max(time, _SOONEST) for time in times)
+    axes.step([_SOONEST, *ordered], range(len(ordered) + 1), where="post", **style)
+
+
+def _figure(width: float, height: float) -> "Figure":
     """An empty figure, in inches.
 
     Raises:
@@ -147,7 +169,7 @@ def new_figure(width: float, height: float) -> "Figure":
     return figure
 
 
-def as_bytes(figure: "Figure", suffix: str) -> bytes:
+def _as_bytes(figure: "Figure", suffix: str) -> bytes:
     """A figure as a file with that suffix."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format=suffix.removeprefix("."), dpi=120)

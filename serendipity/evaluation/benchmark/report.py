@@ -1,27 +1,22 @@
-"""Timings as tables: what the others take over what the search takes, then the times themselves."""
+"""Timings as tables: what the others take over what the search takes, then the times themselves.
 
-import os
-import platform
+``>=`` marks figures that would be, or might be, larger if calls had not met their limit.
+"""
+
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Final
 
-from search.kernel.library import library
-from serendipity.evaluation.benchmark.contenders import SEARCHES
-from serendipity.evaluation.benchmark.measure import Timing
+from serendipity.evaluation.benchmark.measure import SEARCHES, Timing
+from serendipity.evaluation.measuring.figures import percentile
+from serendipity.evaluation.measuring.tables import grouped
+from serendipity.model.telling import Grid
 
-RATIOS_HEADER: Final = (
+_RATIOS: Final = (
     *("mode", "contender", "over", "calls", "of medians", "of 95 %"),
     *("call by call: 50 %", "95 %", "least"),
 )
-"""Headings of :func:`ratios`."""
-
-TIMES_HEADER: Final = ("mode", "contender", "calls", "proved", "median", "95 %", "longest", "min-max")
-"""Headings of :func:`times`: of the median times of each call, but for min-max."""
-
-_PROCESS: Final = ", process"
-_CPU_INFO: Final = Path("/proc/cpuinfo")
+_TIMES: Final = ("mode", "contender", "calls", "proved", "median", "95 %", "longest", "min-max")
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,21 +27,21 @@ class _Figure:
     cut: bool = False
 
 
-def ratios(timings: Sequence[Timing]) -> list[tuple[str, ...]]:
+def ratios(timings: Sequence[Timing]) -> Grid:
     """What each contender takes as a multiple of each way to call the search, on the same calls.
 
     First the ratios of medians and of 95th percentiles, then percentiles of the ratios of
-    single calls.  Calls that met the limit count with what they had taken by then; ``>=``
-    marks figures that this makes too small.  Calls that the search itself did not prove are
-    left out: ``calls`` says how many are counted, of how many.
+    single calls.  Calls that met the limit count with what they had taken by then.  Calls that the
+    search itself did not prove are left out: ``calls`` says how many are counted, of how many.
     """
     groups = _groups(timings)
-    rows = []
-    for (mode, contender), members in groups.items():
-        for search in SEARCHES if contender not in SEARCHES else ():
-            if (mode, search) in groups:
-                rows.append((mode, contender, search, *_ratios(members, groups[mode, search])))
-    return rows
+    rows = [
+        (mode, contender, search, *_ratios(members, groups[mode, search]))
+        for (mode, contender), members in groups.items()
+        for search in (SEARCHES if contender not in SEARCHES else ())
+        if (mode, search) in groups
+    ]
+    return Grid(_RATIOS, rows)
 
 
 def _ratios(members: Sequence[Timing], searches: Sequence[Timing]) -> Iterator[str]:
@@ -65,9 +60,9 @@ def _ratios(members: Sequence[Timing], searches: Sequence[Timing]) -> Iterator[s
     yield from (_ratio(_percentile(single, share)) for share in (0.5, 0.95, 0.0))
 
 
-def times(timings: Sequence[Timing]) -> list[tuple[str, ...]]:
-    """A row for each mode and contender; ``>=`` marks figures that the limit made too small."""
-    return [(*key, *_times(members)) for key, members in _groups(timings).items()]
+def times(timings: Sequence[Timing]) -> Grid:
+    """A row for each mode and contender: of the median times of each call, but for min-max."""
+    return Grid(_TIMES, [(*key, *_times(members)) for key, members in _groups(timings).items()])
 
 
 def _times(members: Sequence[Timing]) -> Iterator[str]:
@@ -83,15 +78,16 @@ def _times(members: Sequence[Timing]) -> Iterator[str]:
 
 def _groups(timings: Sequence[Timing]) -> dict[tuple[str, str], list[Timing]]:
     """Timings by mode and contender; an outside process is a contender beside what it says of itself."""
-    groups: dict[tuple[str, str], list[Timing]] = {}
+    return grouped(_with_processes(timings), lambda timing: (timing.mode, timing.contender))
+
+
+def _with_processes(timings: Sequence[Timing]) -> Iterator[Timing]:
     for timing in timings:
-        groups.setdefault((timing.mode, timing.contender), []).append(timing)
-        if timing.process_seconds is not None:
-            name = timing.contender + _PROCESS
-            seconds = timing.process_seconds
-            whole = replace(timing, contender=name, seconds=seconds, fastest=seconds, slowest=seconds)
-            groups.setdefault((timing.mode, name), []).append(whole)
-    return groups
+        yield timing
+        seconds = timing.process_seconds
+        if seconds is not None:
+            name = f"{timing.contender}, process"
+            yield replace(timing, contender=name, seconds=seconds, fastest=seconds, slowest=seconds)
 
 
 def _figure(timing: Timing) -> _Figure:
@@ -100,8 +96,7 @@ def _figure(timing: Timing) -> _Figure:
 
 def _percentile(figures: Sequence[_Figure], share: float) -> _Figure:
     """The figure below which a share of them lies; cut if it could be larger without a limit."""
-    ordered = sorted(figure.value for figure in figures)
-    value = ordered[min(len(ordered) - 1, int(len(ordered) * share))]
+    value = percentile([figure.value for figure in figures], share)
     return _Figure(value, cut=any(figure.cut and figure.value <= value for figure in figures))
 
 
@@ -112,20 +107,3 @@ def _ratio(figure: _Figure) -> str:
 
 def _mark(figure: _Figure) -> str:
     return ">= " if figure.cut else ""
-
-
-def machine() -> str:
-    """What the figures were measured on."""
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
-    return (
-        f"{platform.system()} on {_processor()}, {os.cpu_count()} cores, {memory:.0f} GiB, "
-        f"Python {platform.python_version()}, {'compiled' if library() else 'no compiled'} kernel"
-    )
-
-
-def _processor() -> str:
-    if _CPU_INFO.exists():
-        for line in _CPU_INFO.read_text().splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    return platform.machine()

@@ -1,19 +1,21 @@
 """How time and memory grow along one axis while the others stay: generated buildings.
 
-Each task is answered in a process of its own, from its PDDL files, so that its peak memory
-is its own and no call is warmed up by another.
+Each task is answered from its PDDL files in a process of its own.
 """
 
-import json
-import subprocess
-import sys
+import statistics
 import tempfile
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
-from typing import Any, Final
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+from itertools import pairwise
+from typing import Final
 
+from serendipity.evaluation.benchmark.child import in_child
 from serendipity.evaluation.benchmark.measure import MODES
+from serendipity.evaluation.measuring.figures import power_law
+from serendipity.evaluation.measuring.tables import grouped, table
 from serendipity.model.errors import SerendipityError, UsageError
+from serendipity.model.telling import Grid
 from serendipity.scenarios.generate import generate_usar
 
 _DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
@@ -140,6 +142,11 @@ class Sample:
         """Whether it is proved."""
         return self.status in ("optimal", "infeasible")
 
+    @property
+    def before_seconds(self) -> float:
+        """Of what is done before the first call."""
+        return self.read_seconds + self.pack_seconds
+
 
 def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> Iterator[Sample]:
     """Answer the tasks of each axis, one after another.
@@ -155,9 +162,23 @@ def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> I
         SerendipityError: a process fails.
     """
     for name, value, size, seed in planned(axes, seeds):
-        found = _answered(size, seed, time_limit)
+        options = {"discount": size.discount, **MODES[size.mode]}
+        with tempfile.TemporaryDirectory() as folder:
+            generate_usar(
+                folder,
+                rooms=size.rooms,
+                medkits=size.medkits,
+                robots=size.robots,
+                corridors=size.corridors,
+                seed=seed,
+                extra_edges=size.rooms // 20 if seed % 2 else 0,
+            )
+            try:
+                found = in_child("series", folder=folder, options=options, time_limit=time_limit)
+            except SerendipityError as error:
+                raise SerendipityError(f"scaling: {size} with seed {seed} failed: {error}") from None
         at = max(1, found["length"]) if AXES[name].measured else value
-        yield Sample(axis=name, value=at, seed=seed, **_fields(size), **found)
+        yield Sample(axis=name, value=at, seed=seed, **asdict(size), **found)
 
 
 def planned(axes: Iterable[str], seeds: int) -> list[tuple[str, float, Size, int]]:
@@ -176,25 +197,61 @@ def planned(axes: Iterable[str], seeds: int) -> list[tuple[str, float, Size, int
     return tasks
 
 
-def _fields(size: Size) -> dict[str, Any]:
-    return {name: getattr(size, name) for name in Size.__dataclass_fields__}
+def scaling_table(samples: Sequence[Sample]) -> Grid:
+    """A row for each value, medians but for the longest first call; measured axes are cut into quarters."""
+    return table(
+        ("axis", "value"),
+        {
+            (name, label): group
+            for name, members in grouped(samples, lambda sample: sample.axis).items()
+            for label, group in _values(AXES[name], sorted(members, key=lambda sample: sample.value))
+        },
+        {
+            "tasks": len,
+            "proved": lambda of: sum(sample.solved for sample in of),
+            "first call": lambda of: _shown(statistics.median(s.search_seconds for s in of)),
+            "longest": lambda of: _shown(max(s.search_seconds for s in of)),
+            "again": lambda of: _shown(statistics.median(s.again_seconds for s in of)),
+            "read + pack": lambda of: _shown(statistics.median(s.before_seconds for s in of)),
+            "MiB": lambda of: f"{max(s.memory for s in of):.0f}",
+        },
+    )
 
 
-def _answered(size: Size, seed: int, time_limit: float) -> dict[str, Any]:
-    with tempfile.TemporaryDirectory() as folder:
-        generate_usar(
-            folder,
-            rooms=size.rooms,
-            medkits=size.medkits,
-            robots=size.robots,
-            corridors=size.corridors,
-            seed=seed,
-            extra_edges=size.rooms // 20 if seed % 2 else 0,
-        )
-        arguments = [folder, size.mode, size.discount, str(time_limit)]
-        command = [sys.executable, "-m", "serendipity.evaluation.benchmark.child", *arguments]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
-        last = done.stderr.strip().rpartition("\n")[2] or f"exit code {done.returncode}"
-        raise SerendipityError(f"scaling: {size} with seed {seed} failed: {last}")
-    return json.loads(done.stdout)  # type: ignore[no-any-return]
+def _shown(seconds: float) -> str:
+    return f"{seconds * 1000:.1f} ms"
+
+
+def _values(axis: Axis, members: Sequence[Sample]) -> Iterator[tuple[str, Sequence[Sample]]]:
+    if axis.measured:
+        cuts = [round(len(members) * i / 4) for i in range(5)]
+        groups = [members[a:b] for a, b in pairwise(cuts) if a < b]
+        yield from ((f"{group[0].value:g}-{group[-1].value:g}", group) for group in groups)
+        return
+    for value, group in grouped(members, lambda sample: sample.value).items():
+        yield f"{value:g}" if axis.numeric else axis.labels[int(value)], group
+
+
+def exponents(samples: Sequence[Sample]) -> Grid:
+    """For each numeric axis the powers of time and memory, and their standard errors.
+
+    Calls that met the limit count with the limit; ``>=`` marks a power that this makes too small.
+    """
+    numeric = (sample for sample in samples if AXES[sample.axis].numeric)
+    return table(
+        ("axis",),
+        grouped(numeric, lambda sample: (sample.axis,)),
+        {
+            "first call": lambda of: (
+                ("" if all(s.solved for s in of) else ">= ")
+                + _power([(s.value, s.search_seconds) for s in of])
+            ),
+            "read + pack": lambda of: _power([(s.value, s.before_seconds) for s in of]),
+            "memory": lambda of: _power([(s.value, s.memory) for s in of]),
+        },
+    )
+
+
+def _power(points: Sequence[tuple[float, float]]) -> str:
+    fit = power_law(points)
+    return "" if fit is None else f"{fit.exponent:.2f} +- {fit.error:.2f}"

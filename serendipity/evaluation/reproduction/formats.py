@@ -5,7 +5,7 @@ from typing import Any, Final
 
 from serendipity.evaluation.reproduction.rows import COLUMNS
 from serendipity.evaluation.reproduction.run import Reproduction
-from serendipity.evaluation.reproduction.tables import Entry, ExampleAnswer, Times
+from serendipity.evaluation.reproduction.tables import Entry, Tables, Times, plain
 from serendipity.writing.csv_text import as_csv
 
 SCHEMA: Final = "serendipity.reproduction/1"
@@ -16,19 +16,7 @@ def rows_as_csv(run: Reproduction) -> str:
     return as_csv(COLUMNS, (row.cells() for row in run.rows))
 
 
-def table_1_as_csv(entries: Sequence[Entry]) -> str:
-    """Table I, one entry a line."""
-    return _csv_of([entry.to_dict() for entry in entries])
-
-
-def table_2_as_csv(times: Sequence[Times]) -> str:
-    """Table II, one mode a line."""
-    return _csv_of([time.to_dict() for time in times])
-
-
-def as_json(
-    run: Reproduction, entries: Sequence[Entry], times: Sequence[Times], answers: Sequence[ExampleAnswer]
-) -> dict[str, Any]:
+def as_json(run: Reproduction, tables: Tables) -> dict[str, Any]:
     """The JSON object (schema ``serendipity.reproduction/1``)."""
     return {
         "schema": SCHEMA,
@@ -36,12 +24,14 @@ def as_json(
         "modes": list(run.modes),
         "discounts": [float(discount) for discount in run.discounts],
         "rows": [row.to_dict() for row in run.rows],
-        "table_1": [entry.to_dict() for entry in entries],
-        "table_2": [time.to_dict() for time in times],
-        "examples": [answer.to_dict() for answer in answers],
+        "table_1": [*map(plain, tables.costs)],
+        "table_2": [*map(plain, tables.times)],
+        "examples": [*map(plain, tables.examples)],
     }
 
 
-def _csv_of(objects: Sequence[dict[str, Any]]) -> str:
-    lines = (["" if value is None else value for value in item.values()] for item in objects)
-    return as_csv(list(objects[0]), lines)
+def table_as_csv(lines: Sequence[Entry] | Sequence[Times]) -> str:
+    """Table I or II, one entry a line."""
+    objects = [*map(plain, lines)]
+    cells = (["" if value is None else value for value in item.values()] for item in objects)
+    return as_csv(list(objects[0]), cells)

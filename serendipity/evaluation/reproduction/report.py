@@ -1,14 +1,16 @@
 """A run as one HTML page that needs nothing else: tables and charts."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from math import floor
 from typing import Final
 
+from serendipity.evaluation.measuring.tables import grouped
 from serendipity.evaluation.reproduction.charts import Labels, Points, bars, lines
 from serendipity.evaluation.reproduction.run import Reproduction
-from serendipity.evaluation.reproduction.tables import Entry, ExampleAnswer, Times
+from serendipity.evaluation.reproduction.tables import Entry, ExampleAnswer, Tables, Times
 from serendipity.model.printable import markup
+from serendipity.model.telling import Grid
 
 _STYLE: Final = """
 :root { color-scheme: light dark; }
@@ -25,24 +27,23 @@ _WIDTHS: Final = tuple(Fraction(10) ** power * factor for power in range(-6, 12)
 _LEAST_SECONDS: Final = 1e-6
 
 
-def html_report(
-    run: Reproduction, entries: Sequence[Entry], times: Sequence[Times], answers: Sequence[ExampleAnswer]
-) -> str:
+def html_report(run: Reproduction, tables: Tables) -> str:
     """The page."""
+    entries = tables.costs
     tests = len({row.test for row in run.rows})
     parts = [
         "<h1>Planning for serendipity: a reproduction</h1>",
         f"<p>{tests} tasks, modes {markup(', '.join(run.modes))}.</p>",
         "<h2>Table I: cost, and tasks in which a robot helps</h2>",
-        _table(*table_1_grid(entries)),
+        _table(table_1_grid(entries)),
         _chart_of_costs(entries),
         _chart_of_counts(entries),
         _chart_of_savings(run),
         "<h2>Table II: seconds of a planning call</h2>",
-        _table(*table_2_grid(times)),
+        _table(table_2_grid(tables.times)),
         _chart_of_times(run),
         "<h2>The examples of sections III-B to III-D</h2>",
-        _table(*examples_grid(answers)),
+        _table(examples_grid(tables.examples)),
     ]
     # Wide things scroll by themselves, so that the page fits narrow screens and its words stay readable.
     body = "\n".join(
@@ -56,76 +57,80 @@ def html_report(
     )
 
 
-def table_1_grid(entries: Sequence[Entry]) -> tuple[list[str], list[list[str]]]:
+def table_1_grid(entries: Sequence[Entry]) -> Grid:
     """Table I: a row per discount, a column per variant, the paper's figures beside."""
     variants = list(dict.fromkeys(entry.variant for entry in entries))
     found = {(entry.discount, entry.variant): entry for entry in entries}
+    printed = {entry.variant for entry in entries if entry.paper_mean_cost is not None}
     header = ["discount"]
     for variant in variants:
         header.append(variant)
-        if any(entry.printed for entry in entries if entry.variant == variant):
+        if variant in printed:
             header.append("paper")
     rows = []
     for discount in dict.fromkeys(entry.discount for entry in entries):
         row = [f"{float(discount):.10g}"]
         for variant in variants:
             entry = found[discount, variant]
-            row.append("-" if entry.mean is None else f"{_short(entry.mean)} ({entry.improved})")
-            if entry.printed:
-                row.append(f"{float(entry.printed[0]):.2f} ({entry.printed[1]})")
-            elif any(e.printed for e in entries if e.variant == variant):
-                row.append("-")
+            mean, theirs = entry.mean_cost, entry.paper_mean_cost
+            row.append("-" if mean is None else f"{float(mean):.6g} ({entry.improved})")
+            if variant in printed:
+                row.append("-" if theirs is None else f"{float(theirs):.2f} ({entry.paper_improved})")
         rows.append(row)
-    return header, rows
+    return Grid(header, rows)
 
 
-def table_2_grid(times: Sequence[Times]) -> tuple[list[str], list[list[str]]]:
+def table_2_grid(times: Sequence[Times]) -> Grid:
     """Table II: a row per mode."""
     header = ["mode", "calls", "mean", "median", "max"]
-    printed = any(time.paper_2015 is not None for time in times)
+    printed = any(time.paper_2015_seconds is not None for time in times)
     rows = []
     for time in times:
-        row = [time.mode, str(time.calls), *(f"{x:.6f}" for x in (time.mean, time.median, time.most))]
+        row = [
+            time.mode,
+            str(time.calls),
+            *(f"{x:.6f}" for x in (time.mean_seconds, time.median_seconds, time.max_seconds)),
+        ]
         if printed:
-            row.append("-" if time.paper_2015 is None else f"{time.paper_2015:.2f}")
+            row.append("-" if time.paper_2015_seconds is None else f"{time.paper_2015_seconds:.2f}")
         rows.append(row)
-    return [*header, *(["paper (2015, its machine)"] if printed else [])], rows
+    return Grid([*header, *(["paper (2015, its machine)"] if printed else [])], rows)
 
 
-def examples_grid(answers: Sequence[ExampleAnswer]) -> tuple[list[str], list[list[str]]]:
+def examples_grid(answers: Sequence[ExampleAnswer]) -> Grid:
     """The paper's examples: a row per example, mode and discount."""
     rows = []
     for answer in answers:
         window = "" if answer.window is None else f"[{answer.window.start}, {answer.window.end})"
         costs = [f"{cost:.10g}" if cost is not None else "-" for cost in (answer.human_cost, answer.cost)]
-        name = f"{answer.section} ({answer.name})"
+        name = f"{answer.section} ({answer.example})"
         rows.append([name, answer.mode, f"{float(answer.discount):.10g}", *costs, window])
-    return ["example", "mode", "discount", "alone", "cost", "window"], rows
+    return Grid(["example", "mode", "discount", "alone", "cost", "window"], rows)
 
 
-def _short(value: Fraction) -> str:
-    return f"{float(value):.6g}"
-
-
-def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    head = "".join(f"<th>{markup(cell)}</th>" for cell in header)
-    body = "".join("<tr>" + "".join(f"<td>{markup(cell)}</td>" for cell in row) + "</tr>\n" for row in rows)
+def _table(grid: Grid) -> str:
+    head = "".join(f"<th>{markup(cell)}</th>" for cell in grid.header)
+    body = "".join(
+        "<tr>" + "".join(f"<td>{markup(cell)}</td>" for cell in row) + "</tr>\n" for row in grid.rows
+    )
     return f'<div class="wide"><table><thead><tr>{head}</tr></thead>\n<tbody>{body}</tbody></table></div>'
 
 
 def _chart_of_costs(entries: Sequence[Entry]) -> str:
-    series: dict[str, list[tuple[float, float]]] = {}
-    for entry in entries:
-        if entry.mean is not None:
-            series.setdefault(entry.variant, []).append((float(entry.discount), float(entry.mean)))
+    known = (entry for entry in entries if entry.mean_cost is not None)
+    series = {
+        variant: [(float(entry.discount), float(entry.mean_cost or 0)) for entry in of]
+        for variant, of in grouped(known, lambda entry: entry.variant).items()
+    }
     return lines(Labels("Mean cost against discount", "discount", "mean cost"), series) if series else ""
 
 
 def _chart_of_counts(entries: Sequence[Entry]) -> str:
-    series: dict[str, list[tuple[float, float]]] = {}
-    for entry in entries:
-        if entry.variant != "individual":
-            series.setdefault(entry.variant, []).append((float(entry.discount), entry.improved))
+    helped = (entry for entry in entries if entry.variant != "individual")
+    series = {
+        variant: [(float(entry.discount), entry.improved) for entry in of]
+        for variant, of in grouped(helped, lambda entry: entry.variant).items()
+    }
     return lines(Labels("Opportunities against discount", "discount", "tasks"), series) if series else ""
 
 

@@ -69,22 +69,7 @@ class Row:
 
     def cells(self) -> tuple[str, ...]:
         """The texts of ``COLUMNS``; empty where there is no value."""
-        start, end = ("", "") if self.window is None else (str(self.window.start), str(self.window.end))
-        costs = (_text(self.cost), _text(self.human_cost))
-        return (
-            self.test,
-            self.mode,
-            str(float(self.discount)).removesuffix(".0"),
-            *costs,
-            start,
-            end,
-            f"{self.seconds:.6f}",
-            self.status,
-            str(self.opportunity),
-            _text(self.best_tie),
-            _text(self.worst_tie),
-            self.reason or "",
-        )
+        return tuple(_cell(name, value) for name, value in self.to_dict().items())
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object, in the order of ``COLUMNS``."""
@@ -107,9 +92,7 @@ class Row:
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> "Row":
         """The row that :meth:`to_dict` wrote."""
-        window = None
-        if data["window_start"] is not None:
-            window = Window(data["window_start"], data["window_end"])
+        start = data["window_start"]
         return cls(
             test=data["test"],
             mode=data["mode"],
@@ -118,7 +101,7 @@ class Row:
             cost=exact_cost(data["cost"]),
             human_cost=exact_cost(data["human_cost"]),
             opportunity=data["opportunity"],
-            window=window,
+            window=None if start is None else Window(start, data["window_end"]),
             seconds=data["seconds"],
             best_tie=exact_cost(data["best_tie"]),
             worst_tie=exact_cost(data["worst_tie"]),
@@ -131,5 +114,10 @@ def exact_cost(value: float | None) -> Fraction | None:
     return None if value is None else as_written(value)
 
 
-def _text(value: Fraction | None) -> str:
-    return "" if value is None else str(float(value))
+def _cell(name: str, value: str | float | None) -> str:
+    if value is None:
+        return ""
+    if not isinstance(value, float):
+        return str(value)
+    text = f"{value:.6f}" if name == "seconds" else str(float(value))
+    return text.removesuffix(".0") if name == "discount" else text

@@ -1,8 +1,9 @@
 """Means and counts by discount (Table I), times by mode (Table II), the paper's examples."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
+from itertools import product
 from statistics import fmean, median
 from typing import Any, Final
 
@@ -11,9 +12,11 @@ from serendipity.evaluation.reproduction.rows import Row
 from serendipity.evaluation.reproduction.run import Reproduction
 from serendipity.facade.planning import plan
 from serendipity.model import Window
+from serendipity.model.keywords import Mode
 from serendipity.scenarios.examples import example
 
 _EXAMPLES: Final = {"room5": "III-B", "room2": "III-C", "room7": "III-D"}
+_EXAMPLE_MODES: Final[tuple[Mode, ...]] = ("serendipity", "communication")
 _EXAMPLE_DISCOUNTS: Final = ("0.5", "0.6", "0.9")
 
 
@@ -24,56 +27,35 @@ class Entry:
     Attributes:
         variant: a mode, or ``serendipity, best tie`` and ``serendipity, worst tie``: over
             the human's optimal plans.
-        mean: mean cost over the tasks that have a plan, or None without any.
+        mean_cost: over the tasks that have a plan, or None without any.
         improved: number of tasks in which a robot helps.
         tasks: number of tasks that have a plan.
-        printed: mean and number in the paper, where the tasks are the paper's.
+        paper_mean_cost: in the paper, where the tasks are the paper's.
+        paper_improved: likewise.
     """
 
     discount: Fraction
     variant: str
-    mean: Fraction | None
+    mean_cost: Fraction | None
     improved: int
     tasks: int
-    printed: tuple[Fraction, int] | None
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object."""
-        return {
-            "discount": float(self.discount),
-            "variant": self.variant,
-            "mean_cost": None if self.mean is None else float(self.mean),
-            "improved": self.improved,
-            "tasks": self.tasks,
-            "paper_mean_cost": None if self.printed is None else float(self.printed[0]),
-            "paper_improved": None if self.printed is None else self.printed[1],
-        }
+    paper_mean_cost: Fraction | None = None
+    paper_improved: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Times:
-    """One row of Table II, in seconds of planning calls.
+    """One row of Table II: planning calls.
 
-    ``paper_2015`` is what the paper printed, on its machine and solver, where the tasks are the paper's.
+    ``paper_2015_seconds``: as printed, of its own machine and solver, where the tasks are the paper's.
     """
 
     mode: str
     calls: int
-    mean: float
-    median: float
-    most: float
-    paper_2015: float | None
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object."""
-        return {
-            "mode": self.mode,
-            "calls": self.calls,
-            "mean_seconds": self.mean,
-            "median_seconds": self.median,
-            "max_seconds": self.most,
-            "paper_2015_seconds": self.paper_2015,
-        }
+    mean_seconds: float
+    median_seconds: float
+    max_seconds: float
+    paper_2015_seconds: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,24 +63,37 @@ class ExampleAnswer:
     """One of the paper's examples, at one discount."""
 
     section: str
-    name: str
+    example: str
     mode: str
     discount: Fraction
     human_cost: float | None
     cost: float | None
     window: Window | None
 
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object."""
-        return {
-            "section": self.section,
-            "example": self.name,
-            "mode": self.mode,
-            "discount": float(self.discount),
-            "human_cost": self.human_cost,
-            "cost": self.cost,
-            "window": None if self.window is None else self.window.to_dict(),
-        }
+
+@dataclass(frozen=True, slots=True)
+class Tables:
+    """What a run comes to: Table I, Table II, and the paper's examples beside them."""
+
+    costs: tuple[Entry, ...]
+    times: tuple[Times, ...]
+    examples: tuple[ExampleAnswer, ...]
+
+
+def plain(line: Entry | Times | ExampleAnswer) -> dict[str, Any]:
+    """A line of a table as a JSON object."""
+    values = {each.name: getattr(line, each.name) for each in fields(line)}
+    for name, value in values.items():
+        if isinstance(value, Fraction):
+            values[name] = float(value)
+        elif isinstance(value, Window):
+            values[name] = value.to_dict()
+    return values
+
+
+def tables(run: Reproduction) -> Tables:
+    """All of them."""
+    return Tables(table_1(run), table_2(run), examples())
 
 
 def table_1(run: Reproduction) -> tuple[Entry, ...]:
@@ -109,7 +104,12 @@ def table_1(run: Reproduction) -> tuple[Entry, ...]:
         for variant, mode, cost in _variants(run.modes):
             rows = [row for row in run.rows if row.mode == mode and row.discount == discount]
             known = TABLE_1.get(variant, TABLE_1["communication"] if variant == "composite" else {})
-            entries.append(_entry(discount, variant, rows, cost, known.get(discount) if printed else None))
+            entry = _entry(discount, variant, rows, cost)
+            if printed and discount in known:
+                entry = replace(
+                    entry, paper_mean_cost=known[discount].mean, paper_improved=known[discount].improved
+                )
+            entries.append(entry)
     return tuple(entries)
 
 
@@ -128,16 +128,10 @@ def table_2(run: Reproduction) -> tuple[Times, ...]:
 def examples() -> tuple[ExampleAnswer, ...]:
     """Sections III-B, III-C and III-D of the paper, planned."""
     answers = []
-    for name, section in _EXAMPLES.items():
-        task = example(name)
-        for mode in ("serendipity", "communication"):
-            for discount in _EXAMPLE_DISCOUNTS:
-                result = plan(task, mode=mode, discount=discount)
-                answers.append(
-                    ExampleAnswer(
-                        section, name, mode, Fraction(discount), result.human_cost, result.cost, result.window
-                    )
-                )
+    for (name, section), mode, discount in product(_EXAMPLES.items(), _EXAMPLE_MODES, _EXAMPLE_DISCOUNTS):
+        found = plan(example(name), mode=mode, discount=discount)
+        told = (found.human_cost, found.cost, found.window)
+        answers.append(ExampleAnswer(section, name, mode, Fraction(discount), *told))
     return tuple(answers)
 
 
@@ -152,13 +146,11 @@ def _variants(modes: Iterable[str]) -> Iterable[tuple[str, str, _Cost]]:
             yield f"{mode}, worst tie", mode, lambda row: row.worst_tie
 
 
-def _entry(
-    discount: Fraction, variant: str, rows: list[Row], cost: _Cost, printed: tuple[Fraction, int] | None
-) -> Entry:
+def _entry(discount: Fraction, variant: str, rows: list[Row], cost: _Cost) -> Entry:
     costs = [(value, row) for row in rows if (value := cost(row)) is not None]
     mean = sum((value for value, _ in costs), Fraction(0)) / len(costs) if costs else None
     improved = sum(row.human_cost is not None and value < row.human_cost for value, row in costs)
-    return Entry(discount, variant, mean, improved, len(costs), printed)
+    return Entry(discount, variant, mean, improved, len(costs))
 
 
 def _papers_own(run: Reproduction) -> bool:

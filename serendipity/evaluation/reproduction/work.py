@@ -113,19 +113,7 @@ def _logged(error: Exception) -> str:
 
 def unknown(test: str, call: Call) -> Row:
     """The row of a call that a limit left no time for."""
-    return Row(
-        test=test,
-        mode=call.mode,
-        discount=call.discount,
-        status="unknown",
-        cost=None,
-        human_cost=None,
-        opportunity=False,
-        window=None,
-        seconds=0.0,
-        best_tie=None,
-        worst_tie=None,
-    )
+    return Row(test, call.mode, call.discount, "unknown", None, None, False, None, 0.0, None, None)
 
 
 def _row(assignment: Assignment, task: Task, call: Call) -> Row:
@@ -138,10 +126,8 @@ def _row(assignment: Assignment, task: Task, call: Call) -> Row:
         return unknown(assignment.test, call)
     except Exception as error:  # see above
         return _failed(assignment, call, _logged(error))
-    return Row(
-        test=assignment.test,
-        mode=call.mode,
-        discount=call.discount,
+    return replace(
+        unknown(assignment.test, call),
         status=result.status,
         cost=exact_cost(result.cost),
         human_cost=exact_cost(result.human_cost),

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from search import PreparedTask
 from serendipity import Task, example, load_agents, plan
-from serendipity.evaluation.benchmark import CONTENDERS, fast_downward
+from serendipity.evaluation.benchmark import fast_downward
+from serendipity.evaluation.benchmark.measure import CONTENDERS
 from serendipity.model import Options
 from serendipity.pddl.write import composite_files
 from serendipity.testing.strategies import tasks

@@ -1,6 +1,5 @@
 """What is read from Fast Downward's output, with processes that only print it."""
 
-import importlib
 import sys
 from collections.abc import Iterator
 from fractions import Fraction
@@ -10,12 +9,12 @@ import pytest
 
 from search import PreparedTask
 from serendipity import SerendipityError, example
-from serendipity.evaluation.benchmark import CONTENDERS
+from serendipity.evaluation.benchmark import fast_downward
 from serendipity.evaluation.benchmark.fast_downward import LMCUT, Found, run
+from serendipity.evaluation.benchmark.measure import CONTENDERS
 from serendipity.model import Options
 from serendipity.pddl.classical import ClassicalFiles
 
-PROCESSES = importlib.import_module("serendipity.evaluation.benchmark.fast_downward.run")
 FILES = ClassicalFiles("", "", scale=5)
 
 FOUND = """[t=0.001001s, 10696 KB] f = 100, 1 evaluated, 0 expanded
@@ -44,8 +43,8 @@ def processes(monkeypatch: pytest.MonkeyPatch) -> Iterator[Outputs]:
     ) -> tuple[int | None, str]:
         return left.pop(0)
 
-    monkeypatch.setattr(PROCESSES, "binary", lambda: Path("downward"))
-    monkeypatch.setattr(PROCESSES, "_process", process)
+    monkeypatch.setattr(fast_downward, "binary", lambda: Path("downward"))
+    monkeypatch.setattr(fast_downward, "_process", process)
     yield left
     assert not left
 
@@ -104,6 +103,6 @@ def test_a_process_is_ended_at_the_limit_and_says_what_it_knows(tmp_path: Path) 
         "print('started', flush=True)\n"
         "time.sleep(60)\n"
     )
-    code, text = PROCESSES._process([sys.executable, "-c", script], tmp_path, 1.0)
+    code, text = fast_downward._process([sys.executable, "-c", script], tmp_path, 1.0)
     assert code is None
     assert text.split("\n")[-2:] == ["so far", ""]

@@ -6,18 +6,10 @@ import pytest
 
 from search import PreparedTask
 from serendipity import UsageError, example
-from serendipity.evaluation.benchmark import (
-    CONTENDERS,
-    RATIOS_HEADER,
-    TIMES_HEADER,
-    Contender,
-    Timing,
-    contenders,
-    measure,
-    ratios,
-    times,
-)
-from serendipity.evaluation.benchmark.answer import Answer
+from serendipity.evaluation.benchmark.contenders import Contender, Outcome
+from serendipity.evaluation.benchmark.measure import CONTENDERS, Timing, measure
+from serendipity.evaluation.benchmark.report import ratios, times
+from serendipity.evaluation.measuring import figures
 from serendipity.model import Options
 from serendipity.model.errors import DisagreementError
 
@@ -30,8 +22,8 @@ class Scripted:
         self.cost = cost
         self.status = status
 
-    def __call__(self, prepared: PreparedTask, options: Options) -> Answer:
-        return Answer(self.seconds.pop(0), self.status, self.cost)
+    def __call__(self, prepared: PreparedTask, options: Options) -> Outcome:
+        return Outcome(self.status, self.cost, seconds=self.seconds.pop(0))
 
 
 def timings(monkeypatch: pytest.MonkeyPatch, **contenders: Scripted) -> list[Timing]:
@@ -91,14 +83,14 @@ def test_what_earlier_calls_leave_behind(name: str, monkeypatch: pytest.MonkeyPa
     found = []
     asked: list[tuple[PreparedTask, list[str]]] = []
 
-    def answer(prepared: PreparedTask, options: Options) -> Answer:
+    def answer(prepared: PreparedTask, options: Options) -> Outcome:
         kept = next((calls for known, calls in asked if known is prepared), None)
         if kept is None:
             kept = []
             asked.append((prepared, kept))
         kept.append(str(options.discount))
         found.append(list(kept))
-        return Answer(0.1, "optimal", 1.0)
+        return Outcome("optimal", 1.0, seconds=0.1)
 
     monkeypatch.setitem(CONTENDERS, name, replace(CONTENDERS[name], answer=answer))
     timings = list(measure([example("room2")], ["serendipity"], ["0", "0.5"], [name], repeat=2))
@@ -119,11 +111,13 @@ def timing(task: str, contender: str, seconds: float, **other: object) -> Timing
 
 
 def ratio_rows(found: list[Timing]) -> list[dict[str, str]]:
-    return [dict(zip(RATIOS_HEADER, row, strict=True)) for row in ratios(found)]
+    grid = ratios(found)
+    return [dict(zip(grid.header, row, strict=True)) for row in grid.rows]
 
 
 def time_rows(found: list[Timing]) -> list[dict[str, str]]:
-    return [dict(zip(TIMES_HEADER, row, strict=True)) for row in times(found)]
+    grid = times(found)
+    return [dict(zip(grid.header, row, strict=True)) for row in grid.rows]
 
 
 def test_ratios_are_call_by_call() -> None:
@@ -190,7 +184,7 @@ def test_outside_processes_have_rows_of_their_own() -> None:
 def test_what_a_solver_works_counts_though_it_is_a_process_of_its_own(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(contenders, "children_seconds", iter((10.0, 110.0)).__next__)
+    monkeypatch.setattr(figures, "children_seconds", iter((10.0, 110.0)).__next__)
     answer = CONTENDERS["automata"].answer(PreparedTask(example("room2")), Options(discount="0.6"))
     assert answer.cost == 12.6
     assert answer.seconds > 100

@@ -9,7 +9,7 @@ import pytest
 from serendipity.evaluation.reproduction import Reproduction, reproduce
 from serendipity.evaluation.reproduction.charts import Labels, bars, lines
 from serendipity.evaluation.reproduction.report import html_report
-from serendipity.evaluation.reproduction.tables import examples, table_1, table_2
+from serendipity.evaluation.reproduction.tables import tables
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +18,7 @@ def run(suite: Path) -> Reproduction:
 
 
 def test_the_page_needs_nothing_else(run: Reproduction) -> None:
-    page = html_report(run, table_1(run), table_2(run), examples())
+    page = html_report(run, tables(run))
     assert page.startswith("<!doctype html>")
     assert not re.search(r"<(script|link|img|iframe)|@import|url\(|(src|href)=", page)
     charts = re.findall(r"<svg.*?</svg>", page, re.S)
@@ -30,7 +30,7 @@ def test_the_page_needs_nothing_else(run: Reproduction) -> None:
 
 def test_a_page_without_opportunities(suite: Path) -> None:
     run = reproduce(suite, modes=["individual"], discounts=["0"])
-    assert "<h1>" in html_report(run, table_1(run), table_2(run), ())
+    assert "<h1>" in html_report(run, tables(run))
 
 
 def test_lines_meet_their_points() -> None:

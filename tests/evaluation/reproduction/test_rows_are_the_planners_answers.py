@@ -79,8 +79,8 @@ def test_means_and_counts_follow_the_ties(tmp_path: Path) -> None:
     worst = serendipity.plan(task, discount="0.9", ties="robust")
     for variant, answer in (("best", best), ("worst", worst)):
         entry = entries[f"serendipity, {variant} tie"]
-        assert entry.mean is not None
-        assert float(entry.mean) == answer.cost
+        assert entry.mean_cost is not None
+        assert float(entry.mean_cost) == answer.cost
         assert entry.improved == answer.opportunity
 
 

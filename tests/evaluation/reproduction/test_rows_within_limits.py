@@ -10,6 +10,7 @@ import serendipity
 from serendipity import Deadline, UsageError
 from serendipity.evaluation.reproduction import Reproduction, Row
 from serendipity.evaluation.reproduction.formats import as_json
+from serendipity.evaluation.reproduction.tables import Tables
 
 SHORT: dict[str, Any] = {"modes": ["serendipity", "individual"], "discounts": ["0.6"]}
 
@@ -24,7 +25,7 @@ def test_rows_without_time_are_unknown(suite: Path, jobs: int) -> None:
     assert {row.status for row in run.rows} == {"unknown"}
     assert {(row.cost, row.best_tie, row.worst_tie, row.window) for row in run.rows} == {(None,) * 4}
     assert (run.unproved, run.complete) == (len(run.rows), False)
-    assert as_json(run, (), (), ())["complete"] is False
+    assert as_json(run, Tables((), (), ()))["complete"] is False
 
 
 def test_rows_without_memory_are_unknown(suite: Path) -> None:

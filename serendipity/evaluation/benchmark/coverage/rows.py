@@ -1,25 +1,42 @@
 """Each contender on each call of a suite, one after another."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import subprocess
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Final, TypeVar
+from fractions import Fraction
+from functools import partial
+from typing import Final
 
-from serendipity.evaluation.benchmark.coverage.contenders import (
-    CLASSICAL,
-    CONTENDERS,
-    MODES,
-    Call,
-    Outcome,
-    can_alone,
-)
-from serendipity.evaluation.benchmark.coverage.suite import Problem, Roles, roles
-from serendipity.model.errors import UsageError, told
+from serendipity.evaluation.benchmark import contenders as every
+from serendipity.evaluation.benchmark import fast_downward
+from serendipity.evaluation.benchmark.child import in_child
+from serendipity.evaluation.benchmark.contenders import Contender, Outcome, chosen
+from serendipity.evaluation.measuring.suites import Problem, Roles, roles
+from serendipity.model.errors import SerendipityError, told
 from serendipity.model.numbers import Number, exact
+from serendipity.pddl.classical import lifted_files
 
-T = TypeVar("T")
+MODES: Final = {name: options for name, options in every.MODES.items() if name != "composite"}
+
+CLASSICAL: Final = ("individual", "composite-inf")
+"""Modes that planners for a single agent know; they need no plan of the human alone either."""
 
 _SHORT: Final = 5.0
 """Seconds for each look whether an agent can do it alone."""
+
+_START: Final = 10.0
+"""Seconds for what no limit covers: starting, and leaving."""
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """What is asked: a problem, who is who, a mode in :data:`MODES`, and seconds for an answer."""
+
+    problem: Problem
+    roles: Roles
+    mode: str
+    discount: Fraction
+    time_limit: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +68,76 @@ class Row:
     @property
     def decided(self) -> bool:
         """Whether it is proved."""
-        return self.outcome.status in ("optimal", "infeasible")
+        return self.outcome.proved
+
+
+def _search(call: Call) -> Outcome:
+    most = 2 * call.time_limit + _START
+    try:
+        said = in_child(
+            "suite",
+            most=most,
+            domain=str(call.problem.domain_file),
+            problem=str(call.problem.problem_file),
+            human=call.roles.human,
+            robots=call.roles.robots,
+            options={**MODES[call.mode], "discount": str(call.discount)},
+            time_limit=call.time_limit,
+        )
+    except subprocess.TimeoutExpired:
+        return Outcome("failed", seconds=most, reason=f"ended after {most:g} s")
+    except SerendipityError as error:
+        return Outcome("failed", reason=str(error))
+    return Outcome(**said)
+
+
+def _fast_downward(search: str, call: Call) -> Outcome:
+    shares = {call.roles.human: Fraction(1)}
+    if call.mode != "individual":
+        shares |= dict.fromkeys(call.roles.robots, 1 - call.discount)
+    try:
+        files = lifted_files(call.problem.unit(), shares)
+        found = fast_downward.run(files, search, call.time_limit)
+    except SerendipityError as error:
+        return Outcome("failed", reason=str(error))
+    return Outcome(
+        status=found.status,
+        cost=None if found.cost is None else float(found.cost),
+        lower_bound=None if found.lower_bound is None else float(found.lower_bound),
+        expanded=found.expanded,
+        seconds=found.seconds,
+        plan_seconds=None if found.cost is None else found.seconds,
+        read_seconds=found.translate_seconds,
+        process_seconds=found.process_seconds,
+        memory=found.memory,
+    )
+
+
+def _classical(search: str) -> Contender:
+    return Contender(partial(_fast_downward, search), CLASSICAL, fast_downward.absent)
+
+
+CONTENDERS: Final[dict[str, Contender]] = {
+    "search": Contender(_search),
+    "fast-downward": _classical(fast_downward.LMCUT),
+    "fast-downward-ipdb": _classical(fast_downward.IPDB),
+}
+"""Our search, and Fast Downward with two heuristics."""
+
+
+def can_alone(problem: Problem, who: Roles, time_limit: float) -> bool:
+    """Whether the human is found to have a plan alone: by the search, else by Fast Downward.
+
+    Args:
+        problem: the problem.
+        who: who it is about.
+        time_limit: seconds for each of them.
+    """
+    call = Call(problem, who, "individual", Fraction(0), time_limit)
+    found = _search(call).status
+    if found in ("unknown", "failed") and fast_downward.absent() is None:
+        found = _fast_downward(fast_downward.ANY_PLAN, call).status
+    return found in ("optimal", "feasible")
 
 
 def measure(
@@ -80,8 +166,8 @@ def measure(
     Raises:
         UsageError: a mode, a contender or the discount is unknown.
     """
-    asked = [name for name in modes if _known(name, MODES, "modes")]
-    chosen = {name: _known(name, CONTENDERS, "contenders") for name in contenders}
+    asked = [*chosen(modes, MODES, "modes", " for a suite of domains")]
+    who_answers = chosen(contenders, CONTENDERS, "contenders", " for a suite of domains")
     share = exact(discount, "discount")
     short = min(_SHORT, time_limit)
     for problem in problems:
@@ -89,21 +175,15 @@ def measure(
             who = roles(problem, robots, lambda problem, who: can_alone(problem, who, short))
         except Exception as error:  # one broken task does not end a suite
             broken = Call(problem, Roles("", ()), asked[0], share, time_limit)
-            yield from (_row(broken, name, Outcome("error", reason=told(error))) for name in chosen)
+            yield from (_row(broken, name, Outcome("error", reason=told(error))) for name in who_answers)
             continue
         calls = [
             Call(problem, who, mode, share, time_limit) for mode in asked if who.alone or mode in CLASSICAL
         ]
         for call in calls:
-            for name, contender in chosen.items():
+            for name, contender in who_answers.items():
                 if call.mode in contender.modes:
                     yield _row(call, name, contender.answer(call))
-
-
-def _known(name: str, known: Mapping[str, T], what: str) -> T:
-    if name not in known:
-        raise UsageError(f"{what}: expected some of {', '.join(known)} for a suite of domains, got '{name}'")
-    return known[name]
 
 
 def _row(call: Call, contender: str, outcome: Outcome) -> Row:
@@ -118,29 +198,3 @@ def _row(call: Call, contender: str, outcome: Outcome) -> Row:
         contender=contender,
         outcome=outcome,
     )
-
-
-def disagreements(rows: Sequence[Row]) -> list[str]:
-    """Calls of which contenders have proved what can't all be true, in words."""
-    calls: dict[tuple[str, str, str], list[Row]] = {}
-    for row in rows:
-        calls.setdefault((row.domain, row.task, row.mode), []).append(row)
-    return [
-        f"{domain} {task}, {mode}: {told}"
-        for (domain, task, mode), of in calls.items()
-        if (told := _told(of))
-    ]
-
-
-def _told(rows: Sequence[Row]) -> str:
-    proved = {row.contender: row.outcome.cost for row in rows if row.decided}
-    if len(set(proved.values())) > 1:
-        told = (f"{name} {'no plan' if cost is None else cost}" for name, cost in proved.items())
-        return f"the proved optima differ: {', '.join(told)}"
-    costs = [(row.outcome.cost, row.contender) for row in rows if row.outcome.cost is not None]
-    bounds = [(row.outcome.lower_bound, row.contender) for row in rows if row.outcome.lower_bound is not None]
-    if len({name for _, name in (*costs, *bounds)}) > 1 and costs and bounds:
-        (cost, who), (bound, other) = min(costs), max(bounds)
-        if cost < bound:
-            return f"a plan of {who} costs {cost}, and {other} says at least {bound}"
-    return ""

@@ -6,7 +6,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any, Final
 
-from serendipity.evaluation.benchmark.coverage.contenders import Outcome
+from serendipity.evaluation.benchmark.contenders import Outcome
 from serendipity.evaluation.benchmark.coverage.rows import Row
 from serendipity.model.errors import InputError
 from serendipity.model.table import Table, columns_of

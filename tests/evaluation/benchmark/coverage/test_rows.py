@@ -6,8 +6,12 @@ from pathlib import Path
 import pytest
 
 from serendipity import InputError, UsageError, example, plan
-from serendipity.evaluation.benchmark import coverage, fast_downward
-from serendipity.evaluation.benchmark.coverage import CONTENDERS, MODES, Contender, Outcome, Row, measure
+from serendipity.evaluation.benchmark import fast_downward
+from serendipity.evaluation.benchmark.contenders import Contender, Outcome
+from serendipity.evaluation.benchmark.coverage import report, table
+from serendipity.evaluation.benchmark.coverage.rows import CONTENDERS, MODES, Call, Row, measure
+from serendipity.evaluation.measuring.suites import Roles, problems
+from serendipity.model.telling import Grid
 from serendipity.writing.rows import written
 
 
@@ -30,14 +34,13 @@ def row(
     )
 
 
-def cells(table: coverage.Table, first: str) -> dict[str, str]:
+def cells(grid: Grid, first: str) -> dict[str, str]:
     """A row of a table by its headings."""
-    header, lines = table
-    return next(dict(zip(header, line, strict=True)) for line in lines if line[0] == first)
+    return next(dict(zip(grid.header, row, strict=True)) for row in grid.rows if row[0] == first)
 
 
 def test_the_search_answers_each_mode_as_plan_does(suite: Path) -> None:
-    rows = list(measure(coverage.problems(suite, ["flights"]), MODES, ["search"], time_limit=20))
+    rows = list(measure(problems(suite, ["flights"]), MODES, ["search"], time_limit=20))
     assert [row.mode for row in rows] == list(MODES)
     for row in rows:
         result = plan(example("flights"), discount="0.9", **MODES[row.mode])
@@ -53,13 +56,13 @@ def test_where_nobody_can_alone_only_what_needs_no_plan_is_asked(
 ) -> None:
     monkeypatch.setitem(CONTENDERS, "nobody", Contender(lambda _: Outcome("unknown")))
     monkeypatch.setattr("serendipity.evaluation.benchmark.coverage.rows.can_alone", lambda *_: False)
-    rows = measure(coverage.problems(suite, ["flights"]), MODES, ["nobody"])
+    rows = measure(problems(suite, ["flights"]), MODES, ["nobody"])
     assert [row.mode for row in rows] == ["individual", "composite-inf"]
 
 
 def test_a_call_that_fails_does_not_end_the_run(suite: Path) -> None:
-    problem = replace(coverage.problems(suite)[0], problem_file=Path("nowhere.pddl"))
-    call = coverage.Call(problem, coverage.Roles("ada", ("kite",)), "individual", 0, 5)  # type: ignore[arg-type]
+    problem = replace(problems(suite)[0], problem_file=Path("nowhere.pddl"))
+    call = Call(problem, Roles("ada", ("kite",)), "individual", 0, 5)  # type: ignore[arg-type]
     outcome = CONTENDERS["search"].answer(call)
     assert outcome.status == "failed"
     assert "nowhere.pddl: there is no such file" in outcome.reason
@@ -67,26 +70,26 @@ def test_a_call_that_fails_does_not_end_the_run(suite: Path) -> None:
 
 @pytest.mark.skipif(fast_downward.absent() is not None, reason=fast_downward.absent() or "")
 def test_all_contenders_prove_the_same(suite: Path) -> None:
-    rows = list(measure(coverage.problems(suite), ["individual", "composite-inf"], CONTENDERS))
+    rows = list(measure(problems(suite), ["individual", "composite-inf"], CONTENDERS))
     assert len(rows) == 3 * 2 * 3
     assert all(row.decided for row in rows)
-    assert coverage.disagreements(rows) == []
+    assert report.disagreements(rows) == []
 
 
 def test_what_can_not_all_be_true_is_told() -> None:
-    (told,) = coverage.disagreements([row("t"), row("t", "other", cost=2.0), row("u"), row("u", "other")])
+    (told,) = report.disagreements([row("t"), row("t", "other", cost=2.0), row("u"), row("u", "other")])
     assert told == "d t, composite-inf: the proved optima differ: search 1.0, other 2.0"
-    (told,) = coverage.disagreements([row("t"), row("t", "other", "infeasible", None)])
+    (told,) = report.disagreements([row("t"), row("t", "other", "infeasible", None)])
     assert told.endswith("search 1.0, other no plan")
-    (told,) = coverage.disagreements([row("t"), row("t", "other", "unknown", None, lower_bound=1.5)])
+    (told,) = report.disagreements([row("t"), row("t", "other", "unknown", None, lower_bound=1.5)])
     assert told.endswith("a plan of search costs 1.0, and other says at least 1.5")
-    assert coverage.disagreements([row("t"), row("t", "other", "feasible", 3.0, lower_bound=0.5)]) == []
+    assert report.disagreements([row("t"), row("t", "other", "feasible", 3.0, lower_bound=0.5)]) == []
 
 
 def test_unknown_names_are_refused(suite: Path) -> None:
     for modes, contenders in ((["composite"], ["search"]), (["individual"], ["automata"])):
         with pytest.raises(UsageError, match="for a suite of domains"):
-            next(measure(coverage.problems(suite), modes, contenders))
+            next(measure(problems(suite), modes, contenders))
 
 
 ROWS = [
@@ -101,38 +104,38 @@ ROWS = [
 
 
 def test_decided_calls_are_counted_by_domain() -> None:
-    table = coverage.decided(ROWS)
-    assert cells(table, "d") == {"domain": "d", "tasks": "3", "human's plan": "3", "composite-inf": "2 / 2"}
-    assert cells(table, "all")["tasks"] == "4"
+    grid = report.decided(ROWS)
+    assert cells(grid, "d") == {"domain": "d", "tasks": "3", "human's plan": "3", "composite-inf": "2 / 2"}
+    assert cells(grid, "all")["tasks"] == "4"
 
 
 def test_expansions_are_compared_where_both_have_decided() -> None:
-    assert cells(coverage.expansions(ROWS), "d")["composite-inf: search : other"] == "10 : 4 (1)"
-    assert cells(coverage.expansions(ROWS), "e")["composite-inf: search : other"] == "-"
+    assert cells(report.expansions(ROWS), "d")["composite-inf: search : other"] == "10 : 4 (1)"
+    assert cells(report.expansions(ROWS), "e")["composite-inf: search : other"] == "-"
 
 
 def test_a_call_without_a_proof_takes_longer_than_any_other() -> None:
-    assert cells(coverage.seconds(ROWS), "d")["composite-inf"] == "3 / 0.5"
-    assert cells(coverage.seconds(ROWS[1:3]), "d")["composite-inf"] == "-"
+    assert cells(report.seconds(ROWS), "d")["composite-inf"] == "3 / 0.5"
+    assert cells(report.seconds(ROWS[1:3]), "d")["composite-inf"] == "-"
 
 
 def test_coverage_grows_with_time() -> None:
-    header, lines = coverage.over_time(ROWS)
-    assert header[3:] == ("", "0.1 s", "1 s", "2 s", "5 s", "20 s", "most MiB")
-    assert lines[0] == ("composite-inf", "search", "4", "decided", "1", "1", "1", "2", "2", "40")
-    assert lines[1][3:] == ("a plan", "1", "2", "3", "3", "3", "")
+    grid = report.over_time(ROWS)
+    assert grid.header[3:] == ("", "0.1 s", "1 s", "2 s", "5 s", "20 s", "most MiB")
+    assert grid.rows[0] == ("composite-inf", "search", "4", "decided", "1", "1", "1", "2", "2", "40")
+    assert grid.rows[1][3:] == ("a plan", "1", "2", "3", "3", "3", "")
 
 
 def test_failures_are_told_with_their_reason() -> None:
-    assert coverage.failures(ROWS) == ["search fails on e a, composite-inf: no such thing"]
+    assert report.failures(ROWS) == ["search fails on e a, composite-inf: no such thing"]
 
 
 def test_rows_are_read_as_they_were_written(tmp_path: Path) -> None:
     file = tmp_path / "rows.csv"
-    text = written(coverage.as_table(ROWS), "csv")
+    text = written(table.as_table(ROWS), "csv")
     file.write_text(text + text)
-    assert coverage.read_rows(file) == ROWS + ROWS
+    assert table.read_rows(file) == ROWS + ROWS
     for wrong in ("a,b\n", text.replace("0.05", "soon"), "", text.splitlines()[0], "a" * 200_000):
         file.write_text(wrong)
         with pytest.raises(InputError, match=r"expected (a row|rows) that"):
-            coverage.read_rows(file)
+            table.read_rows(file)

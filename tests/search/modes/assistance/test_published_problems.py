@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from benchmarks.assistance import domain_of, number, problems
+from benchmarks.problems import silent, silent_task
 from search import PreparedTask
 from search.modes.assistance import joint_optimum
 from serendipity import Task
@@ -19,12 +19,8 @@ PROBLEMS = [
 
 
 def load(folder: Path, problem: int) -> Task:
-    prime, supporter = next(
-        (p, s) for _, p, s in problems(folder.parent) if p.parent == folder and number(p) == problem
-    )
-    return serendipity.load_agents(
-        {"prime": (domain_of(prime), prime), "supporter": (domain_of(supporter), supporter)}, human="prime"
-    )
+    files = {name: pair for name, *pair in silent(folder.parent)}
+    return silent_task(*files[f"{folder.name}/{problem}"])
 
 
 def proved(task: Task, ties: str) -> Costs:

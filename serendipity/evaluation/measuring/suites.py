@@ -1,11 +1,16 @@
-"""Suites of MA-PDDL as competitions give them: a folder a domain, with ``domain.pddl`` and problem files."""
+"""Suites of tasks: a folder a task; or, in MA-PDDL as competitions give them, a folder a domain.
+
+A domain's folder has ``domain.pddl`` and problem files.
+"""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final
 
+from serendipity.facade.loading import load_pddl
 from serendipity.model.errors import InputError, UsageError
+from serendipity.model.task.task import Task
 from serendipity.pddl.parsing.files import read_unit
 from serendipity.pddl.parsing.lifted import Unit
 from serendipity.pddl.work import Work
@@ -30,6 +35,10 @@ class Problem:
         """
         return read_unit(None, self.domain_file, self.problem_file, Work())
 
+    def task(self, who: "Roles") -> Task:
+        """The problem as a task; errors as of :func:`serendipity.load_pddl`."""
+        return load_pddl(self.domain_file, self.problem_file, who.human, who.robots)
+
 
 @dataclass(frozen=True, slots=True)
 class Roles:
@@ -44,6 +53,12 @@ class Roles:
     human: str
     robots: tuple[str, ...]
     alone: bool = False
+
+
+def folders(suite: Path, stride: int = 1, limit: int | None = None) -> list[Path]:
+    """The folders in a suite, ``test2`` before ``test10``: every ``stride``-th, ``limit`` at most."""
+    found = (path for path in suite.iterdir() if path.is_dir())
+    return sorted(found, key=lambda path: (len(path.name), path.name))[::stride][:limit]
 
 
 def is_suite(folder: Path) -> bool:
@@ -102,3 +117,14 @@ def roles(problem: Problem, robots: int, can_alone: Callable[[Problem, Roles], b
     choices = [Roles(human, tuple(a for a in agents if a != human)[:robots]) for human in agents]
     able = next((choice for choice in choices if can_alone(problem, choice)), None)
     return choices[0] if able is None else replace(able, alone=True)
+
+
+def may_alone(problem: Problem, who: Roles) -> bool:
+    """Whether the human alone may reach the goal, if nothing is ever deleted."""
+    task = problem.task(who)
+    known = set(task.init)
+    waiting = [task.actions[i] for i in task.human_actions]
+    while ready := [action for action in waiting if known.issuperset(action.pre)]:
+        waiting = [action for action in waiting if not known.issuperset(action.pre)]
+        known.update(*(action.add for action in ready))
+    return known.issuperset(task.goal.positive)

@@ -1,8 +1,8 @@
-"""Exponents: exact on powers, None where there is nothing to fit."""
+"""Exponents are exact on powers, and None where there is nothing to fit; memory grows with what is held."""
 
 import pytest
 
-from serendipity.evaluation.benchmark.fit import power_law
+from serendipity.evaluation.measuring.figures import peak_memory, percentile, power_law
 
 
 def test_a_power_is_found_exactly() -> None:
@@ -11,7 +11,6 @@ def test_a_power_is_found_exactly() -> None:
     assert fit.exponent == pytest.approx(1.5)
     assert fit.factor == pytest.approx(3)
     assert fit.error == pytest.approx(0, abs=1e-6)
-    assert fit.explained == pytest.approx(1)
     assert fit.at(4) == pytest.approx(24)
 
 
@@ -21,9 +20,20 @@ def test_scatter_shows_in_the_error() -> None:
     assert fit is not None
     assert fit.exponent == pytest.approx(0)
     assert fit.error == pytest.approx(3**0.5)
-    assert fit.explained == pytest.approx(0)
 
 
 @pytest.mark.parametrize("points", [[], [(1, 1), (2, 2)], [(3, 1), (3, 2), (3, 4)]])
 def test_too_little_to_fit(points: list[tuple[float, float]]) -> None:
     assert power_law(points) is None
+
+
+def test_peak_memory_grows_with_what_is_held() -> None:
+    before = peak_memory()
+    held = b"x" * int((before + 32) * 2**20)  # more than there ever was
+    assert peak_memory() > before + 16
+    del held
+
+
+def test_percentiles_are_values_that_are_there() -> None:
+    assert [percentile([3, 1, 2], share) for share in (0, 0.5, 0.95, 1)] == [1, 2, 3, 3]
+    assert percentile(range(1, 101), 0.95) == 96

@@ -1,4 +1,8 @@
-"""One problem, translated and searched."""
+"""Fast Downward, a planner for a single agent, as processes: translator and search.
+
+It is never imported, for it is under the GPL.  Both come with the optional extra ``bench``: the
+translator from ``fast-downward.translate``, the search's binary from the wheel ``up-fast-downward``.
+"""
 
 import re
 import subprocess
@@ -7,11 +11,12 @@ import tempfile
 import time
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Final
 
-from serendipity.evaluation.benchmark.fast_downward.installed import binary
-from serendipity.evaluation.benchmark.usage import children_seconds
+from serendipity.evaluation.measuring.figures import children_seconds
 from serendipity.model.errors import SerendipityError
 from serendipity.pddl.classical import ClassicalFiles
 
@@ -30,6 +35,32 @@ _UNSOLVABLE: Final = {"the translator": 10, "the search": 11}
 
 _LEAVING: Final = 5.0
 """Seconds for saying what it knows, once it has to end."""
+
+
+def absent() -> str | None:
+    """Why it can't be run, or None."""
+    parts = {"fast-downward.translate": _has_translator(), "up-fast-downward": binary()}
+    missing = " and no ".join(name for name, found in parts.items() if not found)
+    hint = "here: pip install serendipity-planner[bench]"
+    return f"fast-downward is left out: no {missing} {hint}" if missing else None
+
+
+@cache
+def binary() -> Path | None:
+    """The search's program."""
+    places = (Path(place, "downward/builds/release/bin/downward") for place in _places("up_fast_downward"))
+    return next(filter(Path.is_file, places), None)
+
+
+@cache
+def _has_translator() -> bool:
+    return any(Path(place, "translate", "__main__.py").is_file() for place in _places("fast_downward"))
+
+
+def _places(package: str) -> list[str]:
+    """The folders of a package, which is not imported."""
+    found = find_spec(package)
+    return [] if found is None else list(found.submodule_search_locations or ())
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,9 +5,16 @@ from pathlib import Path
 import pytest
 
 from serendipity import InputError, UsageError, generate_usar
-from serendipity.evaluation.benchmark.coverage import Problem, is_suite, problems
-from serendipity.evaluation.benchmark.coverage.contenders import can_alone
-from serendipity.evaluation.benchmark.coverage.suite import Roles, roles
+from serendipity.evaluation.benchmark.coverage.rows import can_alone
+from serendipity.evaluation.measuring.suites import (
+    Problem,
+    Roles,
+    folders,
+    is_suite,
+    may_alone,
+    problems,
+    roles,
+)
 from tests.pddl.texts import domain, pair, problem
 
 GO = "(:action go :agent ?who - agent :parameters (?x - thing) :precondition (a ?x) :effect (b ?x))"
@@ -56,3 +63,13 @@ def test_who_can_alone_is_found_out(suite: Path) -> None:
     parcels = problems(suite, ["parcels"])[-1]
     assert can_alone(parcels, Roles("dora", ("rolo",)), 5)
     assert not can_alone(parcels, Roles("rolo", ("dora",)), 5), "the market is closed to carts"
+    assert may_alone(parcels, Roles("dora", ("rolo",)))
+    assert not may_alone(parcels, Roles("rolo", ("dora",)))
+
+
+def test_folders_stand_in_the_order_of_their_numbers(tmp_path: Path) -> None:
+    for number in (10, 9, 1, 2):
+        (tmp_path / f"test{number}").mkdir()
+    (tmp_path / "notes").touch()
+    assert [path.name for path in folders(tmp_path)] == ["test1", "test2", "test9", "test10"]
+    assert [path.name for path in folders(tmp_path, stride=3, limit=1)] == ["test1"]

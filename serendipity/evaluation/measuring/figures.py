@@ -1,0 +1,112 @@
+"""Figures: processor time, memory, the machine; percentiles, and powers that describe how a time grows."""
+
+import math
+import os
+import platform
+import resource
+import statistics
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final, TypeVar
+
+from search.kernel.library import library
+from serendipity.model.resources.collection import no_collection
+
+T = TypeVar("T")
+
+_STATUS: Final = Path("/proc/self/status")
+_CPU_INFO: Final = Path("/proc/cpuinfo")
+
+
+def processor_seconds() -> float:
+    """Processor time of this process so far, and of its children that have ended: solvers are such."""
+    return time.process_time() + children_seconds()
+
+
+def children_seconds() -> float:
+    """Processor time of all children that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def timed(work: Callable[[], T]) -> tuple[T, float]:
+    """What work gives, and its processor seconds; without garbage collection, as `plan` does."""
+    with no_collection():
+        start = processor_seconds()
+        done = work()
+        return done, processor_seconds() - start
+
+
+def peak_memory() -> float:
+    """The most memory that this process ever had, in MiB.
+
+    Linux counts for ``getrusage`` what the process that started this one had at that
+    moment; its own peak is in ``/proc``.
+    """
+    found = _line_of(_STATUS, "VmHWM:")
+    kibibytes = int(found.split()[0]) if found else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return kibibytes / 1024
+
+
+def machine() -> str:
+    """What figures are measured on."""
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    processor = _line_of(_CPU_INFO, "model name").lstrip("\t: ") or platform.machine()
+    return (
+        f"{platform.system()} on {processor}, {os.cpu_count()} cores, {memory:.0f} GiB, "
+        f"Python {platform.python_version()}, {'compiled' if library() else 'no compiled'} kernel"
+    )
+
+
+def _line_of(file: Path, name: str) -> str:
+    """The rest of the first line that begins so; empty without one."""
+    lines = file.read_text().splitlines() if file.exists() else []
+    return next((line.removeprefix(name).strip() for line in lines if line.startswith(name)), "")
+
+
+def percentile(values: Sequence[float], share: float) -> float:
+    """The value below which a share of them lies."""
+    ordered = sorted(values)
+    return ordered[min(len(ordered) - 1, int(len(ordered) * share))]
+
+
+def milliseconds(seconds: Sequence[float]) -> str:
+    """Median, 95th percentile and the longest, for a table; empty without any."""
+    return (
+        " / ".join(f"{1000 * percentile(seconds, share):.3g}" for share in (0.5, 0.95, 1.0))
+        if seconds
+        else ""
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class PowerLaw:
+    """``y = factor * x ** exponent``; ``error`` is the exponent's standard error."""
+
+    exponent: float
+    factor: float
+    error: float
+
+    def at(self, x: float) -> float:
+        """The value at ``x``."""
+        return float(self.factor * x**self.exponent)
+
+
+def power_law(points: Sequence[tuple[float, float]]) -> PowerLaw | None:
+    """The power law of least squared distance between logarithms.
+
+    Args:
+        points: positive ``(x, y)``.
+
+    Returns:
+        None for fewer than three points, or a single x.
+    """
+    xs, ys = [math.log(x) for x, _ in points], [math.log(y) for _, y in points]
+    if len(points) < 3 or len(set(xs)) < 2:
+        return None
+    slope, start = statistics.linear_regression(xs, ys)
+    left = math.fsum((y - start - slope * x) ** 2 for x, y in zip(xs, ys, strict=True))
+    spread = statistics.pvariance(xs) * len(xs)
+    return PowerLaw(slope, math.exp(start), math.sqrt(left / (len(xs) - 2) / spread))

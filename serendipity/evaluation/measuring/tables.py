@@ -1,0 +1,56 @@
+"""Rows as tables: grouped, a cell for each group and column; as Markdown."""
+
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from typing import TypeVar
+
+from serendipity.evaluation.measuring.figures import percentile
+from serendipity.model.telling import Grid, Line
+
+K = TypeVar("K", bound=Hashable)
+N = TypeVar("N", bound=tuple[str, ...])
+R = TypeVar("R")
+
+
+def grouped(rows: Iterable[R], key: Callable[[R], K]) -> dict[K, list[R]]:
+    """Rows by their key, in the order in which keys are first met."""
+    groups: dict[K, list[R]] = {}
+    for row in rows:
+        groups.setdefault(key(row), []).append(row)
+    return groups
+
+
+def table(
+    names: Sequence[str],
+    groups: Mapping[N, Sequence[R]],
+    columns: Mapping[str, Callable[[Sequence[R]], object]],
+) -> Grid:
+    """A row for each group: what names it, and a cell for each column.
+
+    Args:
+        names: headings of what names a group.
+        groups: the rows of each.
+        columns: by heading what a group comes to.
+    """
+    lines = [[*key, *(str(cell(of)) for cell in columns.values())] for key, of in groups.items()]
+    return Grid([*names, *columns], lines)
+
+
+def spreads(rows: Sequence[R], figures: Mapping[str, Callable[[R], float]], digits: int = 3) -> Grid:
+    """For each figure the median over the rows, the 95th percentile and the greatest."""
+    lines = []
+    for name, figure in figures.items() if rows else ():
+        found = [figure(row) for row in rows]
+        lines.append([name, *(f"{percentile(found, share):,.{digits}f}" for share in (0.5, 0.95, 1.0))])
+    return Grid(["", "median", "95 %", "most"], lines)
+
+
+def as_markdown(parts: Iterable[Line | Grid]) -> str:
+    """Lines as paragraphs, grids as tables."""
+    blocks = []
+    for part in (each.printable() for each in parts):
+        if isinstance(part, Line):
+            blocks.append(part.text)
+        else:
+            rows = [part.header, ["---"] * len(part.header), *part.rows]
+            blocks.append("\n".join(f"| {' | '.join(row)} |" for row in rows))
+    return "\n\n".join(filter(None, blocks)) + "\n"

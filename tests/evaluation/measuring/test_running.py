@@ -1,0 +1,56 @@
+"""What stands in a record is not done again, and a line that a kill has cut off is done anew."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from serendipity.evaluation.measuring.record import Record
+from serendipity.evaluation.measuring.running import measured
+from serendipity.evaluation.measuring.tables import as_markdown, grouped, spreads, table
+from serendipity.model.errors import InputError
+
+
+def squares(seen: list[int]) -> Callable[[int], int]:
+    def work(job: int) -> int:
+        seen.append(job)
+        return job * job
+
+    return work
+
+
+def test_a_record_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
+    file, seen = tmp_path / "record.jsonl", list[int]()
+    assert dict(measured(range(3), squares(seen), Record(file))) == {0: 0, 1: 1, 2: 4}
+    file.write_bytes(file.read_bytes()[:-4])  # the line of job 2 is cut off
+    assert dict(measured(range(4), squares(seen), Record(file))) == {0: 0, 1: 1, 2: 4, 3: 9}
+    assert seen == [0, 1, 2, 2, 3]
+
+
+def test_only_what_is_there(tmp_path: Path) -> None:
+    file, seen = tmp_path / "record.jsonl", list[int]()
+    list(measured([1], squares(seen), Record(file)))
+    assert list(measured([0, 1], squares(seen), Record(file), begin=False)) == [(1, 1)]
+    assert seen == [1]
+
+
+def test_processes_do_the_same(tmp_path: Path) -> None:
+    record = Record(tmp_path / "record.jsonl")
+    assert sorted(measured([-1, 2, -3], abs, record, processes=2)) == [(-3, 3), (-1, 1), (2, 2)]
+    assert {job: record[repr(job)] for job in (-1, 2, -3)} == {-1: 1, 2: 2, -3: 3}
+
+
+def test_another_file_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "record.jsonl"
+    file.write_text("seconds,answer\n1,2\n")
+    with pytest.raises(InputError, match="a record of what was measured"):
+        Record(file)
+
+
+def test_tables() -> None:
+    rows = [("a", 1), ("b", 2), ("a", 3)]
+    grid = table(("name",), grouped(rows, lambda row: row[:1]), {"sum": lambda of: sum(n for _, n in of)})
+    assert grid.rows == [["a", "4"], ["b", "2"]]
+    spread = spreads(rows, {"n": lambda row: row[1]}, digits=1)
+    assert spread.rows == [["n", "2.0", "3.0", "3.0"]]
+    assert as_markdown([grid]) == "| name | sum |\n| --- | --- |\n| a | 4 |\n| b | 2 |\n"
