@@ -1,6 +1,7 @@
 """What each strategy of the search is good for: calls with all of them, and without each.
 
-    python -m benchmarks.ablation -o FILE.jsonl [--limits 2 10] [--suites families buildings competition]
+    python -m benchmarks.ablation -o FILE.jsonl [--limits 2,10] [--suites families,buildings,competition]
+        [--stride N]
     python -m benchmarks.ablation -o FILE.jsonl --table
 
 Limits are seconds of processor time.  A call is asked again without each strategy that made its answer
@@ -9,24 +10,28 @@ same call.  What is in the file already is not asked again.  ``lost``: calls dec
 ``gap``: the change of the sum over all calls of log((cost + 1) / (bound + 1)) without it.
 """
 
-import argparse
-import json
 import time
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import log
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 from types import SimpleNamespace
-from typing import Any, Final
+from typing import Annotated, Any, Final, NamedTuple
+
+import typer
 
 import serendipity
 from benchmarks.families import FAMILIES
-from benchmarks.problems import PROBLEMS
+from benchmarks.problems import PROBLEMS, can_alone
 from search.strategies.portfolio import STRATEGIES, TURNS
 from serendipity import SerendipityError, Task
-from serendipity.evaluation.benchmark.coverage.suite import Problem, Roles, problems, roles
+from serendipity.evaluation.measuring.record import Lines
+from serendipity.evaluation.measuring.suites import problems, roles
+from serendipity.evaluation.measuring.tables import as_markdown, table
 from serendipity.model.resources import deadline
+from serendipity.model.telling import Line
 from serendipity.scenarios.generate import generate_usar
 
 CALLS: dict[str, dict[str, Any]] = {
@@ -44,53 +49,51 @@ _TAKES: Final = 0.05
 _NEEDED: Final = ("optimal-plan", "bound", "all")
 """Without these nothing is planned, or nothing proved."""
 
+Row = Mapping[str, Any]
+Rows = dict[tuple[Any, ...], Row]
+"""Calls by family, name, call, limit, and what they do without."""
 
-def main() -> None:
-    """Ask what is not asked yet, or print the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("-o", "--output", type=Path, required=True)
-    parser.add_argument("--limits", type=float, nargs="+", default=[2, 10])
-    parser.add_argument("--suites", nargs="+", default=["families", "buildings", "competition"])
-    parser.add_argument("--stride", type=int, default=1, help="every so many tasks of the competition")
-    parser.add_argument("--table", action="store_true", help="of what is in the file")
-    arguments = parser.parse_args()
-    known = _read(arguments.output)
-    if arguments.table:
-        print("\n".join(table(known)))
+
+class Pair(NamedTuple):
+    """A call with all strategies; without some, where that was asked; and what those did in the first."""
+
+    whole: Row
+    other: Row | None
+    parts: Sequence[Row]
+
+
+def main(
+    output: Annotated[Path, typer.Option("-o", "--output")],
+    limits: str = "2,10",
+    suites: str = "families,buildings,competition",
+    stride: int = 1,
+    only_print: Annotated[bool, typer.Option("--table")] = False,
+) -> None:
+    """Ask what is not asked yet, or print the table of what is in the file."""
+    lines = Lines(output, "a call of an ablation", (b'{"family"',))
+    known = dict(lines.read(lambda row, _: (_key(row), row)))
+    if only_print:
+        whole = {key[:-1]: row for key, row in known.items() if not key[-1]}
+        decided, gaps = sum(map(_decided, whole.values())), sum(row["gap"] for row in whole.values())
+        told = Line(f"{len(whole)} calls, {decided} decided, sum of gaps {gaps:.1f}")
+        names = dict.fromkeys(name for turn in TURNS for name in (turn.strategy, turn.name))
+        pairs = {(name,): _pairs(name, whole, known) for name in names}
+        print(as_markdown([table(("without",), pairs, _columns(gaps)), told]), end="")
         return
     deadline.time = SimpleNamespace(perf_counter=time.process_time)  # type: ignore[attr-defined]
-    with arguments.output.open("a") as out:
-        for suite in arguments.suites:
-            for family, name, task in SUITES[suite](arguments.stride):
-                for row in _ablated(family, name, task, arguments.limits, known):
-                    out.write(f"{json.dumps(row)}\n")
-                    out.flush()
+    for suite in suites.split(","):
+        for family, name, task in SUITES[suite](stride):
+            for row in _ablated(family, name, task, [*map(float, limits.split(","))], known):
+                lines.append(row)
 
 
-def _read(file: Path) -> dict[tuple[Any, ...], dict[str, Any]]:
-    lines = file.read_text().splitlines() if file.exists() else []
-    return {_key(row): row for row in map(json.loads, lines)}
-
-
-def _key(row: dict[str, Any]) -> tuple[Any, ...]:
+def _key(row: Row) -> tuple[Any, ...]:
     return row["family"], row["name"], row["call"], row["limit"], row["without"]
 
 
 def _competition(stride: int) -> Iterator[tuple[str, str, Task]]:
     for problem in problems(PROBLEMS / "codmap15", (), stride):
-        who = roles(problem, 2, _can_alone)
-        yield f"codmap {problem.domain}", problem.name, _task(problem, who)
-
-
-def _task(problem: Problem, who: Roles) -> Task:
-    return serendipity.load_pddl(problem.domain_file, problem.problem_file, who.human, who.robots)
-
-
-def _can_alone(problem: Problem, who: Roles) -> bool:
-    try:
-        return serendipity.plan(_task(problem, who), mode="individual", time_limit=3).cost is not None
-    except SerendipityError:
-        return False
+        yield f"codmap {problem.domain}", problem.name, problem.task(roles(problem, 2, can_alone))
 
 
 def _buildings(_: int) -> Iterator[tuple[str, str, Task]]:
@@ -111,9 +114,7 @@ def _families(_: int) -> Iterator[tuple[str, str, Task]]:
 SUITES = {"competition": _competition, "buildings": _buildings, "families": _families}
 
 
-def _ablated(
-    family: str, name: str, task: Task, limits: list[float], known: dict[tuple[Any, ...], dict[str, Any]]
-) -> Iterator[dict[str, Any]]:
+def _ablated(family: str, name: str, task: Task, limits: Sequence[float], known: Rows) -> Iterator[Row]:
     """Rows that are not known yet: a call with all strategies, and without each that did anything."""
     for call in CALLS:
         for limit in limits:
@@ -127,17 +128,19 @@ def _ablated(
                     yield _asked(task, where, without)
 
 
-def _worth_a_look(row: dict[str, Any]) -> list[str]:
-    tried = {}
-    for part in row["tried"]:
-        did = part["better"] or part["bound"] is not None or part["settled"]
-        if did or part["seconds"] > _TAKES * row["limit"]:
-            tried[part["name"]] = None
+def _worth_a_look(row: Row) -> list[str]:
+    long = _TAKES * row["limit"]
+    tried = {part["name"] for part in row["tried"] if _useful(part) or part["seconds"] > long}
     turns = [turn for turn in TURNS if turn.name in tried and turn.name not in _NEEDED]
     return list(dict.fromkeys([turn.name for turn in turns] + [turn.strategy for turn in turns]))
 
 
-def _asked(task: Task, where: dict[str, Any], without: str) -> dict[str, Any]:
+def _useful(part: Row) -> bool:
+    """Whether a strategy made an answer better, raised its bound, or settled it."""
+    return bool(part["better"] or part["bound"] is not None or part["settled"])
+
+
+def _asked(task: Task, where: Row, without: str) -> Row:
     more = {"strategies": ",".join(f"-{name}" for name in without.split(","))} if without else {}
     begun = time.process_time()
     try:
@@ -167,44 +170,49 @@ def _gap(answer: serendipity.Result) -> float:
     return log((answer.cost + 1) / (min(least, answer.cost) + 1))
 
 
-def table(rows: dict[tuple[Any, ...], dict[str, Any]]) -> Iterator[str]:
-    """The ablation as a table in Markdown, one line a strategy."""
-    yield "| without | tried | useful | seconds | decided only with it | only without | gap without it |"
-    yield "|---|---|---|---|---|---|---|"
-    whole = {key[:-1]: row for key, row in rows.items() if not key[-1]}
-    total = sum(row["gap"] for row in whole.values())
-    parts = {turn.name: [turn.name] for turn in TURNS}
-    parts.update({name: [turn.name for turn in TURNS if turn.strategy == name] for name in STRATEGIES})
-    for name in dict.fromkeys(name for turn in TURNS for name in (turn.strategy, turn.name)):
-        tried = [p for row in whole.values() for p in row["tried"] if p["name"] in parts[name]]
-        useful = sum(bool(p["better"] or p["bound"] is not None or p["settled"]) for p in tried)
-        lost: dict[str, int] = {}
-        won: dict[str, int] = {}
-        change = 0.0
-        for key, row in whole.items():
-            other = rows.get((*key, name))
-            if other is None:
-                continue
-            change += other["gap"] - row["gap"]
-            for some, one, two in ((lost, row, other), (won, other, row)):
-                if _decided(one) and not _decided(two):
-                    some[key[0]] = some.get(key[0], 0) + 1
-        yield (
-            f"| {name} | {len(tried)} | {useful} | {sum(p['seconds'] for p in tried):.0f} "
-            f"| {_told(lost)} | {_told(won)} | {change:+.1f} ({change / max(total, 1e-9):+.1%}) |"
-        )
-    decided = sum(map(_decided, whole.values()))
-    yield f"\n{len(whole)} calls, {decided} decided, sum of gaps {total:.1f}"
+def _pairs(without: str, whole: Rows, rows: Rows) -> list[Pair]:
+    """Every call with all strategies, beside what it is without a turn, or a strategy and all its turns."""
+    of = "strategy" if without in STRATEGIES else "name"
+    names = [turn.name for turn in TURNS if getattr(turn, of) == without]
+    return [
+        Pair(row, rows.get((*key, without)), [part for part in row["tried"] if part["name"] in names])
+        for key, row in whole.items()
+    ]
 
 
-def _decided(row: dict[str, Any]) -> bool:
+def _columns(gaps: float) -> dict[str, Callable[[Sequence[Pair]], object]]:
+    """What a strategy comes to, where ``gaps`` is the sum over all calls with it."""
+
+    def change(of: Sequence[Pair]) -> str:
+        more = sum(each.other["gap"] - each.whole["gap"] for each in of if each.other is not None)
+        return f"{more:+.1f} ({more / max(gaps, 1e-9):+.1%})"
+
+    return {
+        "tried": lambda of: sum(len(each.parts) for each in of),
+        "useful": lambda of: sum(_useful(part) for each in of for part in each.parts),
+        "seconds": lambda of: f"{sum(part['seconds'] for each in of for part in each.parts):.0f}",
+        "decided only with it": lambda of: _told(each.whole for each in of if _lost(each.whole, each.other)),
+        "only without": lambda of: _told(each.whole for each in of if _lost(each.other, each.whole)),
+        "gap without it": change,
+    }
+
+
+def _lost(one: Row | None, other: Row | None) -> bool:
+    """Whether only the first of two calls is decided, where both were asked."""
+    return one is not None and other is not None and _decided(one) and not _decided(other)
+
+
+def _decided(row: Row) -> bool:
     return row["status"] in ("optimal", "infeasible")
 
 
-def _told(counts: dict[str, int]) -> str:
+def _told(calls: Iterable[Row]) -> str:
+    """How many, in all and by family."""
+    counts = Counter(call["family"] for call in calls)
     named = ", ".join(f"{family} {count}" for family, count in sorted(counts.items()))
-    return f"{sum(counts.values())}: {named}" if counts else "0"
+    return f"{counts.total()}: {named}" if counts else "0"
 
 
 if __name__ == "__main__":
-    main()
+    main.__doc__ = __doc__
+    typer.run(main)

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import serendipity
-from serendipity import Task
+from serendipity import SerendipityError, Task
+from serendipity.evaluation.measuring.suites import Problem, Roles
 
 PROBLEMS = Path(os.environ.get("SERENDIPITY_PROBLEMS") or Path(__file__).resolve().parents[2] / "shared")
 """The folder with ``usar200``, ``codmap15`` and ``spa``, as far as they are there.
@@ -33,6 +34,14 @@ def silent(folder: Path = PROBLEMS / "spa") -> Iterator[tuple[str, Pair, Pair]]:
 def silent_task(prime: Pair, supporter: Pair) -> Task:
     """The task of such a problem."""
     return serendipity.load_agents({"prime": prime, "supporter": supporter}, human="prime")
+
+
+def can_alone(problem: Problem, who: Roles) -> bool:
+    """Whether a human is found to have a plan alone, in three seconds."""
+    try:
+        return serendipity.plan(problem.task(who), mode="individual", time_limit=3).cost is not None
+    except SerendipityError:
+        return False
 
 
 def _number(problem: Path) -> int:

@@ -16,9 +16,9 @@ from itertools import zip_longest
 
 import typer
 
-from benchmarks.problems import PROBLEMS
-from serendipity import Result, SerendipityError, Session, Task, plan
-from serendipity.evaluation.measuring.suites import Problem, Roles, problems, roles
+from benchmarks.problems import PROBLEMS, can_alone
+from serendipity import Result, Session, Task
+from serendipity.evaluation.measuring.suites import problems, roles
 from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
 
 DISCOUNT = 0.9
@@ -83,19 +83,12 @@ def _tasks(count: int, only: str) -> Iterator[tuple[str, Task]]:
     by_domain = grouped(every, lambda problem: problem.domain).values()
     taken = 0
     for problem in (p for turn in zip_longest(*by_domain) for p in turn if p is not None):
-        who = roles(problem, 2, _can_alone)
+        who = roles(problem, 2, can_alone)
         if who.alone:
             yield f"{problem.domain} {problem.name}", problem.task(who)
             taken += 1
         if taken == count:
             return
-
-
-def _can_alone(problem: Problem, who: Roles) -> bool:
-    try:
-        return plan(problem.task(who), mode="individual", time_limit=3).cost is not None
-    except SerendipityError:
-        return False
 
 
 def executed(name: str, task: Task, start: str, first: float, limit: float) -> Row:
