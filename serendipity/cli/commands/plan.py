@@ -13,6 +13,8 @@ from serendipity.cli.options import goals as goal_options
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
+from serendipity.cli.streams.manner import is_verbose
+from serendipity.cli.streams.stderr import write_line
 from serendipity.model import Certificate, Deadline, Result, Task, UsageError
 from serendipity.model.numbers import plain
 from serendipity.model.telling import json_of
@@ -56,6 +58,7 @@ def plan(
             known = certify and not cancelled.is_set()
             proof = serendipity.verify(loaded, expected, deadline=deadline) if known else None
         output.write_answer(_told_for_goals(expected, proof, form), to.output_file)
+        _tell_strategies(expected)
         refuted = proof is not None and proof.verdict == "refuted"
         return _code(expected, cancelled, refuted=refuted)
     for option, value in (("--observed", observed), ("--beta", beta)):
@@ -74,7 +77,18 @@ def plan(
     elif save_plan is not None:
         output.warn(f"--save-plan: there is no plan, so {save_plan} is not written")
     output.write_answers(answers)
+    _tell_strategies(result)
     return _code(result, cancelled, refuted=certificate.verdict == "refuted")
+
+
+def _tell_strategies(result: Result) -> None:
+    """What came of each turn of the search (``-v``); modes with but one have no table."""
+    tried = result.statistics.get("strategies")
+    if tried and is_verbose():
+        from serendipity.cli.text.strategies import table_of
+
+        for line in table_of(tried).splitlines():
+            write_line(line)
 
 
 def _code(result: Result, cancelled: threading.Event, *, refuted: bool) -> ExitCode:

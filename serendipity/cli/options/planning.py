@@ -1,4 +1,4 @@
-"""The options of ``plan`` that change what an answer means.
+"""The options of ``plan`` that change what an answer means, or how it is looked for.
 
 Their legal values and defaults are those of ``serendipity.model.Options``, which also
 validates them: here they are text, so that ``0.1`` stays exactly a tenth.
@@ -30,6 +30,10 @@ _TEXTS: Final[Mapping[str, tuple[str, str]]] = {
     "human_model": ("How the human reacts.", ""),
     "ties": ("Which of the human's optimal plans counts.", ""),
     "max_ties": ("The most of those plans that are tried.", "N"),
+    "strategies": (
+        "Search with these strategies only, or with all but some; -v tells what came of each.",
+        "NAME,-NAME",
+    ),
 }
 """Help, and what stands for a value; without that, values are those of ``CHOICES``."""
 
@@ -64,7 +68,7 @@ _OTHERS: Final[Mapping[str, Any]] = {
 _ALL: Final = (
     *("mode", "discount", "horizon", "human_plan", "window_weight", "max_window", "suffix", "preservation"),
     *("interference", "max_cost", "communication_weight", "keep_prefix", "human_model", "ties", "max_ties"),
-    "no_block",
+    *("no_block", "strategies"),
 )
 """In the order of help."""
 
@@ -72,7 +76,7 @@ WINDOWS: Final = tuple(name for name in _ALL if name in (*InterruptionOptions.__
 """What makes a difference to windows."""
 EXPLAINED: Final = _ALL[: _ALL.index("keep_prefix")]
 """What can be explained."""
-PROGRAMS: Final = tuple(name for name in _ALL if name not in ("human_model", "no_block"))
+PROGRAMS: Final = tuple(name for name in _ALL if name not in ("human_model", "no_block", "strategies"))
 """What integer programs know."""
 
 

@@ -15,6 +15,7 @@ STYLES: Final = ("auto", "plain", "json", "none")
 
 _quiet: ContextVar[bool] = ContextVar("quiet", default=False)
 _style: ContextVar[str] = ContextVar("style", default=STYLES[0])
+_verbosity: ContextVar[int] = ContextVar("verbosity", default=0)
 
 
 def is_quiet() -> bool:
@@ -25,6 +26,11 @@ def is_quiet() -> bool:
 def style() -> str:
     """How progress is shown in this call of the command line."""
     return "none" if is_quiet() else _style.get()
+
+
+def is_verbose() -> bool:
+    """Whether more is wanted on stderr than what goes wrong in this call of the command line (``-v``)."""
+    return _verbosity.get() > 0
 
 
 def be_quiet(quiet: bool) -> None:
@@ -44,6 +50,7 @@ def _choose(wanted: str) -> None:
 
 def start_logging(verbosity: int) -> None:
     """Log to stderr: nothing but warnings at 0, more at 1 (``-v``), everything at 2."""
+    _verbosity.set(verbosity)
     if not verbosity and "logging" not in sys.modules:
         return  # it takes longer to load than many a plan to find
     import logging
