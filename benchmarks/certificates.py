@@ -8,7 +8,8 @@
 A building is named by its rooms, medkits and robots.  Each task is read, planned, read again and verified.
 What a limit left unplanned is left out.  ``seconds`` are from the second reading to the verdict, of
 processor time, the solver's included, which other work on the machine leaves as it is; ``by the clock`` is
-the certificate alone.  With ``--apart`` all is done in processes of their own, whose memory is told.
+the certificate alone; ``decided by`` is the method of the claim that took longest (a program without calls:
+pruning).  With ``--apart`` all is done in processes of their own, whose memory is told.
 
 With ``--proofs`` a proof is written: ``write`` is all of ``verify --proof``, reading included;
 ``check`` is the checker alone, from the file to its verdict, as in a process that has started; and
@@ -33,7 +34,7 @@ import typer
 import serendipity
 from serendipity import Result, SerendipityError, Task
 from serendipity.evaluation.benchmark.coverage.rows import MODES
-from serendipity.evaluation.measuring.figures import peak_memory, percentile, timed
+from serendipity.evaluation.measuring.figures import children_memory, peak_memory, percentile, timed
 from serendipity.evaluation.measuring.record import Record
 from serendipity.evaluation.measuring.running import apart, measured
 from serendipity.evaluation.measuring.suites import Problem, Roles, folders, may_alone, problems, roles
@@ -181,7 +182,8 @@ def verified(job: Job, answer: dict[str, Any]) -> dict[str, Any]:
         "reason": f"{unproved[0].claim}: {unproved[0].reason}" if unproved else "",
         "seconds": seconds,
         "clock": clock,
-        "memory": peak_memory(),
+        "memory": peak_memory() + children_memory(),
+        "method": max(certificate.claims, key=lambda claim: claim.seconds).method or "rules",
         "calls": certificate.solver_calls,
         "columns": certificate.size.get("variables", 0),
         "rows": certificate.size.get("constraints", 0),
@@ -223,6 +225,7 @@ def _certificates(rows: Sequence[Row]) -> Any:
             "by the clock: median": lambda of: f"{median(row['clock'] for row in of):.3f}",
             "most": lambda of: f"{max(row['clock'] for row in of):.3f}",
             "MiB": lambda of: f"{max(row['memory'] for row in of):.0f}",
+            "decided by": lambda of: ", ".join(grouped(of, lambda row: row["method"])),
             "calls": lambda of: sum(row["calls"] for row in of),
             **{name: partial(middle, name=name) for name in ("columns", "rows")},
         },

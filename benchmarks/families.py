@@ -33,6 +33,11 @@ def _walks(
     }
 
 
+def _beside(places: int) -> list[tuple[int, int]]:
+    """Places in a row, and those beside them."""
+    return [(a, b) for a in range(places) for b in (a - 1, a + 1) if 0 <= b < places]
+
+
 def _free(_: int, __: int) -> str:
     return ""
 
@@ -140,7 +145,7 @@ def library(dice: Random, size: int) -> Task:
     actions = _walks(agents, list(pairwise(range(places))), _free)
     home = [dice.randrange(1, places) for _ in range(size)]
     for agent in agents:
-        for a, b in [(a, b) for a in range(places) for b in range(places) if abs(a - b) == 1]:
+        for a, b in _beside(places):
             actions[f"push_{agent}_{a}_{b} {agent}"] = (
                 f"at_{agent}_{a} cart_{a} -> at_{agent}_{b} cart_{b} !at_{agent}_{a} !cart_{a}"
             )
@@ -162,7 +167,7 @@ def lift(dice: Random, size: int) -> Task:
     agents, floors = ("h", *ROBOTS), 3
     actions: Actions = {}
     for agent in agents:
-        for a, b in [(a, b) for a in range(floors) for b in range(floors) if abs(a - b) == 1]:
+        for a, b in _beside(floors):
             actions[f"climb_{agent}_{a}_{b} {agent}"] = (
                 f"at_{agent}_{a} -> at_{agent}_{b} !at_{agent}_{a} @ 3"
             )
@@ -198,7 +203,7 @@ def bridge(dice: Random, size: int) -> Task:
     agents, places = ("h", *ROBOTS), 5
     actions: Actions = {}
     for agent in agents:
-        for a, b in [(a, b) for a in range(places) for b in range(places) if abs(a - b) == 1]:
+        for a, b in _beside(places):
             needs, gives = ("clear" if b == 2 else ""), ("clear" if a == 2 else "")
             takes = "!clear" if b == 2 else ""
             actions[f"go_{agent}_{a}_{b} {agent}"] = (

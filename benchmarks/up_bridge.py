@@ -21,7 +21,7 @@ import warnings
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -52,7 +52,7 @@ _TIMES = re.compile(r"\b[0-9.]+s\b( \([0-9.]+s\))?")
 
 
 def main(
-    what: str,
+    what: Literal["report", "random", "suite", "files"],
     folder: Annotated[Path | None, typer.Argument()] = None,
     packages: str = "",
     timeout: float = 10,
@@ -65,12 +65,12 @@ def main(
         told(random(count))
     elif what == "suite":
         told(suite(folder or PROBLEMS / "codmap15", time_limit, stride))
-    elif folder is not None and what == "report":
+    elif folder is None:
+        raise typer.BadParameter(f"expected a checkout of unified-planning behind {what}")
+    elif what == "report":
         report(folder, packages.split(), timeout)
-    elif folder is not None and what == "files":
-        told(files(folder))
     else:
-        raise typer.BadParameter("expected random, suite, report CHECKOUT or files CHECKOUT")
+        told(files(folder))
 
 
 def report(checkout: Path, packages: list[str], timeout: float) -> None:

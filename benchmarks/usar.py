@@ -12,7 +12,6 @@ There is no garbage collection while something is timed: a caller has one task i
 """
 
 import gc
-import resource
 import subprocess
 import sys
 import time
@@ -24,7 +23,7 @@ import typer
 
 from benchmarks.problems import PROBLEMS
 from search import prepare, solve
-from serendipity.evaluation.measuring.figures import machine, peak_memory, timed
+from serendipity.evaluation.measuring.figures import children_memory, machine, peak_memory, timed
 from serendipity.evaluation.measuring.suites import folders
 from serendipity.evaluation.measuring.tables import as_markdown, spreads
 from serendipity.model import Options, Task
@@ -46,7 +45,7 @@ def main(folder: Annotated[Path, typer.Argument()] = PROBLEMS / "usar200", strid
     rows = [
         _row("whole process: serendipity plan FOLDER", _processes(places[0]))
     ]  # first: memory is its parent's, too
-    memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+    memory = children_memory()
     read_folder(places[0])
     gc.collect()
     rows.append(_row("reading, warm", [timed(lambda p=place: read_folder(p))[1] for place in places]))

@@ -34,7 +34,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from string import Formatter
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import typer
 
@@ -176,7 +176,7 @@ class Row:
 
 
 def main(
-    study: str,
+    study: Literal["plan", "verify", "memory", "commands"],
     suite: Path = PROBLEMS / "codmap15",
     stride: int | None = None,
     tasks: str = "",

@@ -50,6 +50,11 @@ def peak_memory() -> float:
     return kibibytes / 1024
 
 
+def children_memory() -> float:
+    """The most memory that one of the children that have ended ever had, in MiB."""
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+
+
 def machine() -> str:
     """What figures are measured on."""
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
