@@ -4,14 +4,14 @@ import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
 import serendipity
 from serendipity.cli.exit_codes import OF_STATUS, OF_VERDICT, ExitCode
 from serendipity.model import Result, Task
-from serendipity.model.answers.result import STATUSES
+from serendipity.model.answers.answer import Status
 from tests.cli.conftest import Run
 
 HUMAN_ALONE_CANNOT = """
@@ -41,7 +41,7 @@ def test_codes_are_the_documented_ones() -> None:
         "UNEXPECTED": 70,
         "INTERRUPTED": 130,
     }
-    assert set(OF_STATUS) == set(STATUSES)
+    assert set(OF_STATUS) == set(get_args(Status))
     assert set(OF_VERDICT) == {"proved", "refuted", "undecided"}
 
 
