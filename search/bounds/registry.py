@@ -68,7 +68,7 @@ BOUNDS: Final = (
         "a landmark that is disjunctive: no help, or a first action that needs robots",
         "modes with windows, communication and composite, where goals are private",
         "achiever automata, private distances",
-        "all-plans; few-nodes; one-epoch",
+        "all-plans",
     ),
     LowerBound(
         "first interaction on the way",
@@ -76,7 +76,7 @@ BOUNDS: Final = (
         "the same, by the epoch in which the window opens",
         "modes with windows, while the human follows pi_H",
         "first interaction, for each epoch of pi_H",
-        "all-plans; few-nodes; one-epoch",
+        "all-plans",
     ),
     LowerBound(
         "LM-cut",

@@ -86,15 +86,6 @@ class Team:
         if limit is not None:
             raise limit
 
-    def best_plan(self, state: int, deadline: Deadline) -> Sets | None:
-        """A cheapest plan from a packed state, as sets of actions; None where there is none.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
-        best = self.planner.cheapest_plan(state, deadline)
-        return None if best is None else self._sets(best)
-
     def _sets(self, numbers: list[int]) -> Sets:
         return [self._actions[number] for number in numbers]
 

@@ -39,7 +39,6 @@ def window_space(
     limit: int,
     *,
     idle: bool,
-    max_window: int | None = None,
 ) -> Windowed:
     """The space of plans with a window.
 
@@ -50,7 +49,6 @@ def window_space(
         most_cost: largest scaled cost of an acceptable plan, or None.
         limit: key that a plan has to beat.
         idle: robots do nothing.
-        max_window: most epochs of a window, or None for what the options say.
     """
     options = context.options
     team = context.team_bound
@@ -76,7 +74,7 @@ def window_space(
         initial=context.packed.init,
         idle=() if walks is None else (0,) * len(walks.fields),
         horizon=horizon,
-        max_window=max_window or options.max_window or horizon,
+        max_window=options.max_window or horizon,
         most_cost=most_cost,
         keys=context.keys,
         successors=successors,

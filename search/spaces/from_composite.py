@@ -44,7 +44,7 @@ class Suggestions:
             yield from self._whole(epochs)
         if self._plan:
             yield from self._cut_short(epochs)
-            yield from self.beside([op for ops in epochs for op in ops])
+            yield from self._beside([op for ops in epochs for op in ops])
 
     def _epochs(self, steps: Sequence[Step]) -> list[list[Operator]]:
         last = max((step.epoch for step in steps), default=0)
@@ -73,7 +73,7 @@ class Suggestions:
             if followed and start < len(self._plan):
                 start += 1
 
-    def beside(self, ops: Sequence[Operator]) -> Iterator[Incumbent]:
+    def _beside(self, ops: Sequence[Operator]) -> Iterator[Incumbent]:
         """What robots do of some actions, while the human follows ``pi_H``; a window of one epoch.
 
         Args:

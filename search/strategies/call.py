@@ -251,19 +251,16 @@ class Call:
         team = context.team_bound
         return (context.bound(init) if team is no_team_bound else team(init)) + window
 
-    def space(
-        self, deadline: Deadline, limit: int, *, idle: bool = False, max_window: int | None = None
-    ) -> Space[Node, Incumbent]:
+    def space(self, deadline: Deadline, limit: int, *, idle: bool = False) -> Space[Node, Incumbent]:
         """All plans of the call that may be better than an incumbent.
 
         Args:
             deadline: polled.
             limit: key that they have to beat.
             idle: robots do nothing.
-            max_window: of the window, in epochs; None for what the options say.
         """
         context, plan, epochs = self.under(deadline), self.plan, self.epochs
         if not context.options.windowed:
             return free_space(context, epochs, self.most_cost, limit, idle=idle)
         assert plan is not None and epochs is not None, "there is a window"
-        return window_space(context, plan, epochs, self.most_cost, limit, idle=idle, max_window=max_window)
+        return window_space(context, plan, epochs, self.most_cost, limit, idle=idle)

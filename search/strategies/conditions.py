@@ -137,11 +137,6 @@ def joint_plans_on_the_way(call: Call) -> bool:
     return joint_plans_decide_here(call) and time_is_limited(call)
 
 
-def may_begin_at_once(call: Call) -> bool:
-    """Whether robots may begin with what would be best later, where time is limited."""
-    return has_team(call) and time_is_limited(call) and bool(call.plan)
-
-
 # -- windows
 
 
@@ -159,16 +154,6 @@ def robots_only_leave_behind(call: Call) -> bool:
 def timetable_is_hopeful(call: Call) -> bool:
     """The same, and a good part of the epochs beside the human's timetable is done already."""
     return robots_only_leave_behind(call) and call.timetable is not None and call.timetable.is_hopeful
-
-
-def longer_windows_may_pay(call: Call) -> bool:
-    """Whether windows of one epoch are worth a look before all others, where time is limited."""
-    options, plan = call.options, call.plan
-    if not call.is_planned or not options.windowed or not plan or options.max_window == 1:
-        return False
-    if not goals_are_shared(call):
-        return False
-    return time_is_limited(call) and options.window_weight < call.task.cost_of(plan)
 
 
 # -- what comes after the best plan

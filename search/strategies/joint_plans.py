@@ -1,7 +1,6 @@
 """Composite plans: where goals are shared they bound the answer in every mode, and one of them may be it."""
 
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -12,9 +11,9 @@ from search.packed.parallelise import schedule
 from search.spaces.factory import joint_space
 from search.spaces.from_composite import Suggestions
 from search.strategies.call import Allowance, Call
-from search.strategies.conditions import joint_optimum_is_open
 from search.strategies.limits import SUGGESTIONS
 from serendipity.model.errors import LimitReachedError
+from serendipity.model.task.plans import Step
 
 if TYPE_CHECKING:  # loaded by the calls that it serves
     from search.classical.team import Sets, Team
@@ -74,7 +73,7 @@ def _take_all(call: Call, plans: "Iterable[Sets]") -> Iterator[None]:
     for sets in plans:
         call.has_joint_plan = True
         steps = schedule(call.task, sets)
-        if _suggest(call, partial(Suggestions.of, steps=steps)):
+        if _suggest(call, steps):
             yield
     _raise(call, _team(call).planner.least if call.has_joint_plan else INFINITE_KEY)
 
@@ -82,23 +81,6 @@ def _take_all(call: Call, plans: "Iterable[Sets]") -> Iterator[None]:
 def _raise(call: Call, amount: int) -> None:
     """Note that no composite plan costs the team less than an amount."""
     call.raise_joint_bound(call.context.amount_key(amount))
-
-
-def along_human_plan(call: Call, part: Allowance) -> Iterator[None]:
-    """Robots begin at once with what would be best after an epoch of ``pi_H``."""
-    context, plan, state = call.context, call.plan or (), call.context.packed.init
-    # Where the search without a horizon is to go on, it keeps its planner to itself.
-    team = call.under(part.deadline).team if joint_optimum_is_open(call) else context.team
-    assert team is not None, "the kernel can tell"
-    for number, action in enumerate(plan[:-1], 1):
-        op = context.packed.op(action)
-        state = state & op.keep | op.put
-        with suppress(LimitReachedError):
-            best = team.best_plan(state, part.deadline.part(2 / (len(plan) - number + 1)))
-            ops = [context.packed.op(action) for chosen in best or () for action in chosen]
-            if _suggest(call, partial(Suggestions.beside, ops=ops)):
-                yield
-        context.deadline.check()
 
 
 def greedily_within_horizon(call: Call, part: Allowance) -> Iterator[None]:
@@ -134,11 +116,11 @@ def _take(call: Call, joint: Incumbent) -> bool:
     """Whether a composite plan has made the call's incumbent better."""
     if joint is call.best or joint.node is None:
         return joint is call.best
-    return _suggest(call, partial(Suggestions.of, steps=path_steps(joint.node)))
+    return _suggest(call, path_steps(joint.node))
 
 
-def _suggest(call: Call, of: Callable[[Suggestions], Iterator[Incumbent]]) -> bool:
-    """Whether something that composite plans suggest is the best so far in this mode."""
+def _suggest(call: Call, steps: Sequence[Step]) -> bool:
+    """Whether something that a composite plan suggests is the best so far in this mode."""
     context, options = call.context, call.options
     in_order = options.preservation == "kernel" and not options.keep_prefix
     if call.epochs is None or context.weights.announces or not in_order:
@@ -147,7 +129,7 @@ def _suggest(call: Call, of: Callable[[Suggestions], Iterator[Incumbent]]) -> bo
     suggestions = Suggestions(part, call.plan or (), call.epochs, call.most_cost, call.best.key)
     is_better = False
     try:
-        for found in of(suggestions):
+        for found in suggestions.of(steps):
             is_better = call.offer(found) or is_better
     except LimitReachedError:
         context.deadline.check()

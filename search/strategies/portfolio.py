@@ -17,7 +17,6 @@ from search.strategies import conditions as calls
 from search.strategies.call import Allowance, Call
 from search.strategies.human_plan import first_bound, first_plan, known_plan, optimal_plan, plan_alone, saving
 from search.strategies.joint_plans import (
-    along_human_plan,
     greedily_within_horizon,
     joint_optimum,
     open_joint_optimum,
@@ -27,7 +26,7 @@ from search.strategies.joint_plans import (
 from search.strategies.outcome import answer_of
 from search.strategies.short_windows import beside_timetable, robots_apart
 from search.strategies.warm_start import WarmStart
-from search.strategies.windows import all_plans, few_nodes, one_epoch, ties, while_bounds_are_exact
+from search.strategies.windows import all_plans, few_nodes, ties, while_bounds_are_exact
 from serendipity.model.answers.answer import Answer, Tried
 from serendipity.model.errors import LIMITS, LimitReachedError, UsageError, limit_reason
 from serendipity.model.options import Options
@@ -76,10 +75,8 @@ STRATEGIES: Final = {
     "bound": "The private costs that are left to the human in every plan.",
     "joint-optimum": "The best plan of all agents together without a horizon, by the kernel's A*.",
     "within-horizon": "Composite plans within T.",
-    "along-plan": "Best composite plans from the states of pi_H, begun by the robots at once.",
     "robots-apart": "Windows of one epoch from what each robot can bring about by itself.",
     "timetable": "Windows of one epoch from all states beside the human's timetable.",
-    "one-epoch": "Windows of one epoch, where longer ones may be better, too.",
     "all-plans": "Best-first search over all windows and plans of the mode.",
 }
 """The strategies, with what each does."""
@@ -100,8 +97,6 @@ TURNS: Final = (
     Turn("timetable", "timetable-on", calls.timetable_is_hopeful, beside_timetable, 0.35, 3_000_000),
     Turn("robots-apart", "robots-apart", calls.robots_only_leave_behind, robots_apart, share=0.5),
     Turn("timetable", "timetable-last", calls.robots_only_leave_behind, beside_timetable, 0.9, 10_000_000),
-    Turn("along-plan", "along-plan", calls.may_begin_at_once, along_human_plan, share=0.1),
-    Turn("one-epoch", "one-epoch", calls.longer_windows_may_pay, one_epoch, share=0.1),
     Turn("within-horizon", "greedy", calls.joint_plans_on_the_way, greedily_within_horizon, 0.2, limit=5),
     Turn("joint-optimum", "joint-optimum-on", calls.joint_optimum_is_open, open_joint_optimum, share=0.9),
     Turn("within-horizon", "exact-within-horizon", calls.joint_plans_decide_here, within_horizon),

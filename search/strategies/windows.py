@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from contextlib import suppress
 
-from search.engine.best_first import Progress, Ties, best_first
+from search.engine.best_first import Ties, best_first
 from search.engine.until import EnoughError, Until, few, risen
 from search.strategies.call import Allowance, Call
 from search.strategies.limits import TIES
@@ -34,13 +34,6 @@ def while_bounds_are_exact(call: Call, part: Allowance) -> Iterator[None]:
         for _ in best_first(space, call.best, call.progress, part.deadline):
             yield
         call.finish()
-
-
-def one_epoch(call: Call, part: Allowance) -> Iterator[None]:
-    """Plans with the shortest window, where longer ones may be better, too."""
-    space = call.space(part.deadline, call.best.key, max_window=1)
-    for _ in best_first(space, call.best, Progress(), part.deadline):
-        yield
 
 
 def ties(call: Call, part: Allowance) -> Iterator[None]:
