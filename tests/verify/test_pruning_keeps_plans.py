@@ -52,14 +52,8 @@ def test_joint_paths_alone(call: Call) -> None:
     call = Call(call.task, options, call.human_plan)
     if _figures(call) is None or options.horizon == "inf":
         return
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("verify.calls.methods._searchable", lambda _: False)
-        patch.setattr("verify.programs.effort.Effort.solve", _refuse)
+    with limited(methods=("programs", "-solver")):
         _check(call)
-
-
-def _refuse(*_: object) -> None:
-    raise AssertionError("a solver was asked")
 
 
 # -- buildings

@@ -109,6 +109,29 @@ class Subproblem:
         whole = self.horizon * self.an_epoch
         return whole if self.most is None else min(self.most, whole)
 
+    @property
+    def replans(self) -> bool:
+        """Whether suffixes have to be optimal plans of the human's own (Def. 2.0a)."""
+        options = self.options
+        return self.rule == WINDOW and options.suffix == "replan" and options.preservation == "kernel"
+
+    @property
+    def has_plain_windows(self) -> bool:
+        """Whether ``pi_H`` is followed up to a window and replanned after it, and robots have no goals."""
+        followed = bool(self.human_plan) and not self.options.keep_prefix
+        return self.replans and followed and not (self.robots_goal and self.task.robot_goal)
+
+    @property
+    def is_free(self) -> bool:
+        """Whether the window of all epochs is as good as any: no epoch of it costs, and none is too many.
+
+        There is neither prefix nor suffix then, so that every plan fits it.
+        """
+        options, longest = self.options, self.options.max_window
+        whole = longest is None or longest >= self.horizon
+        kernel = options.preservation == "kernel" and not options.keep_prefix
+        return self.rule == WINDOW and not self.prices.epoch and whole and bool(self.human_plan) and kernel
+
     def allowed(self) -> list[int]:
         """Ids of the actions that may occur at all."""
         if self.rule == ALONE or not self.robots:

@@ -18,7 +18,7 @@ from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.execution import conflicting, states_along
 from verify.base.relevance import Relevant, closure, relevant_part
-from verify.base.subproblem import WINDOW, Subproblem
+from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
 from verify.beside.leavings import differences, together
 from verify.beside.timeline import Timeline, parts
@@ -34,24 +34,19 @@ from verify.programs.effort import Minimum
 
 def is_short(question: Subproblem) -> bool:
     """Whether plans within the limits have a window of one epoch, after which the human replans."""
-    options, most = question.options, question.most
+    most = question.most
     return (
-        question.rule == WINDOW
+        question.has_plain_windows
         and question.robots
         and most is not None
         and most < 2 * question.prices.epoch
-        and bool(question.human_plan)
-        and options.suffix == "replan"
-        and options.preservation == "kernel"
-        and not options.keep_prefix
-        and not (question.robots_goal and question.task.robot_goal)
         and not any(question.prices.talk)
         and all(len(action.participants) == 1 for action in question.deadline.each(question.task.actions))
     )
 
 
-def no_short_window(question: Subproblem) -> tuple[Minimum, int]:
-    """Whether no plan is within the question's limits, and how many states were looked at.
+def no_short_window(question: Subproblem) -> Minimum:
+    """Whether no plan is within the question's limits.
 
     Args:
         question: one of :func:`is_short`.
@@ -68,7 +63,7 @@ def no_short_window(question: Subproblem) -> tuple[Minimum, int]:
         reason = str(LimitReachedError(limit_reason(limit), doing))
     except (TooManyStatesError, TooLargeError):
         reason = "robots one by one have too many states, or costs too large to be added up in machine words"
-    return Minimum("undecided", reason=reason) if reason else Minimum("none"), search.states
+    return Minimum("undecided" if reason else "none", reason=reason, states=search.states)
 
 
 @dataclass(frozen=True, slots=True)

@@ -70,9 +70,9 @@ class Examiner:
     def _how(self, made: list[Attempt], called: list[SolverCall]) -> str:
         """What decided the questions of a claim."""
         decided = [attempt for attempt in made if attempt.decided]
-        states = max((attempt.states for attempt in decided if not attempt.apart), default=0)
+        states = max((attempt.states for attempt in decided if attempt.name != "decoupled"), default=0)
         paths = max((attempt.paths for attempt in decided), default=0)
-        words = "".join(wording.apart(attempt.states) for attempt in decided if attempt.apart)
+        words = "".join(wording.apart(attempt.states) for attempt in decided if attempt.name == "decoupled")
         words += "".join(wording.counted(attempt.landmarks) for attempt in decided if attempt.landmarks)
         words += wording.searched(states) if states else ""
         words += wording.walked(paths) if paths else ""

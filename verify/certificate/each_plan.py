@@ -5,7 +5,6 @@ from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Final
 
 from serendipity.model import HumanPlan, LimitReachedError, Options, Task
 from verify.base.optimal_plans import OptimalPlans
@@ -13,21 +12,14 @@ from verify.base.plan_graph import PlanGraph
 from verify.base.subproblem import in_plan
 from verify.calls.answer import answer
 from verify.calls.call import Call
-from verify.calls.methods import decide, is_free
+from verify.calls.methods import ANY_PLAN, BESIDE_PLANS, decide
 from verify.certificate.humans import human_cost
-from verify.exhaustive.beside_plans import HelpBesidePlans, answers_all
-from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers
-from verify.limits import limits
+from verify.exhaustive.beside_plans import HelpBesidePlans
+from verify.exhaustive.epoch_by_epoch import OtherMethodError
+from verify.limits import limits, uses
 from verify.programs.effort import Attempt, Effort
 from verify.programs.recorded import BESIDE_ANY
 from verify.proofs.book import ProofReader
-
-_SECONDS: Final = 4.0
-_SECONDS_A_PLAN: Final = 0.1
-_A_MOMENT: Final = 2.0
-_A_WHILE: Final = 10.0
-_SHARE: Final = 0.4
-"""Where methods take turns: what a search beside all plans may take, and a program; of the time left."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +99,7 @@ class EachPlan:
 
     def none_cheaper(self, cost: Fraction) -> bool:
         """Whether one program says that nothing costs less, whichever of the plans the human is on."""
-        if not self._windows or self._effort.method == "exhaustive" or self._shared is not None:
+        if not self._one_program or self._shared is not None:
             return False
         nothing = self._nothing
         least = self._first.prices.units(cost)
@@ -129,15 +121,19 @@ class EachPlan:
         """Whether the plans are prefixes of windows that are replanned: all can be looked at together."""
         call = self._first
         options = call.options
-        if self.asked < limits().several_plans or options.human_model != "omniscient" or call.robots_goal:
+        if self.asked < limits().several_plans or options.human_model != "omniscient":
             return False
-        replanned = answers(call.question) and not options.keep_prefix and self._effort.encoding == "automata"
-        return options.windowed and len(self.graph) > 0 and replanned and not is_free(call.question)
+        return self._effort.encoding == "automata" and options.windowed and ANY_PLAN.applies(call.question)
+
+    @property
+    def _one_program(self) -> bool:
+        """Whether one program for all plans may be asked."""
+        return self._windows and self._effort.method != "exhaustive" and uses(ANY_PLAN.name)
 
     @cached_property
     def _unaided(self) -> bool:
         """Whether one program says that nothing helps, whichever of the plans the human is on."""
-        if not self._windows or self._effort.method == "exhaustive":
+        if not self._one_program:
             return False
         objective, cost = self._nothing
         if not self._nobody(objective - 1):
@@ -149,9 +145,8 @@ class EachPlan:
         effort = self._effort
         if isinstance(effort.proof, ProofReader) and not _is_next(effort.proof):
             return False  # it took too long when the proof was written
-        seconds = _A_MOMENT if effort.method == "auto" else _A_WHILE
         method = "pruned" if effort.method == "auto" else effort.method
-        effort = replace(effort, deadline=effort.deadline.part(_SHARE).within(seconds), method=method)
+        effort = replace(effort, deadline=ANY_PLAN.turn(effort.deadline), method=method)
         question = self._first.question.below(*limits).but(any_of=self.graph, deadline=effort.deadline)
         minimum = decide(question, effort, self._plans)
         if minimum.status == "undecided":
@@ -162,12 +157,11 @@ class EachPlan:
     def _shared(self) -> HelpBesidePlans | None:
         """The search beside all plans; None where it does not apply, or is not done in its turn."""
         effort, call = self._effort, self._first
-        if not self._windows or effort.method == "program" or not answers_all(call.question):
+        if not self._windows or effort.method == "program" or not uses(BESIDE_PLANS.name):
             return None
-        deadline = effort.deadline
-        if effort.method == "auto":
-            seconds = _SECONDS + _SECONDS_A_PLAN * self.graph.count
-            deadline = deadline.part(_SHARE).within(seconds)
+        if not BESIDE_PLANS.applies(call.question):
+            return None
+        deadline = BESIDE_PLANS.turn(effort.deadline) if effort.method == "auto" else effort.deadline
         question = call.question.but(deadline=deadline)
         try:
             found = HelpBesidePlans(question, self.graph, self._plans, bounded=effort.method == "auto")
@@ -178,7 +172,7 @@ class EachPlan:
             if effort.method == "exhaustive":
                 raise
             return None
-        effort.attempts.append(Attempt("exhaustive", decided=True, states=found.states))
+        effort.attempts.append(Attempt(BESIDE_PLANS.name, decided=True, states=found.states))
         return found
 
     def call(self, plan: HumanPlan) -> Call:
@@ -209,7 +203,7 @@ def kin(call: Call) -> Hashable:
         if options.keep_prefix and (options.suffix, options.preservation) != ("replan", "kernel"):
             return plan
         return in_plan(call.task, plan) if options.keep_prefix or any(call.prices.talk) else None
-    return None if is_free(call.question) else plan
+    return None if call.question.is_free else plan
 
 
 def _is_next(proof: ProofReader) -> bool:

@@ -3,21 +3,17 @@
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Final
 
 from verify.base import wording
 from verify.base.subproblem import FREE, Solution
 from verify.base.undecided import UndecidedError
 from verify.calls.call import Call
-from verify.calls.methods import decide
+from verify.calls.methods import JOINT_PLANS, decide
 from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.reactions import cheapest_reaction
+from verify.limits import uses
 from verify.programs.effort import NoProgramError
 from verify.simulator import Person, play
-
-_A_MOMENT: Final = 2.0
-_SHARE: Final = 0.2
-"""Seconds, and of the time that is left, for a program that may spare playing what robots can do."""
 
 
 class HumanExaminer(Examiner):
@@ -148,10 +144,10 @@ def _out_of_reach(call: Call, most: int | None) -> bool:
     """
     effort = call.effort
     question = call.question.but(rule=FREE).below(most)
-    if effort.method == "exhaustive":
+    if effort.method == "exhaustive" or not uses(JOINT_PLANS.name):
         return False
     if effort.method == "auto":
-        deadline = effort.deadline.part(_SHARE).within(_A_MOMENT)
+        deadline = JOINT_PLANS.turn(effort.deadline)
         effort, question = (
             replace(effort, method="pruned", deadline=deadline),
             question.but(deadline=deadline),

@@ -68,7 +68,7 @@ class _Reactions:
             doing = f"playing what robots can do, {len(self.known):,} states and minds so far"
             return Minimum("undecided", reason=str(LimitReachedError(limit_reason(limit), doing)))
         decided = found.status != "undecided"
-        self.call.effort.attempts.append(Attempt("exhaustive", decided, states=len(self.known)))
+        self.call.effort.attempts.append(Attempt("played", decided, states=len(self.known)))
         return found
 
     def _run(self) -> Minimum:

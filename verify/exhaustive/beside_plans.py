@@ -21,9 +21,9 @@ from verify.base.execution import facts_of_his
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.plan_graph import PlanGraph
 from verify.base.relevance import Relevant, relevant_part
-from verify.base.subproblem import WINDOW, Subproblem
+from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
-from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers
+from verify.exhaustive.epoch_by_epoch import OtherMethodError
 from verify.exhaustive.team import Team
 from verify.exhaustive.team_problem import team_problem
 from verify.limits import limits
@@ -42,18 +42,10 @@ _NONE: Final = np.zeros(0, np.int64)
 
 def answers_all(question: Subproblem) -> bool:
     """Whether the method knows a question's rules."""
-    options = question.options
-    longest = options.max_window
-    return (
-        question.rule == WINDOW
-        and answers(question)
-        and not options.keep_prefix
-        and question.most_cost is None
-        and (longest is None or longest >= question.horizon)
-        and not any(question.prices.talk)
-        and bool(question.human_plan)
-        and not (question.robots_goal and question.task.robot_goal)
-    )
+    longest = question.options.max_window
+    whole = longest is None or longest >= question.horizon
+    unlimited = question.most_cost is None and not any(question.prices.talk)
+    return question.has_plain_windows and whole and unlimited
 
 
 class Front(NamedTuple):

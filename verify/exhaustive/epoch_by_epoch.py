@@ -11,6 +11,7 @@ as one.
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -41,14 +42,11 @@ class OtherMethodError(UndecidedError):
 
 def answers(question: Subproblem) -> bool:
     """Whether the method knows the question's rules."""
-    options = question.options
-    if question.rule == WINDOW:
-        return options.suffix == "replan" and options.preservation == "kernel"
-    return question.rule in (FREE, EXACT)
+    return question.replans or question.rule in (FREE, EXACT)
 
 
-def cheapest_by_epochs(question: Subproblem, plans: OptimalPlans, *, bounded: bool) -> tuple[Minimum, int]:
-    """The plan of least objective, and the number of states that were looked at.
+def cheapest_by_epochs(question: Subproblem, plans: OptimalPlans, *, bounded: bool) -> Minimum:
+    """The plan of least objective.
 
     Args:
         question: with a horizon of at least 1.
@@ -64,14 +62,14 @@ def cheapest_by_epochs(question: Subproblem, plans: OptimalPlans, *, bounded: bo
     with during("preparing an exhaustive search"):
         part = relevant_part(question)
         if part is None:
-            return Minimum("none"), 0
+            return Minimum("none")
         if len(part.actions) > limits().compared_actions:
             raise OtherMethodError(f"the exhaustive method takes {limits().compared_actions} actions at most")
         try:
             search = _Search(question, part, plans, bounded=bounded)
         except TooLargeError:
             raise OtherMethodError("the task is too large for the exhaustive method") from None
-    return search.run(), search.states
+    return replace(search.run(), states=search.states)
 
 
 class _Search:
@@ -106,18 +104,11 @@ class _Search:
         self._alone = Problem(space, facts, own, alone, deadline, bounded=bounded)
         assert not self._layout.differs(self._alone.layout), "the same facts"
         self._epoch = question.prices.epoch if question.rule == WINDOW else 0
-        self._free = question.rule == FREE or (question.rule == WINDOW and self._is_free())
+        self._free = question.rule == FREE or question.is_free
         self._layers: list[Layer] = []
         self._known: int | None = None
         self._prefixes = {0}
         self._best: Solution | None = None
-
-    def _is_free(self) -> bool:
-        """Whether the window of all epochs is as good as any: no epoch of it costs, and none is too many."""
-        question, options = self._question, self._question.options
-        longest = options.max_window
-        whole = longest is None or longest >= question.horizon
-        return not self._epoch and whole and bool(question.human_plan) and not options.keep_prefix
 
     # -- the whole
 

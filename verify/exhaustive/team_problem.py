@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Final
 
 import numpy as np
 
@@ -11,16 +10,13 @@ from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Solution, Subproblem, least
 from verify.exhaustive.circles import circles
-from verify.limits import limits
+from verify.limits import limits, uses
 from verify.packed.affordable import affordable
 from verify.packed.cheapest_path import TooManyStatesError
 from verify.packed.operators import Operator
 from verify.packed.problem import Problem, StateSpace
 from verify.programs.counts import least_weight
-from verify.programs.effort import Attempt, Effort, Minimum
-
-_SHARE: Final = 0.15
-"""What of the time that is left numbers of actions may take."""
+from verify.programs.effort import Effort, Minimum
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +117,7 @@ def cheapest_without_epochs(question: Subproblem, team: TeamProblem, effort: Eff
     below = None if most is None else most + 1
     counts = _Counts(question, team, below, effort)
     try:
-        if effort is not None and below is not None:
+        if effort is not None and below is not None and uses("cost-fixing"):
             within = team.below(below, question.task.init, question.deadline)
             if within is None:
                 return Minimum("none", states=1)
@@ -138,7 +134,7 @@ def cheapest_without_epochs(question: Subproblem, team: TeamProblem, effort: Eff
         reason = str(error) or "there are too many joint states"
         return Minimum("undecided", bound=counts.least, reason=reason)
     if found is None:
-        return Minimum("none", states=search.states)
+        return Minimum("none", states=0 if counts.landmarks else search.states, landmarks=counts.landmarks)
     _, path = search.path(found)
     sets = enumerate((team.sets[k] for k in path), start=1)
     steps = tuple(Step(epoch, i) for epoch, chosen in sets for i in chosen)
@@ -152,6 +148,7 @@ class _Counts:
     Attributes:
         team: whose actions are counted.
         least: no plan costs less; None: nothing is known.
+        landmarks: that there are, if numbers have decided.
     """
 
     def __init__(
@@ -160,13 +157,16 @@ class _Counts:
         self._question, self._below, self._effort = question, below, effort
         self.team = team
         self.least: int | None = None
+        self.landmarks = 0
 
     def say_no(self) -> bool:
         """Whether there is no plan within the limits."""
         effort, table, below = self._effort, self.team.problem.table, self._below
         if effort is None or below is None or not table.weight.all() or below > limits().coefficient:
             return False
-        deadline = self._question.deadline.part(_SHARE)
+        if not uses("operator-counting"):
+            return False
+        deadline = self._question.deadline.part(limits().counting_share)
         given = replace(effort, deadline=deadline)
         task = self._question.task
         try:
@@ -177,5 +177,5 @@ class _Counts:
         self.least = max(self.least or 0, bound.least)
         if self.least < below:
             return False
-        effort.attempts.append(Attempt("program", decided=True, landmarks=bound.landmarks))
+        self.landmarks = bound.landmarks
         return True

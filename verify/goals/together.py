@@ -21,7 +21,6 @@ from verify.calls.call import Call, Score
 from verify.exhaustive.uniform_cost import LeastLeft
 from verify.limits import limits
 from verify.programs.effort import Attempt
-from verify.programs.mending import replans
 
 Label = tuple[int, State]
 """First epoch of the window (0: not open yet), and the state."""
@@ -122,7 +121,7 @@ class Together:
         """
         if self.floor() >= than:
             return None
-        if not all(replans(call.question) for call in self._calls):
+        if not all(call.question.replans for call in self._calls):
             raise UndecidedError(
                 "several goals are examined under suffix replan and preservation kernel only"
             )
@@ -138,7 +137,7 @@ class Together:
             layer = list(self._following(layer, epoch, incumbent))
         for node in self._following(layer, self._horizon, incumbent):
             incumbent.offer(self._rank(node.lines), node.steps)
-        played = Attempt("exhaustive", decided=True, states=incumbent.looked_at)
+        played = Attempt("played", decided=True, states=incumbent.looked_at)
         self._calls[0].effort.attempts.append(played)
         return incumbent.best
 

@@ -1,22 +1,18 @@
 """One goal, many questions: layout, operators and bounds that all of them share."""
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Final
 
 import numpy as np
 
 from serendipity.model import Deadline, LimitReachedError
-from verify.limits import limits
-from verify.packed.bounds import LITTLE, MUCH, Bounds, Care
+from verify.limits import limits, uses
+from verify.packed.bounds import Bounds, Care, little, much
 from verify.packed.cheapest_path import PathSearch, SumTooLargeError, TooManyStatesError
 from verify.packed.landmark_cuts import LandmarkCuts
 from verify.packed.layout import Effects, Layout, Words
 from verify.packed.mutexes import Pairs, exclusive_groups
 from verify.packed.operators import Ints, Operator, OperatorTable
 from verify.packed.stubborn import StubbornSets
-
-_SHARE: Final = 0.4
-"""What of the time that is left goes into a search with landmarks."""
 
 
 class TooLargeError(Exception):
@@ -151,29 +147,32 @@ class Problem:
         self, starts: Words, paid: Ints, below: int, hopeless: Callable[[], bool] | None
     ) -> tuple[PathSearch, int | None]:
         if self._bounds is None and self._bounded:
-            self._bounds = self._made(starts, LITTLE)
+            self._bounds = self._made(starts, little())
         if not self._careful:
-            quick = self._search(below, limits().few_states)
+            search = self._search(below, limits().few_states)
             try:
-                quick.add(starts, paid)
-                return quick, quick.run()
+                search.add(starts, paid)
+                return search, search.run()
             except TooManyStatesError:
                 if hopeless is not None and hopeless():
-                    return quick, None
+                    return search, None
                 found = self._with_cuts(starts, paid, below)
                 if found is not None:
                     return found
-                self._bounds, self._careful = self._made(starts, MUCH), True
+                self._bounds, self._careful = self._made(starts, much()), True
         search = self._search(below, limits().packed_states)
         search.add(starts, paid)
         return search, search.run()
 
     def _with_cuts(self, starts: Words, paid: Ints, below: int) -> tuple[PathSearch, int | None] | None:
         """The search with landmarks of each state: few states, much work for each; None: too much work."""
+        if not uses("landmark-cuts"):
+            return None
         asked = self.table.operators, self._facts, self._wanted
         cuts = [LandmarkCuts(*asked, rarest=rarest) for rarest in (True, False)]
-        sets = StubbornSets(*asked) if len(self.table.operators) <= limits().stubborn_actions else None
-        part = self._deadline.part(_SHARE)
+        few = len(self.table.operators) <= limits().stubborn_actions and uses("stubborn-sets")
+        sets = StubbornSets(*asked) if few else None
+        part = self._deadline.part(limits().cuts_share)
         search = PathSearch(self.table, self.goal, self.bounds, part, below, limits().cut_states, cuts, sets)
         try:
             search.add(starts, paid)
@@ -192,7 +191,7 @@ class Problem:
         if not self._bounded:
             return np.zeros(len(states), np.int64)
         if self._bounds is None:
-            self._bounds = self._made(states, LITTLE)
+            self._bounds = self._made(states, little())
         return self._bounds(states)
 
     def _search(self, below: int, most_states: int) -> PathSearch:

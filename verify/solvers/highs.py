@@ -14,18 +14,10 @@ from time import time
 from typing import Final
 
 from serendipity.model import Deadline, LimitReachedError
+from verify.limits import limits
 from verify.solvers import worker
 from verify.solvers.model import Answer, Model
 from verify.solvers.process import run, seconds_for
-
-_SMALL: Final = 15_000
-"""Coefficients up to which HiGHS overruns its limit by some 20 ms at most."""
-
-_MOMENT: Final = 0.25
-"""Seconds for which it may work here, and about what it takes to start a process."""
-
-_SHORT: Final = 4 * _MOMENT
-"""Seconds of a limit that is too short for trying both."""
 
 _UNENDING: Final = 1e9
 
@@ -37,10 +29,10 @@ def minimise(model: Model, deadline: Deadline) -> Answer:
         LimitReachedError: the deadline came before HiGHS was asked.
     """
     program = tables(model, deadline)
-    if len(model.index) <= _SMALL:
-        left = deadline.left()
-        short = left is not None and left < _SHORT
-        end = _end(deadline) if short else time() + _MOMENT
+    if len(model.index) <= limits().solved_here:
+        left, seconds = deadline.left(), limits().solver_seconds
+        short = left is not None and left < 4 * seconds  # too short for trying both
+        end = _end(deadline) if short else time() + seconds
         answer = Answer(**worker.minimise(program, end, presolve=False))  # nothing to trust but the solver
         if short or answer.status != "time-limit":
             return answer

@@ -15,6 +15,7 @@ from serendipity.facade.proofs import check_proof
 from serendipity.model import InputError, SerendipityError, UsageError
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
+from verify.calls.methods import NAMES
 from verify.certificate.certify import certify
 from verify.limits import Limits, limited
 
@@ -45,7 +46,7 @@ class Way:
     Attributes:
         method: of ``verify``; or ``proof``: the proof of what it was made from is checked against it.
         encoding: of ``verify``.
-        sizes: what is large for the verifier; defaults are left out.
+        sizes: what is large or long for the verifier, and what it leaves out; defaults are not told.
     """
 
     method: str
@@ -65,9 +66,11 @@ def drawn_way(dice: Random) -> Way:
     return Way(_PROOF, "automata", sizes) if dice.random() < _PROOFS else Way(method, encoding, sizes)
 
 
-def _size(dice: Random, name: str) -> int | bool:
-    if name == "programs":
-        return False
+def _size(dice: Random, name: str) -> int | float | tuple[str, ...]:
+    if name == "methods":
+        return tuple(f"-{each}" for each in NAMES if dice.random() < 0.3)
+    if name.endswith(("_share", "_seconds")):
+        return dice.choice((0.001, 0.01, 0.5))
     if name == "weight":
         return 2 ** dice.choice((4, 10, 20, 40))
     return max(dice.choice(_SIZES), name == "states_at_once")

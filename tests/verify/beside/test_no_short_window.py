@@ -47,8 +47,8 @@ def closed(task: Task, options: Options) -> bool | None:
         return None
     question, least = found
     assert is_short(question.below(least)) == (least < 2 * question.prices.epoch)
-    assert no_short_window(question.below(least))[0].status == "undecided"
-    return no_short_window(question.below(least - 1))[0].status == "none"
+    assert no_short_window(question.below(least)).status == "undecided"
+    return no_short_window(question.below(least - 1)).status == "none"
 
 
 @given(

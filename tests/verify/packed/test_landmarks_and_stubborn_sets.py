@@ -162,7 +162,7 @@ def test_whole_answers_with_landmarks() -> None:
             optimum = best(call.task, call.options, call.human_plan)
         except UsageError:
             return
-        with limited(few_states=1, few_joint_states=0, programs=False):
+        with limited(few_states=1, few_joint_states=0, methods=("-programs",)):
             result = solve(call.task, call.options, human_plan=call.human_plan_names, method="auto")
         assert result.status in (optimum.status, "unknown")
         if result.status == "optimal" and call.options.ties == "fixed":

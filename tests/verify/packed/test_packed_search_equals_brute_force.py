@@ -17,7 +17,7 @@ from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
 from verify.limits import limited
 from verify.packed import operators as packed
-from verify.packed.bounds import LITTLE
+from verify.packed.bounds import little
 from verify.packed.mutexes import Pairs
 from verify.packed.operators import Operator
 from verify.packed.pattern import FAR
@@ -168,7 +168,7 @@ def test_several_starts_share_a_search() -> None:
     search, found = problem.search(rows, paid)
     assert found is not None
     assert search.paid(found) == min(int(p) + expected[state] for p, state in zip(paid, starts, strict=True))
-    assert LITTLE.sizes
+    assert little().sizes
 
 
 @pytest.mark.parametrize(("name", "seed", "size"), FAMILY)

@@ -8,7 +8,7 @@ from serendipity.model import Deadline, GroundAction, Step, Task, Window
 from verify.base.relevance import Relevant, relevant_part, whole_task
 from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
-from verify.limits import limits
+from verify.limits import limits, uses
 from verify.programs.agents.product import Automaton, SmallAutomata, automata, private_facts
 from verify.programs.automata.control import HumanControl, expected_states
 from verify.programs.automata.network import (
@@ -78,14 +78,14 @@ class AutomataEncoding:
         with during(
             f"{'pruning' if pruned else 'unrolling'} the agents' automata over {question.horizon} epochs"
         ):
-            if prune(setting) if pruned else unroll(setting):
+            if prune(setting) if pruned and uses("arc-pruning") else unroll(setting):
                 self.setting = setting
 
     def _with_few_facts(
         self, part: Relevant, owner: Mapping[int, int], expected: tuple[frozenset[int], ...]
     ) -> Relevant | None:
         """What small automata leave of many actions; None if there is no plan within the limits."""
-        if len(part.actions) <= limits().many_actions:
+        if len(part.actions) <= limits().many_actions or not uses("few-facts"):
             return part
         task, idle = self.question.task, 0
         small = SmallAutomata(task, self._groups, self.deadline, owner)
@@ -133,11 +133,7 @@ class AutomataEncoding:
         that what the program finds cheapest is optimal and fits (semantics 3.1, rule 3).
         """
         question = self.question
-        if (
-            question.rule != WINDOW
-            or question.options.suffix != "replan"
-            or question.options.preservation == "state"
-        ):
+        if not question.replans:
             return False
         task = question.task
         his = (task.actions[i] for i in self.deadline.each(part.actions))
@@ -216,7 +212,7 @@ class AutomataEncoding:
                 deadline=self.deadline,
                 windows=windows,
             )
-            promising = keep_promising(team)
+            promising = not uses("relevance-pruning") or keep_promising(team)
             self._spare, self._latest = team.spare, team.latest
         for machine, moves in zip(machines, team.moves, strict=True):
             machine.moves = moves

@@ -162,13 +162,13 @@ class JointLayers:
     def _hopeful(self, epoch: int, joint: _Joint, paid: int, robots: int) -> bool:
         """Whether a joint state may be on a path within the limit, by what was paid, and what robots paid."""
         spare, latest = self._setting.spare, self._setting.latest
-        assert spare is not None and latest is not None, "pruned"
         for k, node in enumerate(joint[:-2]):
             if node != STOPPED:
                 left = self._left[k][epoch].get(node)
                 if left is None:
                     return False
-                if k != self._human and (robots > spare(k, node) or epoch > latest(k, node)):
+                pruned = spare is not None and latest is not None and k != self._human
+                if pruned and (robots > spare(k, node) or epoch > latest(k, node)):  # type: ignore[misc]
                     return False
                 paid += left
         return paid <= self._setting.most
