@@ -213,7 +213,7 @@ def _asked(question: Subproblem, effort: Effort) -> list[Method]:
         return [each for each in TURNS if each.name == "exhaustive"]
     if effort.method != "auto" or effort.encoding != "automata" or not question.horizon:
         return [each for each in TURNS if each.name == "programs"]
-    return [each for each in TURNS if uses(each.name) and each.applies(question)]
+    return [each for each in TURNS if each.applies(question) and uses(each.name)]
 
 
 def _in_turns(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
