@@ -66,7 +66,7 @@ def main() -> None:
         task: Task | None = None
         for variant in variants:
             whole = known.get((name, _ALL))
-            if whole is not None and variant != _ALL and not set(variant.split("+")) & set(whole["asked"]):
+            if whole is not None and variant != _ALL and not _matters(variant, whole):
                 known[name, variant] = whole
             elif (name, variant) not in known:
                 task = task or _task(arguments.answers, source)
@@ -132,6 +132,11 @@ def _verified(task: Task, result: Result, variant: str, seconds: float) -> dict[
     row = {"verdict": certificate.verdict, "seconds": round(processor() - started, 3)}
     slowest = max(certificate.claims, key=lambda claim: claim.seconds)
     return {**row, "reason": slowest.reason, "asked": sorted(left_out.asked)}
+
+
+def _matters(variant: str, whole: dict[str, Any]) -> bool:
+    """Whether an answer is proved, with all methods, and the verifier asks about one that is left out."""
+    return whole["verdict"] == "proved" and bool(set(variant.split("+")) & set(whole["asked"]))
 
 
 def _read(book: Path) -> dict[tuple[str, str], dict[str, Any]]:

@@ -44,7 +44,7 @@ class Limits:
         states_a_value: the same, for each value of the variable with the most values.
         automaton_moves: of an automaton that is large enough: once a fact does not fit, no other is tried.
         many_actions: actions from which on small automata go before the large ones.
-        many_moves: moves from which on their bounds are worked out on arrays.
+        many_moves: moves from which on it pays to bound them whatever the epoch.
         joint_paths: joint states of pruned networks that are kept at most.
         alone_states: of the human alone, in a program.
         own_states: of the human alone that are looked at.
@@ -89,7 +89,7 @@ class Limits:
     states_a_value: int = 24
     automaton_moves: int = 100_000
     many_actions: int = 5_000
-    many_moves: int = 10_000
+    many_moves: int = 4_000
     joint_paths: int = 100_000
     alone_states: int = 50_000
     own_states: int = 200_000

@@ -18,7 +18,7 @@ PLANNING: Final = ("search:preload",)
 CHECKING: Final = (
     "serendipity.facade.proofs",
     "verify.packed.cheapest_path",
-    "verify.programs.promising.many_moves",
+    "verify.programs.promising.moves",
     "verify.policy",
     "highspy",
     "numpy.ma",

@@ -1,4 +1,4 @@
-"""Teams with many moves as arrays: what :mod:`.moves` computes move by move, thousands at once.
+"""A team's moves as arrays, and ways over them.
 
 Moves of all agents are numbered through, ordered by agent and state; states are numbered through, too.
 Literals are numbers: ``f`` says that a fact is true, ``f`` plus the number of facts that it is false.

@@ -1,21 +1,90 @@
-"""The rounds of :mod:`.moves` on arrays, for teams with many moves: the same moves are left."""
+"""Rounds of bounds on the moves of all agents' automata, until none of them drops anything.
 
-from collections.abc import Mapping
+A move stays if all of this holds, each of which a plan within the limits satisfies:
+
+* of the human: a path over it is cheap enough together with what robots must have spent for its needs, and
+  after the earliest epoch in which it can take place there are enough for the rest; what is done together
+  with others can take place while a window may still be open;
+* of a robot: what must have been spent when it was done is no more than what may have been, for anybody to
+  make use of it; and the same for epochs (:mod:`.bounds`).
+
+A plan in which the dearest of what robots provide for has made them spend ``s`` is a path over actions that
+ask nothing dearer of them, and costs that path and ``s``, at least.  So the human's paths are looked at level
+by level: each has a limit on what may be asked of robots, and adds the least that a path asks for which is on
+no lower level.  What robots can't provide for on a level the human has to have made on the same path.
+
+Where windows are short there are such levels of epochs, too: if the last of what robots provide for takes
+them ``t`` epochs, the window is open in epoch ``t`` or later, and until it opens the human does what is
+planned.
+"""
+
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Final
 
 import numpy as np
 
+from verify.limits import limits
 from verify.programs.promising.arrays import Actions, Arcs, Ints, Mask, Ways, distances, which
-from verify.programs.promising.at_once import SpendingAtOnce, UseAtOnce
-from verify.programs.promising.person import cuts
+from verify.programs.promising.bounds import NEVER, Spending, Use
 from verify.programs.promising.team import Team
-from verify.programs.promising.use import NEVER
+
+_MOST_ROUNDS: Final = 6
+
+_WORTH: Final = 0.9
+"""A round that leaves more than this share of the moves is the last one."""
+
+_LEVELS: Final = 10
+
+
+def keep_promising(team: Team) -> bool:
+    """Drop the moves that are on no plan within the limits; False if there is no plan.
+
+    All moves stay where so few are not worth it, or numbers are too large for machine words.
+
+    Args:
+        team: its ``moves`` are replaced.
+    """
+    if team.count() < limits().many_moves or 4 * (team.far + max(team.price, default=0)) > limits().weight:
+        return True
+    moves = _Moves(team)
+    promising = _rounds(moves)
+    moves.write()
+    return promising
+
+
+def _rounds(moves: "_Moves") -> bool:
+    before = moves.count()
+    for _ in range(_MOST_ROUNDS):
+        if not moves.round():
+            return False
+        left = moves.count()
+        if left > before * _WORTH:
+            break
+        before = left
+    return True
+
+
+def _cuts(values: Sequence[int]) -> list[int]:
+    """Where to divide ascending values into levels, as positions; the first level is without any help."""
+    count = min(_LEVELS, len(values))
+    found = [len(values) * k // count for k in range(count)] + [len(values)]
+    if values[0] == 0 and len(values) > 1 and count > 1:
+        found[1] = 1
+    return found
 
 
 @dataclass(frozen=True, slots=True)
 class _Judged:
-    """As :class:`.moves.Judged` has it, by action and by literal."""
+    """What the human's actions ask of robots: what these have spent by then at least, or how many epochs.
+
+    Attributes:
+        needs: for each action, if all that the human could make were there.
+        partners: for each action, before those who take part in it are there.
+        made: for each literal that robots can bring about; 0 for what is so.
+        by_epoch: whether it is epochs: an action with partners is done in the next one.
+    """
 
     needs: Ints
     partners: Ints
@@ -38,7 +107,17 @@ class _Judged:
 
 @dataclass(frozen=True, slots=True)
 class _Level:
-    """As :class:`.person.Level` has it; ``far`` where there is no way."""
+    """The human's paths that ask for no more than some amount, or some number of epochs.
+
+    Attributes:
+        least: what robots have spent at least.
+        most: what may be asked for.
+        before: how many of the human's actions are planned, at least.
+        done: for each state the least price of a way there, as planned at first; ``far``: there is none.
+        left: the least price of a way from there to the goal, likewise.
+        ready: for each action what is paid before the facts are there that the human has to make for it.
+        total: the least price of a whole path.
+    """
 
     least: int
     most: int
@@ -49,7 +128,7 @@ class _Level:
     total: int
 
 
-class ManyMoves:
+class _Moves:
     """A team's moves, which get fewer.
 
     Args:
@@ -82,15 +161,15 @@ class ManyMoves:
         team, arcs, human = self._team, self._arcs, self._human
         deadline = team.deadline
         nobody = np.zeros(self._count, bool)
-        epochs = SpendingAtOnce(self._actions, arcs, self._everybody, self._ones, nobody, deadline)
+        epochs = Spending(self._actions, arcs, self._everybody, self._ones, nobody, deadline)
         offered = nobody.copy()
         offered[arcs.action[arcs.agent == human]] = True
-        spent = SpendingAtOnce(self._actions, arcs, self._robots, self._by_robots, offered, deadline)
+        spent = Spending(self._actions, arcs, self._robots, self._by_robots, offered, deadline)
         costs = self._judged(spent)
         both = [(costs, self._levels(costs, costs, offered))]
         if team.windows is not None:
             ones = np.where(self._his, 0, self._ones)
-            earliest = SpendingAtOnce(self._actions, arcs, self._robots, ones, offered, deadline)
+            earliest = Spending(self._actions, arcs, self._robots, ones, offered, deadline)
             times = self._judged(earliest, by_epoch=True)
             both.append((times, self._levels(times, costs, offered)))
         if not all(found for _, found in both):
@@ -105,15 +184,15 @@ class ManyMoves:
         self._arcs = arcs.only(kept_by_him | kept_by_robots)
         return True
 
-    def _judged(self, spent: SpendingAtOnce, *, by_epoch: bool = False) -> _Judged:
+    def _judged(self, spent: Spending, *, by_epoch: bool = False) -> _Judged:
         partners = spent.partners(self._human) + (self._actions.joint & by_epoch)
         return _Judged(np.maximum(spent.facts(), partners), partners, spent.made(~self._his), by_epoch)
 
     def _levels(self, judged: _Judged, spent: _Judged, offered: Mask) -> list[_Level]:
-        """As :func:`.person.levels` has them."""
+        """The levels on which there are paths that are cheap enough; what robots ``spent``, if by epoch."""
         team, found = self._team, []
         values = judged.values(self._actions, offered, team.horizon if judged.by_epoch else team.most)
-        for low, high in pairwise(cuts(values)):
+        for low, high in pairwise(_cuts(values)):
             if low >= high:
                 continue
             least, most, before = values[low], values[high - 1], 0
@@ -224,7 +303,7 @@ class ManyMoves:
         team.spare, team.latest = costs.state, times.state
         return self._robots[arcs.agent] & (spent <= costs.arcs()) & (epochs <= times.arcs())
 
-    def _use(self, price: Ints, human: Ints, before: int, end: int) -> UseAtOnce:
+    def _use(self, price: Ints, human: Ints, before: int, end: int) -> Use:
         """Bounds from what may have been spent when the human's actions take place."""
         actions, team = self._actions, self._team
         done = np.flatnonzero(human > NEVER)
@@ -235,6 +314,6 @@ class ManyMoves:
             ends = np.array(sorted(wanted), np.int64) + offset
             literals[ends] = np.maximum(literals[ends], end)
         joint = np.where(actions.joint, human, NEVER)
-        return UseAtOnce(
+        return Use(
             actions, self._arcs, self._robots, self._watched, price, literals, joint, end, team.deadline
         )

@@ -88,24 +88,6 @@ class Team:
         """Ids of all agents but the human."""
         return [k for k in range(len(self.machines)) if k != self.task.human]
 
-    def actions(self, agent: int) -> set[int]:
-        """The actions in which an agent still may take part."""
-        return {action for moves in self.deadline.each(self.moves[agent]) for action, _ in moves}
-
-    def backward(self, agent: int) -> list[list[Move]]:
-        """For each state of an agent's, the actions that lead there and the states they come from."""
-        found: list[list[Move]] = [[] for _ in self.moves[agent]]
-        for state, moves in enumerate(self.deadline.each(self.moves[agent])):
-            for action, target in moves:
-                found[target].append((action, state))
-        return found
-
-    def last(self, state: int, action: int) -> int:
-        """The last epoch in which the human may do an action from a state, as far as windows tell."""
-        if self.windows is None or len(self.task.actions[action].participants) == 1:
-            return self.horizon
-        return self.windows.last.get(state, 0)
-
     def count(self) -> int:
         """How many moves are left."""
         return sum(len(moves) for agent in self.moves for moves in self.deadline.each(agent))
