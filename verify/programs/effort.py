@@ -72,7 +72,6 @@ class Attempt:
         name: of the method (``verify.calls.methods``).
         decided: whether that was the answer.
         states: how many an exhaustive search looked at.
-        paths: joint states in the search of what pruning leaves of a program, where that decided.
         landmarks: rows of them, where numbers of actions decided.
         seconds: what it took.
     """
@@ -80,7 +79,6 @@ class Attempt:
     name: str
     decided: bool
     states: int = 0
-    paths: int = 0
     landmarks: int = 0
     seconds: float = 0.0
 
@@ -187,8 +185,7 @@ class Minimum:
         bound: proved lower bound on the objective in units, or None.
         reason: why it is undecided.
         states: how many an exhaustive search looked at.
-        paths: as :class:`Attempt` has them.
-        landmarks: likewise.
+        landmarks: as :class:`Attempt` has them.
     """
 
     status: str
@@ -196,7 +193,6 @@ class Minimum:
     bound: int | None = None
     reason: str = ""
     states: int = 0
-    paths: int = 0
     landmarks: int = 0
 
     def settled(self) -> Solution | None:

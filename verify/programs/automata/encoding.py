@@ -23,7 +23,7 @@ from verify.programs.automata.pruning import prune, unroll
 from verify.programs.automata.setting import Setting, outer_needs
 from verify.programs.automata.suffixes import bound_suffix
 from verify.programs.automata.windows import keep_within_windows
-from verify.programs.promising import OfState, Team, keep_promising
+from verify.programs.promising import Team, keep_promising
 from verify.solvers.mip import Model
 
 _WORTH: Final = 0.9
@@ -51,8 +51,6 @@ class AutomataEncoding:
         self.question = question
         self.deadline = question.deadline
         self.setting: Setting | None = None
-        self._spare: OfState | None = None
-        self._latest: OfState | None = None
         literal = question.rule == WINDOW and question.options.preservation == "state"
         expected = expected_states(question) if literal else ()
         part = relevant_part(question, frozenset().union(*expected))
@@ -168,8 +166,6 @@ class AutomataEncoding:
             wanted_true=wanted_true,
             wanted_false=wanted_false,
             finals=finals,
-            spare=self._spare,
-            latest=self._latest,
             deadline=self.deadline,
             bounds=distances(machines[task.human], weights[task.human], finals[task.human], self.deadline),
         )
@@ -213,7 +209,6 @@ class AutomataEncoding:
                 windows=windows,
             )
             promising = not uses("relevance-pruning") or keep_promising(team)
-            self._spare, self._latest = team.spare, team.latest
         for machine, moves in zip(machines, team.moves, strict=True):
             machine.moves = moves
         return promising

@@ -185,10 +185,6 @@ class Use:
         use = np.maximum(self._used[arcs.action], self.states[arcs.target])
         return np.where(self._watched[arcs.agent], self._end, use)
 
-    def state(self, agent: int, state: int) -> int:
-        """What may have been spent when an agent is in a state and goes on; :data:`NEVER`: it needn't."""
-        return self._end if self._watched[agent] else int(self.states[self._arcs.first[agent] + state])
-
     def _run(self, deadline: Deadline) -> None:
         kinds = self.states, self._literals, self._used
         seen = [np.zeros(len(values), bool) for values in kinds]

@@ -300,7 +300,6 @@ class _Moves:
         np.maximum.at(latest, action, self._last(his, self._fewest(his))[his])
         costs = self._use(self._by_robots, budget, 0, team.most - total)
         times = self._use(self._ones, latest, 1, team.horizon)
-        team.spare, team.latest = costs.state, times.state
         return self._robots[arcs.agent] & (spent <= costs.arcs()) & (epochs <= times.arcs())
 
     def _use(self, price: Ints, human: Ints, before: int, end: int) -> Use:

@@ -1,13 +1,10 @@
 """What the bounds on moves work on: automata, the needs of their actions, prices and limits."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from serendipity.model import Deadline, Task
 from verify.programs.agents.product import Automaton, Move
-
-OfState = Callable[[int, int], int]
-"""Of an agent and a state of their automaton."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +49,6 @@ class Team:
         deadline: polled.
         windows: where windows may be, if they are short.
         moves: by agent and state, the moves that are left.
-        spare: what robots may have spent, at most, when one of them is in a state and goes on.
-        latest: the epoch after which that is too late.
         far: more than a plan within the limit costs, and than there are epochs: as good as no way.
         needed: the facts that some action needs outside its participants' automata.
     """
@@ -73,8 +68,6 @@ class Team:
     windows: Windows | None = None
     moves: list[list[list[Move]]] = field(default_factory=list)
     needed: frozenset[int] = frozenset()
-    spare: OfState | None = None
-    latest: OfState | None = None
     far: int = field(init=False)
 
     def __post_init__(self) -> None:
