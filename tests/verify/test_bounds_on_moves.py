@@ -11,7 +11,6 @@ from serendipity.testing.strategies import Call, calls
 from tests.verify.test_pruning_keeps_plans import _check
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import WINDOW, Subproblem, prices
-from verify.limits import limited
 from verify.programs.agents.product import Automaton, automata, private_facts
 from verify.programs.automata import encoding
 from verify.programs.automata.windows import keep_within_windows, longest_window
@@ -21,8 +20,7 @@ from verify.programs.promising import Team, keep_promising
 @settings(max_examples=30)
 @given(calls())
 def test_bounds_on_moves_drop_no_plan(call: Call) -> None:
-    with limited(many_moves=0):
-        _check(call)
+    _check(call)
 
 
 # -- windows
@@ -95,8 +93,7 @@ def _is_promising(way: Task, names: tuple[str, ...], most: int, longest: int) ->
     said = []
 
     def listen(team: Team) -> bool:
-        with limited(many_moves=0):
-            said.append(keep_promising(team))
+        said.append(keep_promising(team))
         return said[-1]
 
     with pytest.MonkeyPatch.context() as patch:

@@ -35,18 +35,19 @@ _MOST_ROUNDS: Final = 6
 _WORTH: Final = 0.9
 """A round that leaves more than this share of the moves is the last one."""
 
-_LEVELS: Final = 10
+_LEVELS: Final = (3, 10)
+"""In the first round, which is often enough, and in all others."""
 
 
 def keep_promising(team: Team) -> bool:
     """Drop the moves that are on no plan within the limits; False if there is no plan.
 
-    All moves stay where so few are not worth it, or numbers are too large for machine words.
+    All moves stay where numbers are too large for machine words.
 
     Args:
         team: its ``moves`` are replaced.
     """
-    if team.count() < limits().many_moves or 4 * (team.far + max(team.price, default=0)) > limits().weight:
+    if 4 * (team.far + max(team.price, default=0)) > limits().weight:
         return True
     moves = _Moves(team)
     promising = _rounds(moves)
@@ -55,20 +56,21 @@ def keep_promising(team: Team) -> bool:
 
 
 def _rounds(moves: "_Moves") -> bool:
+    first, more = _LEVELS
     before = moves.count()
-    for _ in range(_MOST_ROUNDS):
-        if not moves.round():
+    for number in range(_MOST_ROUNDS):
+        if not moves.round(more if number else first):
             return False
         left = moves.count()
-        if left > before * _WORTH:
+        if number and left > before * _WORTH:
             break
         before = left
     return True
 
 
-def _cuts(values: Sequence[int]) -> list[int]:
+def _cuts(values: Sequence[int], most: int) -> list[int]:
     """Where to divide ascending values into levels, as positions; the first level is without any help."""
-    count = min(_LEVELS, len(values))
+    count = min(most, len(values))
     found = [len(values) * k // count for k in range(count)] + [len(values)]
     if values[0] == 0 and len(values) > 1 and count > 1:
         found[1] = 1
@@ -156,8 +158,8 @@ class _Moves:
         """Give the team the moves that are left."""
         self._team.moves = [self._arcs.lists(k) for k in range(len(self._team.machines))]
 
-    def round(self) -> bool:
-        """Drop moves that are on no plan within the limits; False if there is no plan."""
+    def round(self, levels: int) -> bool:
+        """Drop moves that are on no plan within the limits, on so many levels; False if there is none."""
         team, arcs, human = self._team, self._arcs, self._human
         deadline = team.deadline
         nobody = np.zeros(self._count, bool)
@@ -166,12 +168,12 @@ class _Moves:
         offered[arcs.action[arcs.agent == human]] = True
         spent = Spending(self._actions, arcs, self._robots, self._by_robots, offered, deadline)
         costs = self._judged(spent)
-        both = [(costs, self._levels(costs, costs, offered))]
+        both = [(costs, self._levels(costs, costs, offered, levels))]
         if team.windows is not None:
             ones = np.where(self._his, 0, self._ones)
             earliest = Spending(self._actions, arcs, self._robots, ones, offered, deadline)
             times = self._judged(earliest, by_epoch=True)
-            both.append((times, self._levels(times, costs, offered)))
+            both.append((times, self._levels(times, costs, offered, levels)))
         if not all(found for _, found in both):
             return False
         his = arcs.agent == human
@@ -188,11 +190,11 @@ class _Moves:
         partners = spent.partners(self._human) + (self._actions.joint & by_epoch)
         return _Judged(np.maximum(spent.facts(), partners), partners, spent.made(~self._his), by_epoch)
 
-    def _levels(self, judged: _Judged, spent: _Judged, offered: Mask) -> list[_Level]:
+    def _levels(self, judged: _Judged, spent: _Judged, offered: Mask, most_levels: int) -> list[_Level]:
         """The levels on which there are paths that are cheap enough; what robots ``spent``, if by epoch."""
         team, found = self._team, []
         values = judged.values(self._actions, offered, team.horizon if judged.by_epoch else team.most)
-        for low, high in pairwise(_cuts(values)):
+        for low, high in pairwise(_cuts(values, most_levels)):
             if low >= high:
                 continue
             least, most, before = values[low], values[high - 1], 0
