@@ -12,8 +12,8 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.base.small_numbers import with_small_numbers
 from verify.base.subproblem import FREE, Solution, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, why
-from verify.beside.short_windows import is_short, no_short_window
 from verify.exhaustive.beside_plans import answers_all
+from verify.exhaustive.decoupled.short_windows import is_short, no_short_window
 from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers, cheapest_by_epochs
 from verify.exhaustive.uniform_cost import cheapest
 from verify.limits import PARTS, limits, uses

@@ -15,9 +15,9 @@ from verify.calls.call import Call
 from verify.calls.methods import decide
 from verify.calls.results import found_result
 from verify.certificate.each_plan import EachPlan
+from verify.certificate.simulator import realised_claim
 from verify.rules import Checker
 from verify.rules.replay import replay
-from verify.simulator import realised_claim
 
 
 class Figures(NamedTuple):

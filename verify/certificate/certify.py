@@ -29,6 +29,7 @@ from verify.calls.methods import require_known
 from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.humans import HumanExaminer
 from verify.certificate.provable import require_programs
+from verify.certificate.simulator import realised_claim
 from verify.certificate.tied import combined
 from verify.goals.check import claims_by_rules, examine, unexamined
 from verify.goals.proof import GoalsProof
@@ -41,7 +42,6 @@ from verify.rules import Checker, RuleReport
 from verify.rules.claims import rule_claim
 from verify.rules.header import require_same_task
 from verify.rules.replay import replay, replay_human
-from verify.simulator import realised_claim
 from verify.solvers.mip import solver_version
 
 

@@ -11,9 +11,9 @@ from verify.calls.call import Call
 from verify.calls.methods import JOINT_PLANS, decide
 from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.reactions import cheapest_reaction
+from verify.certificate.simulator import Person, play
 from verify.limits import uses
 from verify.programs.effort import NoProgramError
-from verify.simulator import Person, play
 
 
 class HumanExaminer(Examiner):

@@ -16,10 +16,10 @@ from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE, Solution
 from verify.base.undecided import during
 from verify.calls.call import Call
+from verify.certificate.simulator import Moment, Person, Play
 from verify.exhaustive.uniform_cost import LeastLeft
 from verify.limits import limits
 from verify.programs.effort import Attempt, Minimum
-from verify.simulator import Moment, Person, Play
 
 
 def cheapest_reaction(call: Call, most: int | None) -> Minimum:

@@ -20,9 +20,9 @@ from verify.base.execution import conflicting, states_along
 from verify.base.relevance import Relevant, closure, relevant_part
 from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
-from verify.beside.leavings import differences, together
-from verify.beside.timeline import Timeline, parts
 from verify.exhaustive.circles import circles
+from verify.exhaustive.decoupled.leavings import differences, together
+from verify.exhaustive.decoupled.timeline import Timeline, parts
 from verify.exhaustive.team_problem import as_operator
 from verify.limits import limits
 from verify.packed.cheapest_path import TooManyStatesError

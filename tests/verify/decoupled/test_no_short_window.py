@@ -15,8 +15,8 @@ from serendipity.testing.strategies import family_tasks, tasks
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import Subproblem
-from verify.beside.short_windows import is_short, no_short_window
 from verify.calls.call import Call
+from verify.exhaustive.decoupled.short_windows import is_short, no_short_window
 
 
 def without_joint_actions(task: Task) -> Task:

@@ -9,9 +9,9 @@ from verify.base import wording
 from verify.base.execution import meant_by, price
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
+from verify.certificate.simulator.person import Person
+from verify.certificate.simulator.run import Played, play
 from verify.rules.replay import replay_human
-from verify.simulator.person import Person
-from verify.simulator.run import Played, play
 
 _MODELS = ("observant", "local")
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from serendipity.model import Options, Step, Task, Visible, surroundings
 from verify.base.execution import State, after, applicable, fits, price
 from verify.base.optimal_plans import OptimalPlans
-from verify.simulator.person import Person
+from verify.certificate.simulator.person import Person
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import Deadline
-from verify.beside.rows import Collected, Layer, cheapest
+from verify.exhaustive.decoupled.rows import Collected, Layer, cheapest
 from verify.limits import limits
 from verify.packed.cheapest_path import TooManyStatesError
 from verify.packed.layout import Words

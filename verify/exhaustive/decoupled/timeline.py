@@ -17,7 +17,7 @@ from serendipity.model import GroundAction
 from verify.base.execution import conflicting
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Subproblem
-from verify.beside.rows import Bools, Collected, Layer, cheapest
+from verify.exhaustive.decoupled.rows import Bools, Collected, Layer, cheapest
 from verify.limits import limits
 from verify.packed.layout import Layout, Words
 from verify.packed.operators import Operator, OperatorTable

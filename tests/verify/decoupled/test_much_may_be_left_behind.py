@@ -7,9 +7,9 @@ import pytest
 
 from serendipity.model import LimitReachedError
 from serendipity.testing.countdown import Countdown
-from verify.beside import leavings, rows
-from verify.beside.leavings import differences, together
-from verify.beside.rows import Collected, Layer, cheapest
+from verify.exhaustive.decoupled import leavings, rows
+from verify.exhaustive.decoupled.leavings import differences, together
+from verify.exhaustive.decoupled.rows import Collected, Layer, cheapest
 from verify.limits import limited
 from verify.packed.cheapest_path import TooManyStatesError
 
