@@ -29,7 +29,7 @@ PARTS: Final = (
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class VerifierLimits:
     """The limits; a thread or a process of its own begins with these.
 
     Attributes:
@@ -118,10 +118,10 @@ class Limits:
     end_share: float = 0.05
 
 
-_CURRENT: ContextVar[Limits] = ContextVar("limits", default=Limits())  # noqa: B039 - never changed
+_CURRENT: ContextVar[VerifierLimits] = ContextVar("limits", default=VerifierLimits())  # noqa: B039 - never changed
 
 
-def limits() -> Limits:
+def limits() -> VerifierLimits:
     """The limits that hold now."""
     return _CURRENT.get()
 
@@ -135,7 +135,7 @@ def uses(name: str) -> bool:
 
 @contextmanager
 def limited(**given: Any) -> Iterator[None]:
-    """Other limits for a while, by the names of :class:`Limits`."""
+    """Other limits for a while, by the names of :class:`VerifierLimits`."""
     before = _CURRENT.set(replace(limits(), **given))
     try:
         yield

@@ -14,7 +14,7 @@ from verify.base.subproblem import WINDOW, Subproblem, prices
 from verify.programs.agents.product import Automaton, automata, private_facts
 from verify.programs.automata import encoding
 from verify.programs.automata.windows import keep_within_windows, longest_window
-from verify.programs.promising import Team, keep_promising
+from verify.programs.promising import TeamMoves, keep_promising
 
 
 @settings(max_examples=30)
@@ -92,7 +92,7 @@ def _is_promising(way: Task, names: tuple[str, ...], most: int, longest: int) ->
     question = Subproblem(way, options, WINDOW, plan, len(plan), prices(way, options, plan), most=most)
     said = []
 
-    def listen(team: Team) -> bool:
+    def listen(team: TeamMoves) -> bool:
         said.append(keep_promising(team))
         return said[-1]
 

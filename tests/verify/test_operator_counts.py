@@ -8,7 +8,7 @@ from serendipity.testing.generator.families import family_task
 from serendipity.testing.strategies import tasks
 from tests.verify.packed.test_packed_search_equals_brute_force import FAMILY, distances, reached, team_problem
 from verify.packed.pattern import FAR
-from verify.programs.counts import Landmarks, least_weight
+from verify.programs.counts import MissedLandmarks, least_weight
 from verify.programs.effort import Effort
 
 _MOST = 10**6
@@ -49,7 +49,7 @@ def test_a_landmark_is_on_every_plan(task: Task) -> None:
     """Without its operators the goal is not reached."""
     problem = team_problem(task)
     kept = problem.table.operators
-    landmarks = Landmarks(problem.table, task.init, task.goal.positive, Deadline())
+    landmarks = MissedLandmarks(problem.table, task.init, task.goal.positive, Deadline())
     for landmark in landmarks.missed([0] * len(kept)):
         without = [each for k, each in enumerate(kept) if k not in landmark]
         seen, queue = {task.init}, [task.init]

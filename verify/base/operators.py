@@ -13,7 +13,7 @@ _LONGEST: Final = 10**9
 """More actions than any plan has that is ever compared."""
 
 
-class Operator(NamedTuple):
+class OwnOperator(NamedTuple):
     """An own action reduced to the facts that can matter to the human, which are bits.
 
     ``weight`` orders plans by cost, then by length: a cost of 1 weighs as much as
@@ -53,7 +53,7 @@ class OwnActions:
         self.bits = FactBits(facts)
         self._unit = lcm(*denominators) * _LONGEST
         self._weights: dict[tuple[int, int], int] = {}
-        self._operators: dict[int, Operator] = {}
+        self._operators: dict[int, OwnOperator] = {}
         self._watched = self._watch(deadline)
 
     def weight(self, action: int) -> int:
@@ -73,7 +73,7 @@ class OwnActions:
         """The weight of a plan of that cost and length, whose cost is a sum of its actions'."""
         return int(cost * self._unit) + length
 
-    def applicable(self, state: int) -> list[Operator]:
+    def applicable(self, state: int) -> list[OwnOperator]:
         """The operators that are applicable in a state."""
         return [operator for _, operator in self._usable(state)]
 
@@ -81,7 +81,7 @@ class OwnActions:
         """The actions that are applicable in a state, by ids, each with the state after it."""
         return [(i, state & ~operator.delete | operator.add) for i, operator in self._usable(state)]
 
-    def _usable(self, state: int) -> list[tuple[int, Operator]]:
+    def _usable(self, state: int) -> list[tuple[int, OwnOperator]]:
         found = []
         watched = self._watched
         for bit in chain((0,), each_bit(state)):
@@ -112,11 +112,11 @@ class OwnActions:
             waiting = later
         return True
 
-    def _operator(self, action: int) -> Operator:
+    def _operator(self, action: int) -> OwnOperator:
         operator = self._operators.get(action)
         if operator is None:
             ground, of = self._task.actions[action], self.bits.of
-            operator = self._operators[action] = Operator(
+            operator = self._operators[action] = OwnOperator(
                 of(ground.pre), of(ground.neg), of(ground.add), of(ground.delete), self.weight(action)
             )
         return operator

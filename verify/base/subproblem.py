@@ -14,7 +14,7 @@ from typing import TypeVar
 
 from serendipity.model import Deadline, HumanPlan, Options, Step, Task, Window
 from verify.base.execution import price
-from verify.base.plan_graph import PlanGraph
+from verify.base.plan_graph import OptimalPlanGraph
 
 Amount = TypeVar("Amount", int, tuple[int, int])
 
@@ -48,7 +48,7 @@ class Prices:
 
 
 @dataclass(frozen=True, slots=True)
-class Solution:
+class PricedPlan:
     """A plan that answers a question, replayed; costs in the question's units."""
 
     steps: tuple[Step, ...]
@@ -82,7 +82,7 @@ class Subproblem:
     human_plan: HumanPlan
     horizon: int
     prices: Prices
-    any_of: PlanGraph | None = None
+    any_of: OptimalPlanGraph | None = None
     robots: bool = True
     robots_goal: bool = True
     most: int | None = None

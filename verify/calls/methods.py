@@ -10,7 +10,7 @@ from typing import Final
 from serendipity.model import Deadline, UsageError, Window
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.small_numbers import with_small_numbers
-from verify.base.subproblem import FREE, Solution, Subproblem
+from verify.base.subproblem import FREE, PricedPlan, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.exhaustive.beside_plans import answers_all
 from verify.exhaustive.decoupled.short_windows import is_short, no_short_window
@@ -202,7 +202,7 @@ def _decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimu
     return _in_turns(question, effort, plans)
 
 
-def _throughout(question: Subproblem, found: Solution) -> Solution:
+def _throughout(question: Subproblem, found: PricedPlan) -> PricedPlan:
     """A plan whose window is all epochs."""
     return replace(found, window=Window(1, question.horizon + 1))
 

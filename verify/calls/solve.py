@@ -13,7 +13,7 @@ from verify.base.individual import IndividualOptimum
 from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
-from verify.calls.answer import Answer, answer, calls
+from verify.calls.answer import CallAnswer, answer, calls
 from verify.calls.results import to_result
 from verify.limits import limits
 from verify.programs.effort import Effort
@@ -82,7 +82,7 @@ def _solve(task: Task, options: Options, given: HumanPlan | None, effort: Effort
     return over_ties(answers, options.ties) if several else to_result(answers[0])
 
 
-def over_ties(answers: list[Answer], ties: str) -> Result:
+def over_ties(answers: list[CallAnswer], ties: str) -> Result:
     """One result from the answers for all optimal ``pi_H`` (semantics 1)."""
     results = [to_result(each) for each in answers]
     listed = tuple(TiedAnswer(r.human_plan or (), r.cost, r.opportunity) for r in results)
@@ -98,7 +98,7 @@ def over_ties(answers: list[Answer], ties: str) -> Result:
     return replace(chosen, ties=listed)
 
 
-def _mean(answers: list[Answer], results: list[Result]) -> Result:
+def _mean(answers: list[CallAnswer], results: list[Result]) -> Result:
     """The expected answer: means of the figures, no single plan."""
 
     def mean(values: Iterable[Fraction | None]) -> float | None:

@@ -24,7 +24,7 @@ from verify.base.individual import IndividualOptimum
 from verify.base.obligations import BY_RULES, complete, is_mean, is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
-from verify.calls.call import Call
+from verify.calls.call import ExaminedCall
 from verify.calls.methods import require_known
 from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.humans import HumanExaminer
@@ -264,7 +264,7 @@ class _Certifier:
         names = result.human_plan
         deadline = self.effort.deadline
         plan: HumanPlan | None = None if names is None else replay_human(self.task, names, deadline)
-        call = Call(self.task, result.options, plan, self.plans, self.effort)
+        call = ExaminedCall(self.task, result.options, plan, self.plans, self.effort)
         if plan is not None or not call.needs_pi_h:
             assert call.horizon is not None
         sets = replay(self.task, result.plan or (), deadline, strict=result.options.strict).sets

@@ -8,10 +8,10 @@ from functools import cached_property
 
 from serendipity.model import HumanPlan, LimitReachedError, Options, Task
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.plan_graph import PlanGraph
+from verify.base.plan_graph import OptimalPlanGraph
 from verify.base.subproblem import in_plan
 from verify.calls.answer import answer
-from verify.calls.call import Call
+from verify.calls.call import ExaminedCall
 from verify.calls.methods import ANY_PLAN, BESIDE_PLANS, decide
 from verify.certificate.humans import human_cost
 from verify.exhaustive.beside_plans import HelpBesidePlans
@@ -23,7 +23,7 @@ from verify.proofs.book import ProofReader
 
 
 @dataclass(frozen=True, slots=True)
-class Solved:
+class SolvedPlan:
     """The proved answer for one optimal ``pi_H``; None where there is no plan."""
 
     cost: Fraction | None
@@ -56,11 +56,11 @@ class EachPlan:
 
     def __init__(self, task: Task, options: Options, effort: Effort, plans: OptimalPlans) -> None:
         self._task, self._options, self._effort, self._plans = task, options, effort, plans
-        self.graph = PlanGraph(task, plans, options.max_ties)
+        self.graph = OptimalPlanGraph(task, plans, options.max_ties)
         self.asked = self.graph.count
-        self._known: dict[Hashable, Solved] = {}
+        self._known: dict[Hashable, SolvedPlan] = {}
 
-    def beside(self, plan: HumanPlan) -> Solved:
+    def beside(self, plan: HumanPlan) -> SolvedPlan:
         """The answer beside one plan.
 
         Raises:
@@ -75,7 +75,7 @@ class EachPlan:
             self._known[same] = _solved(call)
         return self._known[same]
 
-    def all(self) -> Counter[Solved]:
+    def all(self) -> Counter[SolvedPlan]:
         """The answers, each with the number of plans that it is for.
 
         Raises:
@@ -86,7 +86,7 @@ class EachPlan:
         shared = self._shared
         if shared is None:
             return Counter(self.beside(plan) for plan in self.graph.plans())
-        found: Counter[Solved] = Counter()
+        found: Counter[SolvedPlan] = Counter()
         for score, count in shared.scores.items():
             found[self._solved(score)] += count
         return found
@@ -106,7 +106,7 @@ class EachPlan:
         return self._unaided if least >= nothing[1] else self._nobody(nothing[0], least - 1)
 
     @cached_property
-    def _first(self) -> Call:
+    def _first(self) -> ExaminedCall:
         return self.call(next(self.graph.plans()))
 
     @property
@@ -175,22 +175,22 @@ class EachPlan:
         effort.attempts.append(Attempt(BESIDE_PLANS.name, decided=True, states=found.states))
         return found
 
-    def call(self, plan: HumanPlan) -> Call:
+    def call(self, plan: HumanPlan) -> ExaminedCall:
         """The call beside one plan."""
-        return Call(self._task, self._options, plan, self._plans, self._effort)
+        return ExaminedCall(self._task, self._options, plan, self._plans, self._effort)
 
-    def _solved(self, score: tuple[int, int] | None) -> Solved:
+    def _solved(self, score: tuple[int, int] | None) -> SolvedPlan:
         """The answer where windows allow a score; None: nothing that undercuts leaving the human alone."""
         call = self._first
         assert call.baseline is not None
         idle = call.prices.cost(call.baseline)
         if score is None:
-            return Solved(idle, idle, Fraction(0), opportunity=False)
+            return SolvedPlan(idle, idle, Fraction(0), opportunity=False)
         objective, cost = map(call.prices.cost, score)
-        return Solved(cost, objective, idle - cost, opportunity=True)
+        return SolvedPlan(cost, objective, idle - cost, opportunity=True)
 
 
-def kin(call: Call) -> Hashable:
+def kin(call: ExaminedCall) -> Hashable:
     """What of ``pi_H`` a call depends on: optimal plans of which it is the same have the same answer.
 
     All optimal plans cost the same and have the same length.  Told humans are asked for what is not in their
@@ -211,12 +211,12 @@ def _is_next(proof: ProofReader) -> bool:
     return bool(proof.left) and BESIDE_ANY in str(proof.left[0].get("name"))
 
 
-def _solved(call: Call) -> Solved:
+def _solved(call: ExaminedCall) -> SolvedPlan:
     if call.options.human_model == "omniscient":
         found = answer(call)
-        return Solved(found.cost, found.objective, found.saving, found.opportunity)
+        return SolvedPlan(found.cost, found.objective, found.saving, found.opportunity)
     cost = human_cost(call)
     if cost is None or call.baseline is None:  # whatever can be done then is an opportunity
-        return Solved(cost, cost, None, opportunity=cost is not None)
+        return SolvedPlan(cost, cost, None, opportunity=cost is not None)
     saving = max(call.prices.cost(call.baseline) - cost, Fraction(0))
-    return Solved(cost, cost, saving, opportunity=saving > 0)
+    return SolvedPlan(cost, cost, saving, opportunity=saving > 0)

@@ -19,12 +19,12 @@ import numpy as np
 from serendipity.model import Deadline, HumanPlan
 from verify.base.execution import facts_of_his
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.plan_graph import PlanGraph
+from verify.base.plan_graph import OptimalPlanGraph
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
 from verify.exhaustive.epoch_by_epoch import OtherMethodError
-from verify.exhaustive.team import Team
+from verify.exhaustive.team import TeamEpochs
 from verify.exhaustive.team_problem import team_problem
 from verify.limits import limits
 from verify.packed.layout import Words
@@ -113,7 +113,9 @@ class HelpBesidePlans:
         LimitReachedError: the deadline came first.
     """
 
-    def __init__(self, question: Subproblem, graph: PlanGraph, plans: OptimalPlans, *, bounded: bool) -> None:
+    def __init__(
+        self, question: Subproblem, graph: OptimalPlanGraph, plans: OptimalPlans, *, bounded: bool
+    ) -> None:
         if not answers_all(question):
             raise OtherMethodError("not all optimal plans can be searched beside at once")
         with during("preparing a search beside all optimal plans"):
@@ -142,7 +144,7 @@ class HelpBesidePlans:
         self._layout = self._problem.layout
         table = OperatorTable(self._layout, team.singles)
         strict = question.options.strict
-        self._team = Team(question.task, part.actions, table, self._deadline, strict=strict)
+        self._team = TeamEpochs(question.task, part.actions, table, self._deadline, strict=strict)
         self._numbers = {i: k for k, i in enumerate(part.actions)}
         alone = sum(question.prices.team[i] for i in question.human_plan)
         epoch = question.prices.epoch

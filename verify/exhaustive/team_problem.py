@@ -8,13 +8,13 @@ import numpy as np
 from serendipity.model import Deadline, GroundAction, LimitReachedError, Step
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.relevance import Relevant
-from verify.base.subproblem import Solution, Subproblem, least
+from verify.base.subproblem import PricedPlan, Subproblem, least
 from verify.exhaustive.circles import circles
 from verify.limits import limits, uses
 from verify.packed.affordable import affordable
-from verify.packed.cheapest_path import TooManyStatesError
-from verify.packed.operators import Operator
-from verify.packed.problem import Problem, StateSpace
+from verify.packed.cheapest_path import TooManyPackedStatesError
+from verify.packed.operators import PackedOperator
+from verify.packed.problem import PackedProblem, StateSpace
 from verify.programs.counts import least_weight
 from verify.programs.effort import Effort, Minimum
 
@@ -32,8 +32,8 @@ class TeamProblem:
     """
 
     space: StateSpace
-    problem: Problem
-    singles: list[Operator]
+    problem: PackedProblem
+    singles: list[PackedOperator]
     sets: list[tuple[int, ...]]
     goal: tuple[tuple[int, ...], tuple[int, ...]]
 
@@ -56,12 +56,12 @@ class TeamProblem:
         constant = start - turned
         possible = [k for k, each in enumerate(kept) if constant.isdisjoint(each.neg)]
         asked = facts & turned.union(*self.goal)
-        problem = Problem(self.space, asked, [kept[k] for k in possible], self.goal, deadline)
+        problem = PackedProblem(self.space, asked, [kept[k] for k in possible], self.goal, deadline)
         return replace(self, problem=problem, sets=[self.sets[left[k]] for k in possible])
 
 
 def team_problem(question: Subproblem, part: Relevant, *, bounded: bool) -> TeamProblem:
-    """The team's problem of a question; ``bounded`` as :class:`verify.packed.problem.Problem` has it.
+    """The team's problem of a question; ``bounded`` as :class:`verify.packed.problem.PackedProblem` has it.
 
     Raises:
         TooLargeError: it is not one for packed states.
@@ -83,19 +83,19 @@ def team_problem(question: Subproblem, part: Relevant, *, bounded: bool) -> Team
         tuple(f for c in conditions for f in c.positive),
         tuple(f for c in conditions for f in c.negative),
     )
-    problem = Problem(space, part.facts, operators, goal, deadline, bounded=bounded)
+    problem = PackedProblem(space, part.facts, operators, goal, deadline, bounded=bounded)
     kept = [one for one, operator in zip(sets, operators, strict=True) if space.pairs.possible(operator.pre)]
     return TeamProblem(space, problem, operators[: len(part.actions)], kept, goal)
 
 
-def as_operator(together: Iterable[GroundAction], weight: int) -> Operator:
+def as_operator(together: Iterable[GroundAction], weight: int) -> PackedOperator:
     """Actions as one."""
     chosen = tuple(together)
 
     def union(sets: Iterable[tuple[int, ...]]) -> tuple[int, ...]:
         return tuple(sorted({fact for facts in sets for fact in facts}))
 
-    return Operator(
+    return PackedOperator(
         union(a.pre for a in chosen),
         union(a.neg for a in chosen),
         union(a.add for a in chosen),
@@ -130,7 +130,7 @@ def cheapest_without_epochs(question: Subproblem, team: TeamProblem, effort: Eff
     except LIMITS as limit:
         reason = str(LimitReachedError(limit_reason(limit), "searching joint plans"))
         return Minimum("undecided", bound=counts.least, reason=reason)
-    except TooManyStatesError as error:
+    except TooManyPackedStatesError as error:
         reason = str(error) or "there are too many joint states"
         return Minimum("undecided", bound=counts.least, reason=reason)
     if found is None:
@@ -139,7 +139,7 @@ def cheapest_without_epochs(question: Subproblem, team: TeamProblem, effort: Eff
     sets = enumerate((team.sets[k] for k in path), start=1)
     steps = tuple(Step(epoch, i) for epoch, chosen in sets for i in chosen)
     cost = search.paid(found)
-    return Minimum("found", Solution(steps, None, cost, cost), cost, states=search.states)
+    return Minimum("found", PricedPlan(steps, None, cost, cost), cost, states=search.states)
 
 
 class _Counts:

@@ -15,7 +15,7 @@ from verify.base.execution import State
 from verify.base.fact_bits import FactBits, each_bit
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.shortest_paths import PathSearch
-from verify.base.subproblem import Solution, Subproblem, least
+from verify.base.subproblem import PricedPlan, Subproblem, least
 from verify.base.undecided import during
 from verify.exhaustive.circles import circles
 from verify.exhaustive.team_problem import cheapest_without_epochs, team_problem
@@ -153,7 +153,7 @@ class JointSearch:
     def _found(self, bundles: list[Bundle], cost: int) -> Minimum:
         epochs = enumerate(bundles, start=1)
         steps = tuple(Step(epoch, i) for epoch, bundle in epochs for i in bundle.actions)
-        return Minimum("found", Solution(steps, None, cost, cost), cost)
+        return Minimum("found", PricedPlan(steps, None, cost, cost), cost)
 
     def applicable(self, state: int) -> Iterator[Bundle]:
         """What can be done next."""

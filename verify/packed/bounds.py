@@ -59,7 +59,7 @@ def much() -> Care:
     return Care((2_000, 100_000), limits().careful_seconds, limits().careful_share)
 
 
-class Bounds:
+class PatternBounds:
     """Bounds for one goal.
 
     Args:

@@ -19,15 +19,15 @@ _CUT_AT_ONCE: Final = 8
 """The same where landmarks are looked for, state by state."""
 
 
-class TooManyStatesError(Exception):
+class TooManyPackedStatesError(Exception):
     """More states than the caller allows."""
 
 
-class SumTooLargeError(TooManyStatesError):
+class SumTooLargeError(TooManyPackedStatesError):
     """What is asked may depend on sums of weights that a machine word does not hold."""
 
 
-class PathSearch:
+class PackedSearch:
     """A search from several states, each with what was paid on the way there.
 
     Args:
@@ -96,7 +96,7 @@ class PathSearch:
 
         Raises:
             LimitReachedError: the deadline came first.
-            TooManyStatesError: there were too many states.
+            TooManyPackedStatesError: there were too many states.
         """
         while self._queue:
             total = self._queue[0]
@@ -213,7 +213,7 @@ class PathSearch:
         states, paid, parent, by = states[order], paid[order], parent[order], by[order]
         numbers, new = self._states.numbers(states)
         if self._states.count > self._most_states:
-            raise TooManyStatesError
+            raise TooManyPackedStatesError
         self._grow()
         if len(new):
             self._paid[new] = FAR

@@ -6,12 +6,12 @@ import numpy as np
 
 from serendipity.model import Deadline, LimitReachedError
 from verify.limits import limits, uses
-from verify.packed.bounds import Bounds, Care, little, much
-from verify.packed.cheapest_path import PathSearch, SumTooLargeError, TooManyStatesError
+from verify.packed.bounds import Care, PatternBounds, little, much
+from verify.packed.cheapest_path import PackedSearch, SumTooLargeError, TooManyPackedStatesError
 from verify.packed.landmark_cuts import LandmarkCuts
-from verify.packed.layout import Effects, Layout, Words
-from verify.packed.mutexes import Pairs, exclusive_groups
-from verify.packed.operators import Ints, Operator, OperatorTable
+from verify.packed.layout import Effects, PackedLayout, Words
+from verify.packed.mutexes import ReachablePairs, exclusive_groups
+from verify.packed.operators import Ints, OperatorTable, PackedOperator
 from verify.packed.stubborn import StubbornSets
 
 
@@ -45,18 +45,18 @@ class StateSpace:
             raise TooLargeError
         self._deadline = deadline
         self._groups = tuple(groups)
-        self.pairs = Pairs(facts, init, actions, deadline)
+        self.pairs = ReachablePairs(facts, init, actions, deadline)
         self.actions = [action for action in deadline.each(actions) if self.pairs.possible(action.pre)]
 
-    def layout(self, facts: Iterable[int]) -> Layout:
+    def layout(self, facts: Iterable[int]) -> PackedLayout:
         """Fields for some facts: the largest groups of which no two are true together."""
         facts = tuple(facts)
-        return Layout(facts, exclusive_groups(self.pairs, facts, self._deadline), self.actions)
+        return PackedLayout(facts, exclusive_groups(self.pairs, facts, self._deadline), self.actions)
 
-    def other_layout(self, facts: Iterable[int]) -> Layout:
+    def other_layout(self, facts: Iterable[int]) -> PackedLayout:
         """The same by the groups that were given."""
         alone = [group for group in self._groups if self._exclusive(group)]
-        return Layout(facts, alone, self.actions)
+        return PackedLayout(facts, alone, self.actions)
 
     def _exclusive(self, group: frozenset[int]) -> bool:
         beside = self.pairs.beside
@@ -64,7 +64,7 @@ class StateSpace:
         return all(not beside[fact] & members & ~(1 << fact) for fact in group)
 
 
-class Problem:
+class PackedProblem:
     """Cheapest ways to a goal, from any states that can be reached.
 
     Args:
@@ -83,7 +83,7 @@ class Problem:
         self,
         space: StateSpace,
         facts: Iterable[int],
-        operators: Sequence[Operator],
+        operators: Sequence[PackedOperator],
         goal: tuple[Sequence[int], Sequence[int]],
         deadline: Deadline,
         *,
@@ -98,7 +98,7 @@ class Problem:
         self.table = OperatorTable(self.layout, operators)
         self._wanted = tuple(goal[0])
         self.goal = self.table.test(*goal)
-        self._bounds: Bounds | None = None
+        self._bounds: PatternBounds | None = None
         self._bounded, self._careful = bounded, not bounded
 
     def pack(self, states: Sequence[frozenset[int]]) -> Words | None:
@@ -113,7 +113,7 @@ class Problem:
         paid: Ints,
         below: int | None = None,
         hopeless: Callable[[], bool] | None = None,
-    ) -> tuple[PathSearch, int | None]:
+    ) -> tuple[PackedSearch, int | None]:
         """A search from some states with what was paid so far, and the goal state that it ends in.
 
         Args:
@@ -126,7 +126,7 @@ class Problem:
             The search, and the state's number in it; None: there is no way for less than ``below``.
 
         Raises:
-            TooManyStatesError: there are more than memory should hold, or weights too large to tell.
+            TooManyPackedStatesError: there are more than memory should hold, or weights too large to tell.
             LimitReachedError: the deadline came first.
         """
         most = limits().weight
@@ -135,7 +135,7 @@ class Problem:
             raise SumTooLargeError("costs are too large to be added up in machine words")
         return search, found
 
-    def _may_pass(self, most: int, search: PathSearch) -> bool:
+    def _may_pass(self, most: int, search: PackedSearch) -> bool:
         """Whether anything may have been left out because it weighs more than a word should hold.
 
         A cheapest path goes through no state twice, neither here nor in the pattern of a bound.
@@ -145,7 +145,7 @@ class Problem:
 
     def _searched(
         self, starts: Words, paid: Ints, below: int, hopeless: Callable[[], bool] | None
-    ) -> tuple[PathSearch, int | None]:
+    ) -> tuple[PackedSearch, int | None]:
         if self._bounds is None and self._bounded:
             self._bounds = self._made(starts, little())
         if not self._careful:
@@ -153,7 +153,7 @@ class Problem:
             try:
                 search.add(starts, paid)
                 return search, search.run()
-            except TooManyStatesError:
+            except TooManyPackedStatesError:
                 if hopeless is not None and hopeless():
                     return search, None
                 found = self._with_cuts(starts, paid, below)
@@ -164,7 +164,7 @@ class Problem:
         search.add(starts, paid)
         return search, search.run()
 
-    def _with_cuts(self, starts: Words, paid: Ints, below: int) -> tuple[PathSearch, int | None] | None:
+    def _with_cuts(self, starts: Words, paid: Ints, below: int) -> tuple[PackedSearch, int | None] | None:
         """The search with landmarks of each state: few states, much work for each; None: too much work."""
         if not uses("landmark-cuts"):
             return None
@@ -173,11 +173,13 @@ class Problem:
         few = len(self.table.operators) <= limits().stubborn_actions and uses("stubborn-sets")
         sets = StubbornSets(*asked) if few else None
         part = self._deadline.part(limits().cuts_share)
-        search = PathSearch(self.table, self.goal, self.bounds, part, below, limits().cut_states, cuts, sets)
+        search = PackedSearch(
+            self.table, self.goal, self.bounds, part, below, limits().cut_states, cuts, sets
+        )
         try:
             search.add(starts, paid)
             return search, search.run()
-        except (LimitReachedError, TooManyStatesError):
+        except (LimitReachedError, TooManyPackedStatesError):
             self._deadline.check()
             return None
 
@@ -194,10 +196,10 @@ class Problem:
             self._bounds = self._made(states, little())
         return self._bounds(states)
 
-    def _search(self, below: int, most_states: int) -> PathSearch:
-        return PathSearch(self.table, self.goal, self.bounds, self._deadline, below, most_states)
+    def _search(self, below: int, most_states: int) -> PackedSearch:
+        return PackedSearch(self.table, self.goal, self.bounds, self._deadline, below, most_states)
 
-    def _made(self, start: Words, care: Care) -> Bounds:
+    def _made(self, start: Words, care: Care) -> PatternBounds:
         other = self._space.other_layout(self._facts)
         views = [OperatorTable(other, self.table.operators)] if other.differs(self.layout) else []
-        return Bounds(self.table, views, self._wanted, start, care, self._deadline)
+        return PatternBounds(self.table, views, self._wanted, start, care, self._deadline)

@@ -18,7 +18,7 @@ plan, and shorter.  So from every state a cheapest plan is found; the set depend
 
 from collections.abc import Iterable, Sequence
 
-from verify.packed.operators import Operator
+from verify.packed.operators import PackedOperator
 
 
 class StubbornSets:
@@ -30,7 +30,9 @@ class StubbornSets:
         goal: facts that have to be true.
     """
 
-    def __init__(self, operators: Sequence[Operator], facts: frozenset[int], goal: Sequence[int]) -> None:
+    def __init__(
+        self, operators: Sequence[PackedOperator], facts: frozenset[int], goal: Sequence[int]
+    ) -> None:
         self._needs = [[f for f in each.pre if f in facts] for each in operators]
         self._forbids = [[f for f in each.neg if f in facts] for each in operators]
         self._adding = _by_fact((each.add for each in operators), facts)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from serendipity.model import Condition, Deadline, GroundAction, StateDelta, Task
 from verify.base.undecided import UndecidedError
-from verify.policy.distances import Edge, GameDistances, Moves, PackedCondition, reaches_below
+from verify.policy.distances import GameDistances, GameEdge, Moves, PackedCondition, reaches_below
 
 Costs = tuple[Fraction, Fraction]
 NOTHING: Costs = (Fraction(0), Fraction(0))
@@ -231,20 +231,20 @@ class Board:
         prime, supporter = divmod(together, self._unit)
         return Fraction(prime, self._scale), Fraction(supporter, self._scale)
 
-    def _edge(self, i: int, unit: int, length: int) -> Edge | None:
+    def _edge(self, i: int, unit: int, length: int) -> GameEdge | None:
         """An action as an edge; None where it changes nothing that matters."""
         action: GroundAction = self.task.actions[i]
         add, delete = _bits(action.add) & self._relevant, _bits(action.delete) & self._relevant
         if not add and not delete:
             return None
         weight = int(action.cost * self._scale) * unit + length
-        return Edge(_bits(action.pre), _bits(action.neg), add, delete, weight, i)
+        return GameEdge(_bits(action.pre), _bits(action.neg), add, delete, weight, i)
 
 
-def _within(edge: Edge, facts: int) -> Edge:
+def _within(edge: GameEdge, facts: int) -> GameEdge:
     """An edge as seen through some of the facts."""
     pre, neg, add, delete = (mask & facts for mask in (edge.pre, edge.neg, edge.add, edge.delete))
-    return Edge(pre, neg, add, delete, edge.weight, edge.action)
+    return GameEdge(pre, neg, add, delete, edge.weight, edge.action)
 
 
 def _bits(facts: Iterable[int]) -> int:

@@ -10,7 +10,7 @@ from verify.base.undecided import UndecidedError
 
 
 @dataclass(frozen=True, slots=True)
-class Edge:
+class GameEdge:
     """An action over bit sets of facts: needs ``pre``, excludes ``neg``, sets and unsets."""
 
     pre: int
@@ -45,13 +45,13 @@ class PackedCondition:
 class Moves:
     """Applicable edges of a state, looked up under one fact that each of them needs."""
 
-    def __init__(self, edges: Sequence[Edge], deadline: Deadline) -> None:
+    def __init__(self, edges: Sequence[GameEdge], deadline: Deadline) -> None:
         count: dict[int, int] = {}
         for edge in deadline.each(edges):
             for bit in bits_of(edge.pre):
                 count[bit] = count.get(bit, 0) + 1
-        self._under: dict[int, list[Edge]] = {}
-        self._always: list[Edge] = []
+        self._under: dict[int, list[GameEdge]] = {}
+        self._always: list[GameEdge] = []
         self._watched = 0
         for edge in deadline.each(edges):
             bit = min(bits_of(edge.pre), key=lambda bit: count[bit], default=0)
@@ -84,7 +84,9 @@ class GameDistances:
         deadline: polled.
     """
 
-    def __init__(self, edges: Sequence[Edge], goal: PackedCondition, most: int, deadline: Deadline) -> None:
+    def __init__(
+        self, edges: Sequence[GameEdge], goal: PackedCondition, most: int, deadline: Deadline
+    ) -> None:
         self._moves = Moves(edges, deadline)
         self._goal = goal
         self._most = most

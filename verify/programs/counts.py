@@ -28,7 +28,7 @@ _AT_ONCE: Final = 30
 
 
 @dataclass(frozen=True, slots=True)
-class Bound:
+class CountsBound:
     """What numbers of operators say of plans.
 
     Attributes:
@@ -42,7 +42,7 @@ class Bound:
 
 def least_weight(
     table: OperatorTable, start: frozenset[int], goal: Sequence[int], below: int, effort: Effort
-) -> Bound:
+) -> CountsBound:
     """A lower bound on the weight of all plans, as far as it is of use: up to a weight, and in time.
 
     Args:
@@ -56,7 +56,7 @@ def least_weight(
         LimitReachedError: the deadline came first.
     """
     deadline = effort.deadline
-    landmarks = Landmarks(table, start, goal, deadline)
+    landmarks = MissedLandmarks(table, start, goal, deadline)
     model = _balanced(table, start, goal, below, deadline)
     counts: Sequence[int] = [0] * len(table.operators)
     least = found = 0
@@ -66,14 +66,14 @@ def least_weight(
         found += len(missed)
         outcome = effort.solve(model)
         if outcome.status == "infeasible":
-            return Bound(below, found)
+            return CountsBound(below, found)
         if outcome.bound is not None:
             least = max(least, -int(-(outcome.bound - 1e-6) // 1))
         if outcome.status != "optimal" or outcome.values is None:
             deadline.check()
             break
         counts = outcome.values
-    return Bound(min(least, below), found)
+    return CountsBound(min(least, below), found)
 
 
 def _balanced(
@@ -107,7 +107,7 @@ def _value(facts: Sequence[int], state: frozenset[int]) -> int:
     return next((value for value, fact in enumerate(facts, start=1) if fact in state), 0)
 
 
-class Landmarks:
+class MissedLandmarks:
     """Sets of operators of which every plan has one, if nothing is ever deleted.
 
     Args:
@@ -218,4 +218,4 @@ class _Reached:
     allowed: list[bool]
 
 
-__all__ = ["Bound", "Landmarks", "least_weight"]
+__all__ = ["CountsBound", "MissedLandmarks", "least_weight"]

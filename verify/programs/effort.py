@@ -6,7 +6,7 @@ from typing import Final, NamedTuple, Protocol
 
 from serendipity.model import Deadline, Step, UsageError, Window
 from verify.base.execution import State
-from verify.base.subproblem import Solution, Subproblem
+from verify.base.subproblem import PricedPlan, Subproblem
 from verify.base.undecided import UndecidedError
 from verify.programs.automata import AutomataEncoding
 from verify.programs.paper import PaperEncoding
@@ -189,13 +189,13 @@ class Minimum:
     """
 
     status: str
-    found: Solution | None = None
+    found: PricedPlan | None = None
     bound: int | None = None
     reason: str = ""
     states: int = 0
     landmarks: int = 0
 
-    def settled(self) -> Solution | None:
+    def settled(self) -> PricedPlan | None:
         """Some plan, best or not; None: there is provably none.
 
         Raises:

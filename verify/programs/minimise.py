@@ -8,7 +8,7 @@ learns what suffixes from that state cost (or that there is none) and is solved 
 from dataclasses import replace
 
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import WINDOW, Solution, Subproblem
+from verify.base.subproblem import WINDOW, PricedPlan, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
 from verify.limits import uses
 from verify.programs import recorded
@@ -73,7 +73,7 @@ class _Rounds:
         self._cuts: dict[recorded.Cut, None] = {}
         self._encoding: ProgramEncoding | None = None
         self._values: tuple[int, ...] = ()
-        self.best: Solution | None = None
+        self.best: PricedPlan | None = None
         self.bound: int | None = None
 
     def run(self) -> Minimum:
@@ -145,7 +145,7 @@ def _whole(bound: float | None, known: int | None) -> int | None:
     return up if known is None else max(up, known)
 
 
-def _better(a: Solution | None, b: Solution | None) -> Solution | None:
+def _better(a: PricedPlan | None, b: PricedPlan | None) -> PricedPlan | None:
     if a is None or b is None:
         return a or b
     return min(a, b, key=lambda found: (found.objective, found.cost))
@@ -156,4 +156,4 @@ def _nothing_to_do(question: Subproblem) -> Minimum:
     goals = goals_hold(question, question.task.init)
     if not goals or question.rule == WINDOW or (question.most or 0) < 0 or (question.most_cost or 0) < 0:
         return Minimum("none")
-    return Minimum("found", Solution((), None, 0, 0), 0)
+    return Minimum("found", PricedPlan((), None, 0, 0), 0)

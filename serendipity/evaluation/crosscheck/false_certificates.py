@@ -17,7 +17,7 @@ from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
 from verify.calls.methods import NAMES
 from verify.certificate.certify import certify
-from verify.limits import Limits, limited
+from verify.limits import VerifierLimits, limited
 
 FALSE_CERTIFICATES: Final = "false-certificates"
 """What this judge is called."""
@@ -61,7 +61,7 @@ class Way:
 def drawn_way(dice: Random) -> Way:
     """A method, an encoding, and sizes from which on the verifier takes its ways for large tasks."""
     share = dice.choice((0, 0.1, 0.5))
-    sizes = {each.name: _size(dice, each.name) for each in fields(Limits) if dice.random() < share}
+    sizes = {each.name: _size(dice, each.name) for each in fields(VerifierLimits) if dice.random() < share}
     method, encoding = dice.choice(_WAYS)
     return Way(_PROOF, "automata", sizes) if dice.random() < _PROOFS else Way(method, encoding, sizes)
 

@@ -15,7 +15,7 @@ from serendipity.testing.strategies import family_tasks, tasks
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import Subproblem
-from verify.calls.call import Call
+from verify.calls.call import ExaminedCall
 from verify.exhaustive.decoupled.short_windows import is_short, no_short_window
 
 
@@ -30,7 +30,7 @@ def asked(task: Task, options: Options) -> tuple[Subproblem, int] | None:
     plan = optimal_human_plan(task)
     if not plan:
         return None
-    call = Call(task, options, plan, OptimalPlans(task, IndividualOptimum(task)))
+    call = ExaminedCall(task, options, plan, OptimalPlans(task, IndividualOptimum(task)))
     optimum = best(task, options)
     assert call.do_nothing is not None
     least = call.do_nothing[0]

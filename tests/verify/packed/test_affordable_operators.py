@@ -14,7 +14,7 @@ from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE, Subproblem, prices
 from verify.exhaustive.team_problem import cheapest_without_epochs, team_problem
 from verify.packed.affordable import affordable
-from verify.packed.operators import Operator
+from verify.packed.operators import PackedOperator
 from verify.packed.pattern import FAR
 from verify.programs.effort import Effort
 
@@ -74,8 +74,8 @@ def test_some_are_left_out() -> None:
 
 def test_a_detour_is_left_out_and_the_way_is_not() -> None:
     """From 0 by 1 to 2, or at a higher price by 3."""
-    short = [Operator((0,), (), (1,), (0,), 1), Operator((1,), (), (2,), (1,), 1)]
-    long = [Operator((0,), (), (3,), (0,), 2), Operator((3,), (), (2,), (3,), 2)]
+    short = [PackedOperator((0,), (), (1,), (0,), 1), PackedOperator((1,), (), (2,), (1,), 1)]
+    long = [PackedOperator((0,), (), (3,), (0,), 2), PackedOperator((3,), (), (2,), (3,), 2)]
     asked = [*short, *long], frozenset(range(4)), (2,), frozenset({0})
     assert affordable(*asked, 5, Deadline()) == [0, 1, 2, 3]
     assert affordable(*asked, 4, Deadline()) == [0, 1]

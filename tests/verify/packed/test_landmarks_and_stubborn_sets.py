@@ -19,15 +19,15 @@ from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.solve import solve
 from verify.limits import limited
-from verify.packed.cheapest_path import PathSearch
+from verify.packed.cheapest_path import PackedSearch
 from verify.packed.landmark_cuts import LandmarkCuts
-from verify.packed.operators import Ints, Operator
+from verify.packed.operators import Ints, PackedOperator
 from verify.packed.pattern import FAR
 from verify.packed.stubborn import StubbornSets
 
 
-def operators(task: Task) -> list[Operator]:
-    return [Operator(a.pre, a.neg, a.add, a.delete, int(a.cost * 1000) + 1) for a in task.actions]
+def operators(task: Task) -> list[PackedOperator]:
+    return [PackedOperator(a.pre, a.neg, a.add, a.delete, int(a.cost * 1000) + 1) for a in task.actions]
 
 
 def sound(task: Task, *, rarest: bool) -> None:
@@ -96,7 +96,7 @@ def test_stubborn_sets_in_families(name: str, seed: int, size: int) -> None:
 
 
 def test_of_independent_operators_one_is_enough() -> None:
-    done = [Operator((), (), (k,), (), 1) for k in range(6)]
+    done = [PackedOperator((), (), (k,), (), 1) for k in range(6)]
     sets = StubbornSets(done, frozenset(range(6)), range(6))
     assert len(sets(frozenset({2}), [0, 1, 3, 4, 5])) == 1
 
@@ -104,9 +104,9 @@ def test_of_independent_operators_one_is_enough() -> None:
 def test_what_takes_away_a_need_is_looked_at_beside_it() -> None:
     """To walk away first is no way to take what is here."""
     take, walk, wait = (
-        Operator((0,), (), (1,), (), 1),
-        Operator((0,), (), (2,), (0,), 1),
-        Operator((), (), (3,), (), 1),
+        PackedOperator((0,), (), (1,), (), 1),
+        PackedOperator((0,), (), (2,), (0,), 1),
+        PackedOperator((), (), (3,), (), 1),
     )
     sets = StubbornSets([take, walk, wait], frozenset(range(4)), [1, 2, 3])
     assert set(sets(frozenset({0, 3}), [0, 1, 2])) == {0, 1}
@@ -124,7 +124,7 @@ def searched(task: Task, state: State, below: int, *, stubborn: bool) -> int | N
     asked = problem.table.operators, frozenset(range(len(task.facts))), task.goal.positive
     cuts = [LandmarkCuts(*asked, rarest=rarest) for rarest in (True, False)]
     sets = StubbornSets(*asked) if stubborn else None
-    search = PathSearch(problem.table, problem.goal, zero, Deadline(), below, 10**6, cuts, sets)
+    search = PackedSearch(problem.table, problem.goal, zero, Deadline(), below, 10**6, cuts, sets)
     search.add(start, np.zeros(1, np.int64))
     found = search.run()
     return None if found is None else search.paid(found)

@@ -19,11 +19,11 @@ from verify.programs.automata.network import (
     distances,
     goal_states,
 )
-from verify.programs.automata.program import BYTES_AN_ARC, Program
-from verify.programs.automata.setting import Setting, outer_needs
+from verify.programs.automata.program import BYTES_AN_ARC, NetworkProgram
+from verify.programs.automata.setting import NetworkSetting, outer_needs
 from verify.programs.automata.suffixes import bound_suffix
 from verify.programs.automata.windows import keep_within_windows
-from verify.programs.promising import Team, keep_promising
+from verify.programs.promising import TeamMoves, keep_promising
 from verify.solvers.mip import Model
 
 _WORTH: Final = 0.9
@@ -50,7 +50,7 @@ class AutomataEncoding:
         """
         self.question = question
         self.deadline = question.deadline
-        self.setting: Setting | None = None
+        self.setting: NetworkSetting | None = None
         literal = question.rule == WINDOW and question.options.preservation == "state"
         expected = expected_states(question) if literal else ()
         part = relevant_part(question, frozenset().union(*expected))
@@ -100,14 +100,14 @@ class AutomataEncoding:
         return part
 
     @cached_property
-    def program(self) -> Program:
+    def program(self) -> NetworkProgram:
         """The program of the networks that pruning leaves."""
         setting = self.setting
         assert setting is not None, "there is something left"
         arcs = sum(len(layer) for network in setting.networks for layer in network.layers)
         with during(f"writing a program for {arcs:,} arcs of the agents' automata"):
             self.deadline.require(arcs * BYTES_AN_ARC)
-            return Program(self.question, setting, self._groups, complete=self._whole)
+            return NetworkProgram(self.question, setting, self._groups, complete=self._whole)
 
     @property
     def model(self) -> Model | None:
@@ -139,7 +139,7 @@ class AutomataEncoding:
 
     def _setting(
         self, part: Relevant, machines: tuple[Automaton, ...], expected: tuple[frozenset[int], ...]
-    ) -> Setting:
+    ) -> NetworkSetting:
         question = self.question
         task = question.task
         wanted_true, wanted_false = self._wanted(part, expected)
@@ -154,7 +154,7 @@ class AutomataEncoding:
                 open_end = self._goes_on(part, machine, wanted_true | wanted_false)
                 networks.append(RobotNetwork(machine, weights[agent], open_end=open_end))
         finals = [goal_states(question, machine) for machine in machines]
-        return Setting(
+        return NetworkSetting(
             task=task,
             part=part,
             networks=networks,
@@ -191,7 +191,7 @@ class AutomataEncoding:
         with during("looking for moves of the agents that may pay"):
             windows = keep_within_windows(question, machines[question.task.human])
             pre, neg = outer_needs(question.task, part, machines, self.deadline)
-            team = Team(
+            team = TeamMoves(
                 task=question.task,
                 machines=machines,
                 pre=pre,

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Final
 
 from verify.programs.automata.network import ACTION, SOURCE, TARGET, WAIT, WEIGHT, Arc, actions_of
-from verify.programs.automata.setting import Setting
+from verify.programs.automata.setting import NetworkSetting
 
 _MANY: Final = 50_000
 """Arcs of an epoch from which on there may be no memory for those of the next one."""
@@ -16,7 +16,7 @@ _MANY: Final = 50_000
 _BYTES_AN_ARC: Final = 150
 
 
-def unroll(setting: Setting, *, bounded: bool) -> bool:
+def unroll(setting: NetworkSetting, *, bounded: bool) -> bool:
     """Make the layers of arcs of all networks.
 
     A unit of flow in layers of arcs is made of paths to an end, so the rows say the same of what is dropped.
@@ -44,7 +44,7 @@ def unroll(setting: Setting, *, bounded: bool) -> bool:
     return bool(setting.last) or not bounded
 
 
-def _drop_dead_ends(setting: Setting, forward: "Forward", k: int, *, bounded: bool) -> None:
+def _drop_dead_ends(setting: NetworkSetting, forward: "Forward", k: int, *, bounded: bool) -> None:
     """Drop the arcs from which no way leads to an end, or none that weighs little enough."""
     network, after = setting.networks[k], dict.fromkeys(_ends(setting, forward, k), 0)
     for epoch in range(setting.horizon, 0, -1):
@@ -58,14 +58,14 @@ def _drop_dead_ends(setting: Setting, forward: "Forward", k: int, *, bounded: bo
         network.layers[epoch - 1], after = kept, before
 
 
-def _ends(setting: Setting, forward: "Forward", k: int) -> set[int]:
+def _ends(setting: NetworkSetting, forward: "Forward", k: int) -> set[int]:
     """Nodes in which a network's flow may end."""
     network, finals = setting.networks[k], setting.finals[k]
     last = forward.reach[k][-1]
     return {node for node in last if network.state_of[node] in finals and network.ends(node)}
 
 
-def _arcs(setting: Setting) -> int:
+def _arcs(setting: NetworkSetting) -> int:
     return sum(len(layer) for network in setting.networks for layer in network.layers)
 
 
@@ -76,7 +76,7 @@ class Forward:
         reach: by network and epoch, the reachable nodes with their least weight so far.
     """
 
-    def __init__(self, setting: Setting) -> None:
+    def __init__(self, setting: NetworkSetting) -> None:
         self.setting = setting
         self.deadline = setting.deadline
         self.reach: list[list[dict[int, int]]] = []

@@ -10,7 +10,7 @@ from verify.programs.automata.network import HumanNetwork, Network
 
 
 @dataclass(slots=True)
-class Setting:
+class NetworkSetting:
     """Networks, limits and goals of one question.
 
     Attributes:

@@ -28,7 +28,7 @@ import numpy as np
 from verify.limits import limits
 from verify.programs.promising.arrays import Actions, Arcs, Ints, Mask, Ways, distances, which
 from verify.programs.promising.bounds import NEVER, Spending, Use
-from verify.programs.promising.team import Team
+from verify.programs.promising.team import TeamMoves
 
 _MOST_ROUNDS: Final = 6
 
@@ -39,7 +39,7 @@ _LEVELS: Final = (3, 10)
 """In the first round, which is often enough, and in all others."""
 
 
-def keep_promising(team: Team) -> bool:
+def keep_promising(team: TeamMoves) -> bool:
     """Drop the moves that are on no plan within the limits; False if there is no plan.
 
     All moves stay where numbers are too large for machine words.
@@ -137,7 +137,7 @@ class _Moves:
         team: its ``moves`` are replaced by :meth:`write`.
     """
 
-    def __init__(self, team: Team) -> None:
+    def __init__(self, team: TeamMoves) -> None:
         self._team, self._human = team, team.task.human
         agents = len(team.machines)
         self._actions, self._arcs = Actions(team), Arcs.of(team)

@@ -31,7 +31,7 @@ class Windows:
 
 
 @dataclass(slots=True)
-class Team:
+class TeamMoves:
     """The automata of all agents, with the moves that are still on some plan.
 
     Attributes:
