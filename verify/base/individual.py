@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 from serendipity.model import Deadline, HumanPlan, Task
 from verify.base.execution import states_of_pi_h
-from verify.base.operators import OwnActions, OwnOperator
+from verify.base.fact_bits import BitOperator
+from verify.base.operators import OwnActions
 from verify.base.projection import ProjectedCosts
 from verify.base.shortest_paths import PathSearch
 from verify.base.undecided import TooManyStatesError, during
@@ -181,6 +182,6 @@ class IndividualOptimum:
         except TooLargeError:
             return None
 
-    def _successors(self, state: int) -> Iterator[tuple[int, int, OwnOperator]]:
+    def _successors(self, state: int) -> Iterator[tuple[int, int, BitOperator]]:
         for operator in self.own.applicable(state):
             yield state & ~operator.delete | operator.add, operator.weight, operator

@@ -26,6 +26,7 @@ from typing import Final
 import numpy as np
 
 from verify.limits import limits
+from verify.programs.agents.product import Move
 from verify.programs.promising.arrays import Actions, Arcs, Ints, Mask, Ways, distances, which
 from verify.programs.promising.bounds import NEVER, Spending, Use
 from verify.programs.promising.team import TeamMoves
@@ -42,16 +43,19 @@ _LEVELS: Final = (3, 10)
 def keep_promising(team: TeamMoves) -> bool:
     """Drop the moves that are on no plan within the limits; False if there is no plan.
 
-    All moves stay where numbers are too large for machine words.
+    Prices too large for machine words are divided, and rounded down: no sum gets larger than the limit so
+    divided, so that no plan within the limits is lost.
 
     Args:
         team: its ``moves`` are replaced.
     """
-    if 4 * (team.far + max(team.price, default=0)) > limits().weight:
+    size, words = 4 * (team.far + max(team.price, default=0)), limits().weight
+    divided = team if size <= words else team.divided(size // max(words, 1) + 1)
+    if 4 * (divided.far + max(divided.price, default=0)) > words:
         return True
-    moves = _Moves(team)
+    moves = _Moves(divided)
     promising = _rounds(moves)
-    moves.write()
+    team.moves = moves.lists()
     return promising
 
 
@@ -134,7 +138,7 @@ class _Moves:
     """A team's moves, which get fewer.
 
     Args:
-        team: its ``moves`` are replaced by :meth:`write`.
+        team: whose they are.
     """
 
     def __init__(self, team: TeamMoves) -> None:
@@ -154,9 +158,9 @@ class _Moves:
         """How many moves are left."""
         return len(self._arcs.source)
 
-    def write(self) -> None:
-        """Give the team the moves that are left."""
-        self._team.moves = [self._arcs.lists(k) for k in range(len(self._team.machines))]
+    def lists(self) -> list[list[list[Move]]]:
+        """The moves that are left, by agent and state."""
+        return [self._arcs.lists(k) for k in range(len(self._team.machines))]
 
     def round(self, levels: int) -> bool:
         """Drop moves that are on no plan within the limits, on so many levels; False if there is none."""

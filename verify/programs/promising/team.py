@@ -1,7 +1,7 @@
 """What the bounds on moves work on: automata, the needs of their actions, prices and limits."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from serendipity.model import Deadline, Task
 from verify.programs.agents.product import Automaton, Move
@@ -80,6 +80,15 @@ class TeamMoves:
     def robots(self) -> list[int]:
         """Ids of all agents but the human."""
         return [k for k in range(len(self.machines)) if k != self.task.human]
+
+    def divided(self, by: int) -> "TeamMoves":
+        """The same with prices that are divided by a number, and rounded down."""
+        windows = self.windows
+        if windows is not None:
+            paid = [{state: cost // by for state, cost in states.items()} for states in windows.paid]
+            windows = replace(windows, paid=paid)
+        price = [price // by for price in self.price]
+        return replace(self, price=price, most=self.most // by, windows=windows)
 
     def count(self) -> int:
         """How many moves are left."""
