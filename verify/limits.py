@@ -4,7 +4,7 @@ They decide how soon something is proved, never whether it is true: whatever the
 another one, only ``undecided``.  Tests draw them at random, so that ways for large tasks are gone on small
 ones, where brute force can see what is right::
 
-    with limited(few_states=1, many_actions=0, methods=("-programs",)):
+    with limited(few_states=1, many_moves=0, methods=("-programs",)):
         serendipity.verify(task, result)
 
 What a method of the table may take (``verify.calls.methods``) stands there; what its parts may, here.
@@ -19,6 +19,7 @@ from typing import Any, Final
 PARTS: Final = (
     "relevance-pruning",  # of programs: moves of the agents that are on no plan within the limits
     "few-facts",  # of relevance pruning: automata over few facts first
+    "arc-pruning",  # of programs: the same by epoch
     "solver",  # of programs
     "cost-fixing",  # without epochs: operators that landmarks show to be too dear
     "operator-counting",  # without epochs: numbers of operators, by a solver
@@ -42,6 +43,7 @@ class VerifierLimits:
         states_a_value: the same, for each value of the variable with the most values.
         automaton_moves: of an automaton that is large enough: once a fact does not fit, no other is tried.
         many_actions: actions from which on small automata go before the large ones.
+        many_moves: moves from which on it pays to bound them whatever the epoch.
         alone_states: of the human alone, in a program.
         own_states: of the human alone that are looked at.
         many_own_states: the same, before they are packed.
@@ -84,6 +86,7 @@ class VerifierLimits:
     states_a_value: int = 24
     automaton_moves: int = 100_000
     many_actions: int = 5_000
+    many_moves: int = 4_000
     alone_states: int = 50_000
     own_states: int = 200_000
     many_own_states: int = 1_000

@@ -11,6 +11,7 @@ from serendipity.testing.strategies import Call, calls
 from tests.verify.test_pruning_keeps_plans import _check
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import WINDOW, Subproblem, prices
+from verify.limits import limited
 from verify.programs.agents.product import Automaton, automata, private_facts
 from verify.programs.automata import encoding
 from verify.programs.automata.windows import keep_within_windows, longest_window
@@ -20,7 +21,15 @@ from verify.programs.promising import TeamMoves, keep_promising
 @settings(max_examples=30)
 @given(calls())
 def test_bounds_on_moves_drop_no_plan(call: Call) -> None:
-    _check(call)
+    with limited(many_moves=0):
+        _check(call)
+
+
+@settings(max_examples=20)
+@given(calls())
+def test_prices_divided_for_small_words_drop_no_plan(call: Call) -> None:
+    with limited(many_moves=0, weight=10_000, methods=("programs",)):
+        _check(call)
 
 
 # -- windows
@@ -93,7 +102,8 @@ def _is_promising(way: Task, names: tuple[str, ...], most: int, longest: int) ->
     said = []
 
     def listen(team: TeamMoves) -> bool:
-        said.append(keep_promising(team))
+        with limited(many_moves=0):
+            said.append(keep_promising(team))
         return said[-1]
 
     with pytest.MonkeyPatch.context() as patch:

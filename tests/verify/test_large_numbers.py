@@ -63,7 +63,7 @@ def test_where_words_are_too_small_nothing_false_is_proved(number: int, sizes: d
     task, options = HELPED[number]
     right = serendipity.plan(task, horizon=2, **options)
     lie = false_denial(task, right, horizon=2, **options)
-    with limited(**sizes, many_actions=0):
+    with limited(**sizes, many_moves=0, many_actions=0):
         for method in METHODS:
             assert serendipity.verify(task, lie, method=method).verdict != "proved"
             assert serendipity.verify(task, right, method=method).verdict != "refuted"

@@ -32,14 +32,14 @@ def _check(call: Call) -> None:
 @settings(max_examples=30)
 @given(calls())
 def test_automata_of_few_facts_first(call: Call) -> None:
-    with limited(many_actions=0):
+    with limited(many_actions=0, many_moves=0):
         _check(call)
 
 
 @settings(max_examples=30)
 @given(calls())
 def test_automata_that_leave_most_facts_out(call: Call) -> None:
-    with limited(automaton_states=4, states_a_value=0):
+    with limited(automaton_states=4, states_a_value=0, many_moves=0):
         _check(call)
 
 

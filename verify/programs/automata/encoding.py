@@ -11,7 +11,6 @@ from verify.base.undecided import during
 from verify.limits import limits, uses
 from verify.programs.agents.product import Automaton, SmallAutomata, automata, private_facts
 from verify.programs.automata.control import HumanControl, expected_states
-from verify.programs.automata.forward import unroll
 from verify.programs.automata.network import (
     HumanNetwork,
     Network,
@@ -20,6 +19,7 @@ from verify.programs.automata.network import (
     goal_states,
 )
 from verify.programs.automata.program import BYTES_AN_ARC, NetworkProgram
+from verify.programs.automata.pruning import prune, unroll
 from verify.programs.automata.setting import NetworkSetting, outer_needs
 from verify.programs.automata.suffixes import bound_suffix
 from verify.programs.automata.windows import keep_within_windows
@@ -73,8 +73,10 @@ class AutomataEncoding:
             return
         with during("building the agents' networks"):
             setting = self._setting(part, machines, expected)
-        with during(f"unrolling the agents' automata over {question.horizon} epochs"):
-            if unroll(setting, bounded=pruned):
+        with during(
+            f"{'pruning' if pruned else 'unrolling'} the agents' automata over {question.horizon} epochs"
+        ):
+            if prune(setting) if pruned and uses("arc-pruning") else unroll(setting):
                 self.setting = setting
 
     def _with_few_facts(

@@ -1,72 +1,17 @@
-"""Layers of arcs on paths from an agent's start to an end, as far as nothing is ever deleted.
-
-An arc needs a reachable source, facts that may be true (false) by then, and, for a joint action, an arc of
-the same action for each participant; and from where it leads there has to be a way to an end.
+"""Reachability from ``I``: an arc needs a reachable source, facts that may be true (false) by
+then, and, for a joint action, an arc of the same action for each participant.
 """
 
 from collections.abc import Callable
 from typing import Final
 
-from verify.programs.automata.network import ACTION, SOURCE, TARGET, WAIT, WEIGHT, Arc, actions_of
+from verify.programs.automata.network import ACTION, WAIT, Arc, actions_of
 from verify.programs.automata.setting import NetworkSetting
 
 _MANY: Final = 50_000
 """Arcs of an epoch from which on there may be no memory for those of the next one."""
 
 _BYTES_AN_ARC: Final = 150
-
-
-def unroll(setting: NetworkSetting, *, bounded: bool) -> bool:
-    """Make the layers of arcs of all networks.
-
-    A unit of flow in layers of arcs is made of paths to an end, so the rows say the same of what is dropped.
-
-    Args:
-        setting: its networks are filled.
-        bounded: whether the human's paths that weigh too much are dropped, too.
-
-    Returns:
-        Whether there may be a plan; always, if nothing is bounded: that is the program's to say.
-    """
-    if not bounded:
-        count = len(setting.bounds[0])
-        setting.bounds = [0] * count, [0] * count
-    forward = Forward(setting)
-    forward.unroll()
-    count = -1
-    while count != (left := _arcs(setting)):
-        count = left
-        for k, network in enumerate(setting.networks):
-            if network.open_end:
-                _drop_dead_ends(setting, forward, k, bounded=bounded)
-        forward.filter()
-    setting.last = frozenset(_ends(setting, forward, setting.task.human))
-    return bool(setting.last) or not bounded
-
-
-def _drop_dead_ends(setting: NetworkSetting, forward: "Forward", k: int, *, bounded: bool) -> None:
-    """Drop the arcs from which no way leads to an end, or none that weighs little enough."""
-    network, after = setting.networks[k], dict.fromkeys(_ends(setting, forward, k), 0)
-    for epoch in range(setting.horizon, 0, -1):
-        reached, before, kept = forward.reach[k][epoch - 1], dict[int, int](), []
-        for arc in setting.deadline.each(network.layers[epoch - 1]):
-            if arc[TARGET] in after:
-                source, left = arc[SOURCE], arc[WEIGHT] + after[arc[TARGET]]
-                if not bounded or reached[source] + left <= setting.most:
-                    kept.append(arc)
-                    before[source] = min(left, before.get(source, left))
-        network.layers[epoch - 1], after = kept, before
-
-
-def _ends(setting: NetworkSetting, forward: "Forward", k: int) -> set[int]:
-    """Nodes in which a network's flow may end."""
-    network, finals = setting.networks[k], setting.finals[k]
-    last = forward.reach[k][-1]
-    return {node for node in last if network.state_of[node] in finals and network.ends(node)}
-
-
-def _arcs(setting: NetworkSetting) -> int:
-    return sum(len(layer) for network in setting.networks for layer in network.layers)
 
 
 class Forward:

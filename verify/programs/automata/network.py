@@ -23,8 +23,7 @@ Arc = tuple[int, int, int, int, frozenset[int]]
 SOURCE: Final = 0
 TARGET: Final = 1
 ACTION: Final = 2
-WEIGHT: Final = 3
-"""Where an arc has its nodes, its action and its weight; tuples: named ones take five times as long."""
+"""Where an arc has its nodes and its action; tuples, since named ones take five times as long to make."""
 
 
 @dataclass(slots=True)

@@ -36,19 +36,20 @@ _MOST_ROUNDS: Final = 6
 _WORTH: Final = 0.9
 """A round that leaves more than this share of the moves is the last one."""
 
-_LEVELS: Final = (3, 10)
-"""In the first round, which is often enough, and in all others."""
+_LEVELS: Final = 10
 
 
 def keep_promising(team: TeamMoves) -> bool:
     """Drop the moves that are on no plan within the limits; False if there is no plan.
 
-    Prices too large for machine words are divided, and rounded down: no sum gets larger than the limit so
-    divided, so that no plan within the limits is lost.
+    All moves stay where so few are not worth it.  Prices too large for machine words are divided, and rounded
+    down: no sum gets larger than the limit so divided, so that no plan within the limits is lost.
 
     Args:
         team: its ``moves`` are replaced.
     """
+    if team.count() < limits().many_moves:
+        return True
     size, words = 4 * (team.far + max(team.price, default=0)), limits().weight
     divided = team if size <= words else team.divided(size // max(words, 1) + 1)
     if 4 * (divided.far + max(divided.price, default=0)) > words:
@@ -60,21 +61,20 @@ def keep_promising(team: TeamMoves) -> bool:
 
 
 def _rounds(moves: "_Moves") -> bool:
-    first, more = _LEVELS
     before = moves.count()
-    for number in range(_MOST_ROUNDS):
-        if not moves.round(more if number else first):
+    for _ in range(_MOST_ROUNDS):
+        if not moves.round():
             return False
         left = moves.count()
-        if number and left > before * _WORTH:
+        if left > before * _WORTH:
             break
         before = left
     return True
 
 
-def _cuts(values: Sequence[int], most: int) -> list[int]:
+def _cuts(values: Sequence[int]) -> list[int]:
     """Where to divide ascending values into levels, as positions; the first level is without any help."""
-    count = min(most, len(values))
+    count = min(_LEVELS, len(values))
     found = [len(values) * k // count for k in range(count)] + [len(values)]
     if values[0] == 0 and len(values) > 1 and count > 1:
         found[1] = 1
@@ -162,8 +162,8 @@ class _Moves:
         """The moves that are left, by agent and state."""
         return [self._arcs.lists(k) for k in range(len(self._team.machines))]
 
-    def round(self, levels: int) -> bool:
-        """Drop moves that are on no plan within the limits, on so many levels; False if there is none."""
+    def round(self) -> bool:
+        """Drop moves that are on no plan within the limits; False if there is no plan."""
         team, arcs, human = self._team, self._arcs, self._human
         deadline = team.deadline
         nobody = np.zeros(self._count, bool)
@@ -172,12 +172,12 @@ class _Moves:
         offered[arcs.action[arcs.agent == human]] = True
         spent = Spending(self._actions, arcs, self._robots, self._by_robots, offered, deadline)
         costs = self._judged(spent)
-        both = [(costs, self._levels(costs, costs, offered, levels))]
+        both = [(costs, self._levels(costs, costs, offered))]
         if team.windows is not None:
             ones = np.where(self._his, 0, self._ones)
             earliest = Spending(self._actions, arcs, self._robots, ones, offered, deadline)
             times = self._judged(earliest, by_epoch=True)
-            both.append((times, self._levels(times, costs, offered, levels)))
+            both.append((times, self._levels(times, costs, offered)))
         if not all(found for _, found in both):
             return False
         his = arcs.agent == human
@@ -194,11 +194,11 @@ class _Moves:
         partners = spent.partners(self._human) + (self._actions.joint & by_epoch)
         return _Judged(np.maximum(spent.facts(), partners), partners, spent.made(~self._his), by_epoch)
 
-    def _levels(self, judged: _Judged, spent: _Judged, offered: Mask, most_levels: int) -> list[_Level]:
+    def _levels(self, judged: _Judged, spent: _Judged, offered: Mask) -> list[_Level]:
         """The levels on which there are paths that are cheap enough; what robots ``spent``, if by epoch."""
         team, found = self._team, []
         values = judged.values(self._actions, offered, team.horizon if judged.by_epoch else team.most)
-        for low, high in pairwise(_cuts(values, most_levels)):
+        for low, high in pairwise(_cuts(values)):
             if low >= high:
                 continue
             least, most, before = values[low], values[high - 1], 0
