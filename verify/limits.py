@@ -23,8 +23,6 @@ PARTS: Final = (
     "solver",  # of programs
     "cost-fixing",  # without epochs: operators that landmarks show to be too dear
     "operator-counting",  # without epochs: numbers of operators, by a solver
-    "landmark-cuts",  # of searches over packed states: landmarks of each state
-    "stubborn-sets",  # of the same: operators that commute
 )
 """Parts of methods that can be left out, too."""
 
@@ -56,9 +54,7 @@ class VerifierLimits:
         packed_facts: of a task whose states are packed.
         packed_actions: the same.
         few_states: packed states after which better bounds are worth their time.
-        cut_states: of a search with landmarks for each state.
         packed_states: of any search.
-        stubborn_actions: of a search with stubborn sets.
         states_at_once: packed states whose actions are looked for at once.
         robot_states: of one robot beside the human's timetable, after an epoch.
         left_behind: what robots may leave behind together.
@@ -69,7 +65,6 @@ class VerifierLimits:
         solved_here: coefficients of a program up to which HiGHS overruns its limit by some 20 ms at most.
         solver_seconds: for which HiGHS may work in this process, and about what it takes to start one.
         counting_share: the same for numbers of operators.
-        cuts_share: the same for a search with landmarks of each state.
         quick_seconds: for bounds over packed states, as long as few states may be enough.
         quick_share: of the time left, for the same.
         careful_seconds: for bounds that are to spare many states.
@@ -98,9 +93,7 @@ class VerifierLimits:
     packed_facts: int = 1_500
     packed_actions: int = 30_000
     few_states: int = 20_000
-    cut_states: int = 500_000
     packed_states: int = 50_000_000
-    stubborn_actions: int = 10_000
     states_at_once: int = 8_192
     robot_states: int = 400_000
     left_behind: int = 1_000_000
@@ -111,7 +104,6 @@ class VerifierLimits:
     solved_here: int = 15_000
     solver_seconds: float = 0.25
     counting_share: float = 0.15
-    cuts_share: float = 0.4
     quick_seconds: float = 0.5
     quick_share: float = 0.1
     careful_seconds: float = 5.0

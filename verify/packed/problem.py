@@ -4,15 +4,13 @@ from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
-from serendipity.model import Deadline, LimitReachedError
-from verify.limits import limits, uses
+from serendipity.model import Deadline
+from verify.limits import limits
 from verify.packed.bounds import Care, PatternBounds, little, much
 from verify.packed.cheapest_path import PackedSearch, SumTooLargeError, TooManyPackedStatesError
-from verify.packed.landmark_cuts import LandmarkCuts
 from verify.packed.layout import Effects, PackedLayout, Words
 from verify.packed.mutexes import ReachablePairs, exclusive_groups
 from verify.packed.operators import Ints, OperatorTable, PackedOperator
-from verify.packed.stubborn import StubbornSets
 
 
 class TooLargeError(Exception):
@@ -156,32 +154,10 @@ class PackedProblem:
             except TooManyPackedStatesError:
                 if hopeless is not None and hopeless():
                     return search, None
-                found = self._with_cuts(starts, paid, below)
-                if found is not None:
-                    return found
                 self._bounds, self._careful = self._made(starts, much()), True
         search = self._search(below, limits().packed_states)
         search.add(starts, paid)
         return search, search.run()
-
-    def _with_cuts(self, starts: Words, paid: Ints, below: int) -> tuple[PackedSearch, int | None] | None:
-        """The search with landmarks of each state: few states, much work for each; None: too much work."""
-        if not uses("landmark-cuts"):
-            return None
-        asked = self.table.operators, self._facts, self._wanted
-        cuts = [LandmarkCuts(*asked, rarest=rarest) for rarest in (True, False)]
-        few = len(self.table.operators) <= limits().stubborn_actions and uses("stubborn-sets")
-        sets = StubbornSets(*asked) if few else None
-        part = self._deadline.part(limits().cuts_share)
-        search = PackedSearch(
-            self.table, self.goal, self.bounds, part, below, limits().cut_states, cuts, sets
-        )
-        try:
-            search.add(starts, paid)
-            return search, search.run()
-        except (LimitReachedError, TooManyPackedStatesError):
-            self._deadline.check()
-            return None
 
     def least(self, start: Words, below: int | None = None) -> int | None:
         """The least weight from one state to the goal; None if there is no way for less than ``below``."""

@@ -7,7 +7,7 @@ from hypothesis import given
 from serendipity.model import Deadline, Options, Task
 from serendipity.testing.generator.families import family_task
 from serendipity.testing.strategies import tasks
-from tests.verify.packed.test_landmarks_and_stubborn_sets import operators
+from tests.verify.packed.test_landmark_cuts import operators
 from tests.verify.packed.test_packed_search_equals_brute_force import FAMILY, distances, reached
 from verify.base.execution import State, after, applicable
 from verify.base.relevance import relevant_part
