@@ -22,7 +22,6 @@ PARTS: Final = (
     "arc-pruning",  # of programs: the same by epoch
     "solver",  # of programs
     "cost-fixing",  # without epochs: operators that landmarks show to be too dear
-    "operator-counting",  # without epochs: numbers of operators, by a solver
 )
 """Parts of methods that can be left out, too."""
 
@@ -64,7 +63,6 @@ class VerifierLimits:
         several_plans: the human's optimal plans for which one search beside all of them pays.
         solved_here: coefficients of a program up to which HiGHS overruns its limit by some 20 ms at most.
         solver_seconds: for which HiGHS may work in this process, and about what it takes to start one.
-        counting_share: the same for numbers of operators.
         quick_seconds: for bounds over packed states, as long as few states may be enough.
         quick_share: of the time left, for the same.
         careful_seconds: for bounds that are to spare many states.
@@ -103,7 +101,6 @@ class VerifierLimits:
     several_plans: int = 3
     solved_here: int = 15_000
     solver_seconds: float = 0.25
-    counting_share: float = 0.15
     quick_seconds: float = 0.5
     quick_share: float = 0.1
     careful_seconds: float = 5.0

@@ -72,7 +72,6 @@ class Examiner:
         decided = [attempt for attempt in made if attempt.decided]
         states = max((attempt.states for attempt in decided if attempt.name != "decoupled"), default=0)
         words = "".join(wording.apart(attempt.states) for attempt in decided if attempt.name == "decoupled")
-        words += "".join(wording.counted(attempt.landmarks) for attempt in decided if attempt.landmarks)
         words += wording.searched(states) if states else ""
         return words or (self._solved(called) if called else wording.CLOSED)
 

@@ -30,7 +30,7 @@ def cheapest(question: Subproblem, effort: Effort) -> Minimum:
 
     Args:
         question: its horizon is not looked at; its rule is ``free``.
-        effort: its method says whether estimates of what is left may spare states, and a solver be asked.
+        effort: its method says whether estimates of what is left may spare states.
 
     Raises:
         LimitReachedError: the deadline came before the search began.
@@ -51,7 +51,7 @@ def cheapest(question: Subproblem, effort: Effort) -> Minimum:
         except TooLargeError:
             team = None
     if team is not None:
-        return cheapest_without_epochs(question, team, effort if bounded else None)
+        return cheapest_without_epochs(question, team, bounded=bounded)
     found = search.run()
     return replace(found, states=search.closed)
 

@@ -1,6 +1,6 @@
 """One goal, many questions: layout, operators and bounds that all of them share."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -110,7 +110,6 @@ class PackedProblem:
         starts: Words,
         paid: Ints,
         below: int | None = None,
-        hopeless: Callable[[], bool] | None = None,
     ) -> tuple[PackedSearch, int | None]:
         """A search from some states with what was paid so far, and the goal state that it ends in.
 
@@ -118,7 +117,6 @@ class PackedProblem:
             starts: the states.
             paid: for each of them.
             below: paths of this weight or more don't count; None: all do.
-            hopeless: asked once few states have not been enough: whether there is known to be no such path.
 
         Returns:
             The search, and the state's number in it; None: there is no way for less than ``below``.
@@ -128,7 +126,7 @@ class PackedProblem:
             LimitReachedError: the deadline came first.
         """
         most = limits().weight
-        search, found = self._searched(starts, paid, most if below is None else min(below, most), hopeless)
+        search, found = self._searched(starts, paid, most if below is None else min(below, most))
         if found is None and (below is None or below > most) and self._may_pass(most, search):
             raise SumTooLargeError("costs are too large to be added up in machine words")
         return search, found
@@ -141,9 +139,7 @@ class PackedProblem:
         states = search.states + (0 if self._bounds is None else self._bounds.states)
         return int(self.table.weight.max(initial=0)) * states > most
 
-    def _searched(
-        self, starts: Words, paid: Ints, below: int, hopeless: Callable[[], bool] | None
-    ) -> tuple[PackedSearch, int | None]:
+    def _searched(self, starts: Words, paid: Ints, below: int) -> tuple[PackedSearch, int | None]:
         if self._bounds is None and self._bounded:
             self._bounds = self._made(starts, little())
         if not self._careful:
@@ -152,8 +148,6 @@ class PackedProblem:
                 search.add(starts, paid)
                 return search, search.run()
             except TooManyPackedStatesError:
-                if hopeless is not None and hopeless():
-                    return search, None
                 self._bounds, self._careful = self._made(starts, much()), True
         search = self._search(below, limits().packed_states)
         search.add(starts, paid)

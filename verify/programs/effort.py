@@ -72,20 +72,18 @@ class Attempt:
         name: of the method (``verify.calls.methods``).
         decided: whether that was the answer.
         states: how many an exhaustive search looked at.
-        landmarks: rows of them, where numbers of actions decided.
         seconds: what it took.
     """
 
     name: str
     decided: bool
     states: int = 0
-    landmarks: int = 0
     seconds: float = 0.0
 
     @property
     def method(self) -> str:
         """``program`` or ``exhaustive``: what a claim says of it."""
-        return "program" if self.landmarks or self.name == "programs" else "exhaustive"
+        return "program" if self.name == "programs" else "exhaustive"
 
 
 class NoProgramError(UsageError):
@@ -185,7 +183,6 @@ class Minimum:
         bound: proved lower bound on the objective in units, or None.
         reason: why it is undecided.
         states: how many an exhaustive search looked at.
-        landmarks: as :class:`Attempt` has them.
     """
 
     status: str
@@ -193,7 +190,6 @@ class Minimum:
     bound: int | None = None
     reason: str = ""
     states: int = 0
-    landmarks: int = 0
 
     def settled(self) -> PricedPlan | None:
         """Some plan, best or not; None: there is provably none.
