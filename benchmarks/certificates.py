@@ -3,13 +3,15 @@
     python -m benchmarks.certificates [FOLDER] [--human H] [--buildings 84x3,84x3x2,210x6] [--seeds 5]
         [--suite FOLDER] [--domains NAME,...] [--stride N] [--limit N] [--modes NAME,...] [--discounts D,...]
         [--plan-limit SECONDS] [--time-limit SECONDS] [--encoding automata] [--solver highs] [--method auto]
-        [--proofs] [--apart] [--only WORD] [--record FILE]
+        [--methods=-NAME,...] [--proofs] [--apart] [--only WORD] [--record FILE]
 
 A building is named by its rooms, medkits and robots.  Each task is read, planned, read again and verified.
 What a limit left unplanned is left out.  ``seconds`` are from the second reading to the verdict, of
 processor time, the solver's included, which other work on the machine leaves as it is; ``by the clock`` is
 the certificate alone; ``decided by`` is the method of the claim that took longest (a program without calls:
 pruning).  With ``--apart`` all is done in processes of their own, whose memory is told.
+
+``--methods`` leaves methods out, or all but some (``verify.calls.methods``): what each is good for.
 
 With ``--proofs`` a proof is written: ``write`` is all of ``verify --proof``, reading included;
 ``check`` is the checker alone, from the file to its verdict, as in a process that has started; and
@@ -100,6 +102,7 @@ def main(
     encoding: str = "automata",
     solver: str = "highs",
     method: str = "auto",
+    methods: str = "",
     proofs: bool = False,
     separate: Annotated[bool, typer.Option("--apart")] = False,
     only: str = "",
@@ -114,6 +117,7 @@ def main(
     sources += _buildings(buildings, seeds)
     sources += _problems(suite, domains, stride) if suite else []
     how = {"encoding": encoding, "solver": solver, "method": method, "time_limit": time_limit}
+    how |= {"methods": tuple(methods.split(","))} if methods else {}
     asked = [
         Asked(group, source, mode, discount, plan_limit)
         for (group, source), mode, discount in product(sources, modes.split(","), discounts.split(","))

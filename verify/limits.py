@@ -1,26 +1,39 @@
-"""Sizes that decide which way a question goes: from when on another method is tried, or none is worth it.
+"""The limits of the verifier: sizes from which on another method is tried, times, and methods left out.
 
 They decide how soon something is proved, never whether it is true: whatever they are, no answer may be
 another one, only ``undecided``.  Tests draw them at random, so that ways for large tasks are gone on small
 ones, where brute force can see what is right::
 
-    with limited(few_states=1, many_moves=0, programs=False):
+    with limited(few_states=1, many_moves=0, methods=("-programs",)):
         serendipity.verify(task, result)
+
+What a method of the table may take (``verify.calls.methods``) stands there; what its parts may, here.
 """
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Final
+
+PARTS: Final = (
+    "relevance-pruning",  # of programs: moves of the agents that are on no plan within the limits
+    "few-facts",  # of relevance pruning: automata over few facts first
+    "arc-pruning",  # of programs: the same by epoch
+    "joint-paths",  # of programs: all joint paths through what pruning leaves
+    "solver",  # of programs
+    "cost-fixing",  # without epochs: operators that landmarks show to be too dear
+)
+"""Parts of methods that can be left out, too."""
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
-    """The sizes; a thread or a process of its own begins with these.
+class VerifierLimits:
+    """The limits; a thread or a process of its own begins with these.
 
     Attributes:
-        programs: whether integer programs, and the bounds that prune them, take turns with other methods.
+        methods: names of methods and of their parts: the only ones that are used, or, with a minus sign in
+            front, those that are not; see :func:`verify.calls.methods.chosen`.
         coefficient: of a solver's program at most; see ``verify.solvers.mip``.
         weight: sums of costs in machine words stay below it; those of operators together, so that sums stay
             below what stands for no way.
@@ -28,7 +41,7 @@ class Limits:
         states_a_value: the same, for each value of the variable with the most values.
         automaton_moves: of an automaton that is large enough: once a fact does not fit, no other is tried.
         many_actions: actions from which on small automata go before the large ones.
-        many_moves: moves from which on their bounds are worked out on arrays.
+        many_moves: moves from which on it pays to bound them whatever the epoch.
         joint_paths: joint states of pruned networks that are kept at most.
         alone_states: of the human alone, in a program.
         own_states: of the human alone that are looked at.
@@ -42,9 +55,7 @@ class Limits:
         packed_facts: of a task whose states are packed.
         packed_actions: the same.
         few_states: packed states after which better bounds are worth their time.
-        cut_states: of a search with landmarks for each state.
         packed_states: of any search.
-        stubborn_actions: of a search with stubborn sets.
         states_at_once: packed states whose actions are looked for at once.
         robot_states: of one robot beside the human's timetable, after an epoch.
         left_behind: what robots may leave behind together.
@@ -52,16 +63,26 @@ class Limits:
         robots_plans: that are looked at where several goals are possible.
         moments: states and minds of people who replan.
         several_plans: the human's optimal plans for which one search beside all of them pays.
+        solved_here: coefficients of a program up to which HiGHS overruns its limit by some 20 ms at most.
+        solver_seconds: for which HiGHS may work in this process, and about what it takes to start one.
+        joint_share: of the time left, for joint paths before a program is written.
+        quick_seconds: for bounds over packed states, as long as few states may be enough.
+        quick_share: of the time left, for the same.
+        careful_seconds: for bounds that are to spare many states.
+        careful_share: of the time left, for the same.
+        aside_seconds: for what a certificate says beside its claims.
+        rules_seconds: for what the human would do in a policy's states, where rules alone are checked.
+        end_share: of a time limit, kept for the end: dropping what was made takes time, too.
     """
 
-    programs: bool = True
+    methods: tuple[str, ...] = ()
     coefficient: int = 10**7
     weight: int = 2**60
     automaton_states: int = 2_000
     states_a_value: int = 24
     automaton_moves: int = 100_000
     many_actions: int = 5_000
-    many_moves: int = 10_000
+    many_moves: int = 4_000
     joint_paths: int = 100_000
     alone_states: int = 50_000
     own_states: int = 200_000
@@ -74,9 +95,7 @@ class Limits:
     packed_facts: int = 1_500
     packed_actions: int = 30_000
     few_states: int = 20_000
-    cut_states: int = 500_000
     packed_states: int = 50_000_000
-    stubborn_actions: int = 10_000
     states_at_once: int = 8_192
     robot_states: int = 400_000
     left_behind: int = 1_000_000
@@ -84,20 +103,37 @@ class Limits:
     robots_plans: int = 20_000
     moments: int = 200_000
     several_plans: int = 3
+    solved_here: int = 15_000
+    solver_seconds: float = 0.25
+    joint_share: float = 0.5
+    quick_seconds: float = 0.5
+    quick_share: float = 0.1
+    careful_seconds: float = 5.0
+    careful_share: float = 0.25
+    aside_seconds: float = 2.0
+    rules_seconds: float = 1.0
+    end_share: float = 0.05
 
 
-_CURRENT: ContextVar[Limits] = ContextVar("limits", default=Limits())  # noqa: B039 - never changed
+_CURRENT: ContextVar[VerifierLimits] = ContextVar("limits", default=VerifierLimits())  # noqa: B039 - never changed
 
 
-def limits() -> Limits:
-    """The sizes that hold now."""
+def limits() -> VerifierLimits:
+    """The limits that hold now."""
     return _CURRENT.get()
 
 
+def uses(name: str) -> bool:
+    """Whether a method, or a part of one, is not left out."""
+    chosen = limits().methods
+    only = [each for each in chosen if not each.startswith("-")]
+    return f"-{name}" not in chosen and (not only or name in only or name in PARTS)
+
+
 @contextmanager
-def limited(**sizes: Any) -> Iterator[None]:
-    """Other sizes for a while, by the names of :class:`Limits`."""
-    before = _CURRENT.set(replace(limits(), **sizes))
+def limited(**given: Any) -> Iterator[None]:
+    """Other limits for a while, by the names of :class:`VerifierLimits`."""
+    before = _CURRENT.set(replace(limits(), **given))
     try:
         yield
     finally:

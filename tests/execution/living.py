@@ -10,7 +10,7 @@ import serendipity
 from serendipity.execution import Execution, LogLine, Omniscient, Person, log_lines, moment_of
 from serendipity.model import Task
 from verify.base.optimal_plans import OptimalPlans
-from verify.simulator.person import Person as Oracle
+from verify.certificate.simulator.person import ReplanningPerson as Oracle
 
 MOST_EPOCHS = 60
 

@@ -6,7 +6,7 @@ import serendipity
 from serendipity.testing.generator import random_call
 from tests.execution.reasons import untrue
 from verify.base.optimal_plans import OptimalPlans
-from verify.simulator.person import Person as Oracle
+from verify.certificate.simulator.person import ReplanningPerson as Oracle
 
 PEOPLE = ("observant", "local", "noisy:0.3", "omniscient")
 

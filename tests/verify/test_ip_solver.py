@@ -2,6 +2,7 @@
 
 import random
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from time import perf_counter
 
@@ -9,7 +10,7 @@ import pytest
 
 from serendipity.model import Deadline, UsageError
 from serendipity.model.resources.memory import resident
-from verify.limits import limits
+from verify.limits import limited, limits
 from verify.solvers import cbc, highs, worker
 from verify.solvers.mip import SOLVERS, Model, optimise, solver_version
 
@@ -120,25 +121,32 @@ def test_solvers_say_their_version(solver: str) -> None:
 # -- solvers as processes
 
 
+@pytest.fixture
+def in_a_process() -> Iterator[None]:
+    """HiGHS solves nothing in this process."""
+    with limited(solved_here=0):
+        yield
+
+
 @pytest.mark.parametrize("presolve", [False, True])
 @pytest.mark.parametrize("seed", range(3))
-def test_a_process_says_what_a_call_says(seed: int, presolve: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_process_says_what_a_call_says(seed: int, presolve: bool) -> None:
     model = _cover(seed, 12, 8)
     model.presolve = presolve
     here = optimise(model)
-    monkeypatch.setattr(highs, "_SMALL", 0)
-    apart = optimise(model)
-    assert (apart.status, apart.values, apart.bound) == (here.status, here.values, here.bound)
-    model.add({0: 1}, ">=", 2)
-    assert optimise(model).status == "infeasible"
+    with limited(solved_here=0):
+        apart = optimise(model)
+        assert (apart.status, apart.values, apart.bound) == (here.status, here.values, here.bound)
+        model.add({0: 1}, ">=", 2)
+        assert optimise(model).status == "infeasible"
 
 
 def test_what_takes_longer_than_a_moment_is_solved_in_a_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(highs, "_MOMENT", 0.0)
     model = _cover(3, 12, 8)
-    assert optimise(model, deadline=Deadline(60)).status == "optimal"
-    monkeypatch.setattr(worker, "__file__", "missing.py")
-    assert "exit status" in optimise(model, deadline=Deadline(60)).reason
+    with limited(solver_seconds=0.0):
+        assert optimise(model, deadline=Deadline(60)).status == "optimal"
+        monkeypatch.setattr(worker, "__file__", "missing.py")
+        assert "exit status" in optimise(model, deadline=Deadline(60)).reason
 
 
 def _stubborn(folder: Path, does: str) -> Path:
@@ -148,8 +156,8 @@ def _stubborn(folder: Path, does: str) -> Path:
     return script
 
 
+@pytest.mark.usefixtures("in_a_process")
 def test_a_solver_that_keeps_no_limit_is_killed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(highs, "_SMALL", 0)
     monkeypatch.setattr(worker, "__file__", str(_stubborn(tmp_path, "")))
     started = perf_counter()
     outcome = optimise(_cover(1, 10, 5), deadline=Deadline(1.0))
@@ -161,8 +169,8 @@ def test_a_solver_that_keeps_no_limit_is_killed(tmp_path: Path, monkeypatch: pyt
 @pytest.mark.skipif(
     not Path("/proc/self/statm").exists(), reason="another process's memory is known on Linux"
 )
+@pytest.mark.usefixtures("in_a_process")
 def test_a_solver_s_memory_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(highs, "_SMALL", 0)
     monkeypatch.setattr(worker, "__file__", str(_stubborn(tmp_path, "a = bytearray(b'x') * 300_000_000")))
     limit = (resident() or 0) / 2**20 + 200
     outcome = optimise(_cover(1, 10, 5), deadline=Deadline(memory_limit=limit))
@@ -183,10 +191,10 @@ def test_cbc_is_killed_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.usefixtures("in_a_process")
 def test_a_solver_that_breaks_proves_nothing(
     solver: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(highs, "_SMALL", 0)
     monkeypatch.setattr(worker, "__file__", str(tmp_path / "missing.py"))
     monkeypatch.setattr(cbc, "_binary", lambda: sys.executable)  # which takes a program of ours for its own
     outcome = optimise(_cover(1, 10, 5), solver=solver)
@@ -195,11 +203,11 @@ def test_a_solver_that_breaks_proves_nothing(
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.usefixtures("in_a_process")
 def test_a_disk_that_is_full_proves_nothing(solver: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(highs, "_SMALL", 0)
     monkeypatch.setattr(highs, "TemporaryFile", full)
     monkeypatch.setattr(cbc, "TemporaryDirectory", full)
     outcome = optimise(_cover(1, 10, 5), solver=solver)

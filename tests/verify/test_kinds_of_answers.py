@@ -13,7 +13,7 @@ from serendipity.testing.generator.calls import random_call
 from tests.verify.kinds import LABELS, alike, kinds, table
 from tests.verify.test_ties_share_their_plans import errands
 from verify.base.optimal_plans import OptimalPlans
-from verify.calls.call import Call
+from verify.calls.call import ExaminedCall
 from verify.certificate.humans import _out_of_reach
 from verify.certificate.reactions import cheapest_reaction
 
@@ -52,7 +52,7 @@ def test_what_no_joint_plan_undercuts_nothing_undercuts(human_model: str) -> Non
         answer = serendipity.plan(task, human_model=human_model, discount="0.6", horizon=len(canonical) + 1)
         if answer.cost is None:
             continue
-        call = Call(task, answer.options, canonical, plans)
+        call = ExaminedCall(task, answer.options, canonical, plans)
         for most in _around(call, answer.cost):
             if _out_of_reach(call, most):
                 spared += 1
@@ -60,7 +60,7 @@ def test_what_no_joint_plan_undercuts_nothing_undercuts(human_model: str) -> Non
     assert spared > 15
 
 
-def _around(call: Call, cost: float) -> tuple[int, int, int]:
+def _around(call: ExaminedCall, cost: float) -> tuple[int, int, int]:
     units = round(cost * call.prices.scale)
     return units - 1, units, units + 1
 

@@ -11,7 +11,7 @@ import serendipity
 from serendipity.model import Result, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.by_hand import result
-from verify.base.small_numbers import Order
+from verify.base.small_numbers import OrderOfSums
 from verify.limits import limited
 
 METHODS = ("auto", "exhaustive", "program")
@@ -112,7 +112,7 @@ def test_a_limit_on_cost_is_none_on_communication(method: str) -> None:
     options = {"mode": "communication", "communication_weight": 2, "max_cost": 2, "horizon": 7}
     right = serendipity.plan(task, **options)
     assert (right.cost, right.objective, right.opportunity) == (2, 4, True)
-    with limited(few_joint_states=0, few_states=1, programs=False):
+    with limited(few_joint_states=0, few_states=1, methods=("-programs",)):
         assert serendipity.verify(task, right, method=method).verdict != "refuted"
         lie = false_denial(task, right, **options)
         assert serendipity.verify(task, lie, method=method).verdict == "refuted"
@@ -126,7 +126,7 @@ def test_small_numbers_keep_the_order_of_sums(seed: int) -> None:
         unit * dice.randint(1, 9) // dice.choice([1, 3, 7]) + dice.choice([0, 0, 1, 40]) for _ in range(3)
     ]
     numbers = [*near, dice.choice([1, unit, 1000 * unit])]
-    order = Order.of(frozenset(numbers), 2 * terms)
+    order = OrderOfSums.of(frozenset(numbers), 2 * terms)
     some = [each for count in range(terms + 1) for each in combinations_with_replacement(numbers, count)]
     sums = sorted({(sum(each), sum(map(order, each))) for each in some})
     for (one, small), (other, large) in pairwise(sums):

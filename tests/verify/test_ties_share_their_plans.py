@@ -15,9 +15,9 @@ from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_4
 from serendipity.testing.generator.calls import random_call
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.plan_graph import PlanGraph
+from verify.base.plan_graph import OptimalPlanGraph
 from verify.calls.answer import answer
-from verify.calls.call import Call
+from verify.calls.call import ExaminedCall
 from verify.certificate.certify import certify
 from verify.certificate.each_plan import kin
 from verify.exhaustive.beside_plans import HelpBesidePlans, answers_all
@@ -33,11 +33,11 @@ def errands(count: int) -> Task:
     return build(goal=" ".join(f"d{k}" for k in range(count)), actions=actions)
 
 
-def _tied_calls(seed: int) -> list[Call]:
+def _tied_calls(seed: int) -> list[ExaminedCall]:
     """A random call beside each optimal plan; empty where there are few, or robots have goals."""
     task, dice = random_call(seed).task, Random(f"ties {seed}")
     plans = OptimalPlans(task)
-    graph = PlanGraph(task, plans, ANY)
+    graph = OptimalPlanGraph(task, plans, ANY)
     if graph.count < 2 or task.robot_goal:
         return []
     options = Options(
@@ -47,10 +47,10 @@ def _tied_calls(seed: int) -> list[Call]:
         interference=dice.choice(("paper", "strict")),
         horizon=len(graph) + dice.choice((0, 0, 1, 2)),
     )
-    return [Call(task, options, plan, plans) for plan in graph.plans()]
+    return [ExaminedCall(task, options, plan, plans) for plan in graph.plans()]
 
 
-def _score(call: Call) -> tuple[int, int] | None:
+def _score(call: ExaminedCall) -> tuple[int, int] | None:
     found = answer(call)
     if not found.opportunity or found.objective is None or found.cost is None:
         return None
@@ -65,7 +65,7 @@ def test_one_search_finds_what_each_plan_allows(seeds: range, bounded: bool) -> 
         calls = _tied_calls(seed)
         if not calls:
             continue
-        graph = PlanGraph(calls[0].task, calls[0].plans, ANY)
+        graph = OptimalPlanGraph(calls[0].task, calls[0].plans, ANY)
         try:
             found = HelpBesidePlans(calls[0].question, graph, calls[0].plans, bounded=bounded)
         except OtherMethodError:  # numbers that are too large for it
@@ -81,8 +81,8 @@ def test_plans_that_differ_are_told_apart() -> None:
     """Case 4: that via s can't be helped, that via r can (semantics 9)."""
     task = case_4()
     plans = OptimalPlans(task)
-    graph = PlanGraph(task, plans, ANY)
-    call = Call(task, Options(discount="0.9"), plans.canonical(), plans)
+    graph = OptimalPlanGraph(task, plans, ANY)
+    call = ExaminedCall(task, Options(discount="0.9"), plans.canonical(), plans)
     found = HelpBesidePlans(call.question, graph, plans, bounded=True)
     assert set(found.scores.values()) == {1}
     assert {None if s is None else float(call.prices.cost(s[1])) for s in found.scores} == {None, 6.2}
@@ -92,7 +92,7 @@ def test_the_graph_has_the_plans_and_no_others() -> None:
     for seed in range(40):
         task = random_call(seed).task
         plans = OptimalPlans(task)
-        graph = PlanGraph(task, plans, ANY)
+        graph = OptimalPlanGraph(task, plans, ANY)
         listed = list(plans.plans())
         assert (list(graph.plans()), graph.count) == (listed, len(listed))
         for plan in listed:
@@ -102,7 +102,7 @@ def test_the_graph_has_the_plans_and_no_others() -> None:
 def test_too_many_plans_are_refused_without_listing_them() -> None:
     task = errands(12)
     with pytest.raises(serendipity.UsageError, match="more than 1000 optimal plans"):
-        PlanGraph(task, OptimalPlans(task), 1000)
+        OptimalPlanGraph(task, OptimalPlans(task), 1000)
 
 
 @pytest.mark.parametrize("ties", ["expected", "robust", "optimistic"])
@@ -140,10 +140,10 @@ def test_plans_of_one_kin_have_one_answer() -> None:
             continue
         asked: dict[str, Any] = {"mode": "communication", "discount": "0.5"}
         asked |= dice.choice(({}, {"communication_weight": "1"}, {"keep_prefix": True, "window_weight": "2"}))
-        graph = PlanGraph(task, plans, ANY)
+        graph = OptimalPlanGraph(task, plans, ANY)
         known: dict[object, object] = {}
         for plan in graph.plans():
-            call = Call(task, Options(**asked), plan, plans)
+            call = ExaminedCall(task, Options(**asked), plan, plans)
             found = answer(call)
             figures = found.cost, found.objective, found.opportunity
             shared += kin(call) in known
@@ -183,7 +183,7 @@ def test_a_rule_that_one_search_does_not_know_is_asked_plan_by_plan() -> None:
     plans = OptimalPlans(task)
     for asked in ({"suffix": "subplan"}, {"preservation": "state"}, {"max_window": 1}, {"max_cost": 7}):
         options = Options(discount="0.9", **asked)
-        assert not answers_all(Call(task, options, plans.canonical(), plans).question)
+        assert not answers_all(ExaminedCall(task, options, plans.canonical(), plans).question)
         result = serendipity.plan(task, ties="expected", discount="0.9", **asked)
         assert certify(task, result).verdict == "proved", asked
 

@@ -1,6 +1,13 @@
-"""Sets of facts as integers with a bit for each: thousands of states take little memory that way."""
+"""Sets of facts as integers with a bit for each, and a transition system over them.
+
+Thousands of states take little memory that way.
+"""
 
 from collections.abc import Iterable, Iterator
+from itertools import chain
+from typing import Any, NamedTuple
+
+from serendipity.model import Deadline
 
 
 class FactBits:
@@ -26,8 +33,76 @@ class FactBits:
         return (1 << len(self._bit)) - 1
 
 
+class BitCondition(NamedTuple):
+    """Facts that must hold, and that must not."""
+
+    pre: int
+    neg: int
+
+    def holds(self, state: int) -> bool:
+        """Whether they do."""
+        return state & self.pre == self.pre and not state & self.neg
+
+
+class BitOperator(NamedTuple):
+    """An action, or some at once: what must hold, and must not; what is set and unset; what it weighs.
+
+    Attributes:
+        label: the action's id, or all ids.
+    """
+
+    pre: int
+    neg: int
+    add: int
+    delete: int
+    weight: int
+    label: Any = None
+
+    def applicable(self, state: int) -> bool:
+        """Whether it can be done in a state."""
+        return state & self.pre == self.pre and not state & self.neg
+
+    def after(self, state: int) -> int:
+        """The state that it leads to."""
+        return state & ~self.delete | self.add
+
+
+class BitOperators:
+    """Operators that are looked up by one of their needs each: the one that the fewest share.
+
+    Args:
+        operators: the operators.
+        deadline: polled.
+    """
+
+    def __init__(self, operators: Iterable[BitOperator], deadline: Deadline) -> None:
+        count: dict[int, int] = {}
+        every = list(operators)
+        for operator in deadline.each(every):
+            for bit in each_bit(operator.pre):
+                count[bit] = count.get(bit, 0) + 1
+        self._under: dict[int, list[BitOperator]] = {0: []}
+        self._watched = 0
+        for operator in deadline.each(every):
+            bit = min(each_bit(operator.pre), key=count.__getitem__, default=0)
+            self._under.setdefault(bit, []).append(operator)
+            self._watched |= bit
+
+    def applicable(self, state: int) -> Iterator[BitOperator]:
+        """Those that can be done in a state."""
+        under = self._under
+        for operator in chain(under[0], *(under[bit] for bit in each_bit(state & self._watched))):
+            if state & operator.pre == operator.pre and not state & operator.neg:
+                yield operator
+
+    def __call__(self, state: int) -> Iterator[tuple[int, int, BitOperator]]:
+        """For each of them the state after it, and its weight."""
+        for operator in self.applicable(state):
+            yield state & ~operator.delete | operator.add, operator.weight, operator
+
+
 def each_bit(bits: int) -> Iterator[int]:
-    """The bits of a set one by one, as sets."""
+    """The bits of a set one by one, as sets, ascending."""
     while bits:
         lowest = bits & -bits
         yield lowest

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from serendipity.model import Deadline, HumanPlan, Task
 from verify.base.execution import states_of_pi_h
-from verify.base.operators import Operator as OwnOperator
+from verify.base.fact_bits import BitOperator
 from verify.base.operators import OwnActions
 from verify.base.projection import ProjectedCosts
 from verify.base.shortest_paths import PathSearch
@@ -19,7 +19,7 @@ from verify.base.undecided import TooManyStatesError, during
 from verify.limits import limits
 
 if TYPE_CHECKING:
-    from verify.packed.problem import Problem
+    from verify.packed.problem import PackedProblem
 
 State = frozenset[int]
 
@@ -159,29 +159,29 @@ class IndividualOptimum:
         except cheapest_path.SumTooLargeError:
             self._long = False
             return None
-        except cheapest_path.TooManyStatesError:
+        except cheapest_path.TooManyPackedStatesError:
             raise TooManyStatesError from None
         return -1 if weight is None else weight
 
     @cached_property
-    def packed(self) -> "Problem | None":
+    def packed(self) -> "PackedProblem | None":
         """The human's own problem over packed states; None where it is too large for that."""
-        from verify.packed.operators import Operator  # loads numpy, which few calls need
-        from verify.packed.problem import Problem, StateSpace, TooLargeError
+        from verify.packed.operators import PackedOperator  # loads numpy, which few calls need
+        from verify.packed.problem import PackedProblem, StateSpace, TooLargeError
 
         task, own = self._task, self.own
         groups = [frozenset(variable.facts) for variable in task.variables]
         try:
             space = StateSpace(len(task.facts), task.init, task.actions, groups, self.deadline)
             operators = [
-                Operator(a.pre, a.neg, a.add, a.delete, own.weight(i))
+                PackedOperator(a.pre, a.neg, a.add, a.delete, own.weight(i))
                 for i, a in ((i, task.actions[i]) for i in self.deadline.each(own.ids))
             ]
             goal = task.goal.positive, task.goal.negative
-            return Problem(space, own.facts, operators, goal, self.deadline)
+            return PackedProblem(space, own.facts, operators, goal, self.deadline)
         except TooLargeError:
             return None
 
-    def _successors(self, state: int) -> Iterator[tuple[int, int, OwnOperator]]:
+    def _successors(self, state: int) -> Iterator[tuple[int, int, BitOperator]]:
         for operator in self.own.applicable(state):
             yield state & ~operator.delete | operator.add, operator.weight, operator

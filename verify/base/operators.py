@@ -4,31 +4,20 @@ from collections import Counter
 from fractions import Fraction
 from itertools import chain
 from math import lcm
-from typing import Final, NamedTuple
+from typing import Final
 
 from serendipity.model import Condition, Deadline, Task
-from verify.base.fact_bits import FactBits, each_bit
+from verify.base.fact_bits import BitOperator, FactBits, each_bit
 
 _LONGEST: Final = 10**9
 """More actions than any plan has that is ever compared."""
 
 
-class Operator(NamedTuple):
-    """An own action reduced to the facts that can matter to the human, which are bits.
-
-    ``weight`` orders plans by cost, then by length: a cost of 1 weighs as much as
-    ``_LONGEST`` actions.
-    """
-
-    pre: int
-    neg: int
-    add: int
-    delete: int
-    weight: int
-
-
 class OwnActions:
     """The human's own actions, turned into operators when a search first meets them.
+
+    Operators are reduced to the facts that can matter to the human.  Their weight orders plans by cost, then
+    by length: a cost of 1 weighs as much as ``_LONGEST`` actions.
 
     Args:
         task: the task.
@@ -53,7 +42,7 @@ class OwnActions:
         self.bits = FactBits(facts)
         self._unit = lcm(*denominators) * _LONGEST
         self._weights: dict[tuple[int, int], int] = {}
-        self._operators: dict[int, Operator] = {}
+        self._operators: dict[int, BitOperator] = {}
         self._watched = self._watch(deadline)
 
     def weight(self, action: int) -> int:
@@ -73,23 +62,20 @@ class OwnActions:
         """The weight of a plan of that cost and length, whose cost is a sum of its actions'."""
         return int(cost * self._unit) + length
 
-    def applicable(self, state: int) -> list[Operator]:
-        """The operators that are applicable in a state."""
-        return [operator for _, operator in self._usable(state)]
-
-    def steps(self, state: int) -> list[tuple[int, int]]:
-        """The actions that are applicable in a state, by ids, each with the state after it."""
-        return [(i, state & ~operator.delete | operator.add) for i, operator in self._usable(state)]
-
-    def _usable(self, state: int) -> list[tuple[int, Operator]]:
+    def applicable(self, state: int) -> list[BitOperator]:
+        """The operators that are applicable in a state, labelled by their actions' ids."""
         found = []
         watched = self._watched
         for bit in chain((0,), each_bit(state)):
             for action in watched.get(bit, ()):
                 operator = self._operator(action)
                 if state & operator.pre == operator.pre and not state & operator.neg:
-                    found.append((action, operator))
+                    found.append(operator)
         return found
+
+    def steps(self, state: int) -> list[tuple[int, int]]:
+        """The actions that are applicable in a state, by ids, each with the state after it."""
+        return [(operator.label, operator.after(state)) for operator in self.applicable(state)]
 
     def may_reach(self, state: int, goal: Condition, deadline: Deadline) -> bool:
         """Whether a goal can be reached if what has been true, or false, counts as that from then on.
@@ -112,12 +98,12 @@ class OwnActions:
             waiting = later
         return True
 
-    def _operator(self, action: int) -> Operator:
+    def _operator(self, action: int) -> BitOperator:
         operator = self._operators.get(action)
         if operator is None:
             ground, of = self._task.actions[action], self.bits.of
-            operator = self._operators[action] = Operator(
-                of(ground.pre), of(ground.neg), of(ground.add), of(ground.delete), self.weight(action)
+            operator = self._operators[action] = BitOperator(
+                of(ground.pre), of(ground.neg), of(ground.add), of(ground.delete), self.weight(action), action
             )
         return operator
 

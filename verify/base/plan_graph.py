@@ -10,7 +10,7 @@ Move = tuple[int, int]
 """An action, and the number of the state behind it, in the next layer."""
 
 
-class PlanGraph:
+class OptimalPlanGraph:
     """The states that the human's optimal plans lead through, layer by layer.
 
     All optimal plans have the same number of actions, so a layer is an epoch.  Of several actions of one

@@ -23,7 +23,7 @@ _STEPS: Final = 50_000
 
 
 @dataclass(frozen=True, slots=True)
-class Order:
+class OrderOfSums:
     """Numbers for numbers, such that sums of few of them, signs included, have the same order.
 
     Attributes:
@@ -36,11 +36,11 @@ class Order:
     step: int = 0
     base: int = 1
     reach: int = 0
-    rests: "Order | None" = None
+    rests: "OrderOfSums | None" = None
 
     @classmethod
     @lru_cache(maxsize=64)  # each costs up to a tenth of a second
-    def of(cls, numbers: frozenset[int], terms: int) -> "Order":
+    def of(cls, numbers: frozenset[int], terms: int) -> "OrderOfSums":
         """The order of sums of so many terms at most.
 
         Args:
@@ -90,7 +90,7 @@ def _rest(number: int, step: int) -> int:
     return number - _nearest(number, step) * step
 
 
-def with_small_numbers(question: Subproblem) -> tuple[Subproblem, Order]:
+def with_small_numbers(question: Subproblem) -> tuple[Subproblem, OrderOfSums]:
     """The question with smaller numbers where they are too large for solvers, and what became of them.
 
     What passes a limit by itself just passes it then.
@@ -100,11 +100,11 @@ def with_small_numbers(question: Subproblem) -> tuple[Subproblem, Order]:
     """
     prices, most, most_cost = question.prices, question.most, question.most_cost
     if question.horizon * question.an_epoch <= limits().coefficient:
-        return question, Order()
+        return question, OrderOfSums()
     team, talk = _within(prices.team, least(most, most_cost)), _within(prices.talk, most)
     (epoch,) = _within((prices.epoch,), most)
     an_epoch = len(question.task.agents) + any(talk) + (epoch > 0)  # only the human talks
-    order = Order.of(frozenset((*team, *talk, epoch)), 2 * question.horizon * an_epoch)
+    order = OrderOfSums.of(frozenset((*team, *talk, epoch)), 2 * question.horizon * an_epoch)
     small = Prices(0, tuple(map(order, team)), tuple(map(order, talk)), order(epoch))
     found = question.but(prices=small, most=None)  # no plan has more than the largest
     given = (None if each is None else min(order.limit(each), found.largest) for each in (most, most_cost))

@@ -14,7 +14,7 @@ from typing import TypeVar
 
 from serendipity.model import Deadline, HumanPlan, Options, Step, Task, Window
 from verify.base.execution import price
-from verify.base.plan_graph import PlanGraph
+from verify.base.plan_graph import OptimalPlanGraph
 
 Amount = TypeVar("Amount", int, tuple[int, int])
 
@@ -48,7 +48,7 @@ class Prices:
 
 
 @dataclass(frozen=True, slots=True)
-class Solution:
+class PricedPlan:
     """A plan that answers a question, replayed; costs in the question's units."""
 
     steps: tuple[Step, ...]
@@ -82,7 +82,7 @@ class Subproblem:
     human_plan: HumanPlan
     horizon: int
     prices: Prices
-    any_of: PlanGraph | None = None
+    any_of: OptimalPlanGraph | None = None
     robots: bool = True
     robots_goal: bool = True
     most: int | None = None
@@ -108,6 +108,29 @@ class Subproblem:
         """No plan that is asked for has a larger objective: the limit, or what fits into the horizon."""
         whole = self.horizon * self.an_epoch
         return whole if self.most is None else min(self.most, whole)
+
+    @property
+    def replans(self) -> bool:
+        """Whether suffixes have to be optimal plans of the human's own (Def. 2.0a)."""
+        options = self.options
+        return self.rule == WINDOW and options.suffix == "replan" and options.preservation == "kernel"
+
+    @property
+    def has_plain_windows(self) -> bool:
+        """Whether ``pi_H`` is followed up to a window and replanned after it, and robots have no goals."""
+        followed = bool(self.human_plan) and not self.options.keep_prefix
+        return self.replans and followed and not (self.robots_goal and self.task.robot_goal)
+
+    @property
+    def is_free(self) -> bool:
+        """Whether the window of all epochs is as good as any: no epoch of it costs, and none is too many.
+
+        There is neither prefix nor suffix then, so that every plan fits it.
+        """
+        options, longest = self.options, self.options.max_window
+        whole = longest is None or longest >= self.horizon
+        kernel = options.preservation == "kernel" and not options.keep_prefix
+        return self.rule == WINDOW and not self.prices.epoch and whole and bool(self.human_plan) and kernel
 
     def allowed(self) -> list[int]:
         """Ids of the actions that may occur at all."""

@@ -2,12 +2,8 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Final
 
 from serendipity.model import LimitReachedError
-
-END_SHARE: Final = 0.05
-"""What of a time limit is kept for the end: dropping what was made takes time, too."""
 
 
 class UndecidedError(Exception):

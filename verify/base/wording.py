@@ -184,11 +184,6 @@ def apart(states: int) -> str:
     return f"; robots looked at one by one, {states:,} states that they leave behind or lead to"
 
 
-def counted(landmarks: int) -> str:
-    """How often each action occurs was looked at, not when."""
-    return f"; balance of facts and {landmarks:,} landmarks leave no numbers of actions"
-
-
 def searched(states: int) -> str:
     """What an exhaustive search looked at."""
     return f"; {states:,} states searched exhaustively"

@@ -8,14 +8,14 @@ from itertools import islice
 from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
 from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import Solution
-from verify.calls.call import Call, Score
+from verify.base.subproblem import PricedPlan
+from verify.calls.call import ExaminedCall, Score
 from verify.calls.methods import decide_without_horizon
 from verify.programs.effort import Effort
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class CallAnswer:
     """What a call is answered, proved; costs in the call's units.
 
     Attributes:
@@ -24,8 +24,8 @@ class Answer:
         opportunity: whether it is an opportunity (semantics 3.1).
     """
 
-    call: Call
-    found: Solution | None
+    call: ExaminedCall
+    found: PricedPlan | None
     opportunity: bool
 
     @property
@@ -56,7 +56,7 @@ class Answer:
         return "no-plan" if self.call.horizon == INFINITE else "no-plan-within-horizon"
 
 
-def answer(call: Call) -> Answer:
+def answer(call: ExaminedCall) -> CallAnswer:
     """Solve a call.
 
     Raises:
@@ -64,15 +64,15 @@ def answer(call: Call) -> Answer:
         UsageError: the call needs a horizon.
     """
     if call.options.mode == "individual" or (call.needs_pi_h and call.human_plan is None):
-        return Answer(call, None, opportunity=False)
+        return CallAnswer(call, None, opportunity=False)
     found = best_plan(call)
     helps = found is not None and is_help(call, (found.objective, found.cost))
     if call.options.windowed and not helps:
         found = None
-    return Answer(call, found, opportunity=helps and call.human_plan is not None)
+    return CallAnswer(call, found, opportunity=helps and call.human_plan is not None)
 
 
-def best_plan(call: Call, *, robots: bool = True) -> Solution | None:
+def best_plan(call: ExaminedCall, *, robots: bool = True) -> PricedPlan | None:
     """The plan of least objective, then cost, if it beats doing nothing; without ``robots`` none acts."""
     if call.horizon != INFINITE:
         return call.best(call.question.but(robots=robots), call.do_nothing)
@@ -82,13 +82,13 @@ def best_plan(call: Call, *, robots: bool = True) -> Solution | None:
     return call.decided(decide_without_horizon(question, call.effort))
 
 
-def is_help(call: Call, score: Score) -> bool:
+def is_help(call: ExaminedCall, score: Score) -> bool:
     """Whether a plan of this objective and cost beats what there is without robots (semantics 1, 3.1)."""
     idle, alone = idle_cost(call), unaided(call)
     return (idle is None or score[1] < idle) and (alone is None or score < alone)
 
 
-def unaided(call: Call) -> Score | None:
+def unaided(call: ExaminedCall) -> Score | None:
     """Objective and cost of the best plan in which no robot acts, where help has to beat that, too.
 
     It has where robots have goals and a plan is given that is not optimal.  Without such goals
@@ -100,7 +100,7 @@ def unaided(call: Call) -> Score | None:
     return None if found is None else (found.objective, found.cost)
 
 
-def idle_cost(call: Call) -> int | None:
+def idle_cost(call: ExaminedCall) -> int | None:
     """Cost of the answer with all robots idle; see :attr:`Call.idle`."""
     if call.horizon != INFINITE or call.baseline is None or call.robots_goal:
         return call.idle
@@ -113,7 +113,7 @@ def idle_cost(call: Call) -> int | None:
 
 def calls(
     task: Task, options: Options, given: HumanPlan | None, effort: Effort, plans: OptimalPlans
-) -> Sequence[Call]:
+) -> Sequence[ExaminedCall]:
     """The calls that make up a task: one, or one for each optimal ``pi_H`` under ``ties``.
 
     Args:
@@ -127,13 +127,13 @@ def calls(
         UsageError: there are more than ``max_ties``.
     """
     if given is not None and options.mode != "individual":
-        return [Call(task, options, given, plans, effort)]
+        return [ExaminedCall(task, options, given, plans, effort)]
     if options.ties == "fixed" or options.mode not in TIED_MODES:
-        return [Call(task, options, plans.canonical(), plans, effort)]
+        return [ExaminedCall(task, options, plans.canonical(), plans, effort)]
     tied: list[HumanPlan | None] = list(islice(plans.plans(), options.max_ties + 1))
     if len(tied) > options.max_ties:
         raise UsageError(f"max_ties: the human has more than {options.max_ties} optimal plans")
-    return [Call(task, options, plan, plans, effort) for plan in tied or [None]]
+    return [ExaminedCall(task, options, plan, plans, effort) for plan in tied or [None]]
 
 
-__all__ = ["Answer", "answer", "best_plan", "calls", "idle_cost", "is_help"]
+__all__ = ["CallAnswer", "answer", "best_plan", "calls", "idle_cost", "is_help"]

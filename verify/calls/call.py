@@ -7,7 +7,7 @@ from functools import cached_property
 from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
 from serendipity.model.keywords import Horizon
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import EXACT, FREE, WINDOW, Prices, Solution, Subproblem, prices
+from verify.base.subproblem import EXACT, FREE, WINDOW, PricedPlan, Prices, Subproblem, prices
 from verify.base.undecided import UndecidedError
 from verify.calls.methods import decide
 from verify.exhaustive.baseline_without_horizon import cheapest_following
@@ -18,7 +18,7 @@ Score = tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Call:
+class ExaminedCall:
     """A task, options and one human plan.
 
     Attributes:
@@ -115,7 +115,7 @@ class Call:
         return None if found is None else found.cost
 
     @cached_property
-    def idle_robots_plan(self) -> Solution | None:
+    def idle_robots_plan(self) -> PricedPlan | None:
         """The cheapest plan in which the human executes ``pi_H`` and robots reach ``G_R`` by themselves."""
         if self.horizon == INFINITE:
             return self.decided(cheapest_following(self._question(EXACT)))
@@ -156,7 +156,7 @@ class Call:
             and worth[0] == self.task.cost_of(self.human_plan)
         )
 
-    def better(self, question: Subproblem, than: Score) -> Solution | None:
+    def better(self, question: Subproblem, than: Score) -> PricedPlan | None:
         """Some plan with a lower score; None: proved that there is none.
 
         Raises:
@@ -172,7 +172,7 @@ class Call:
                 return found
         return None
 
-    def best(self, question: Subproblem, than: Score | None) -> Solution | None:
+    def best(self, question: Subproblem, than: Score | None) -> PricedPlan | None:
         """The plan of least objective, then cost, among those with a lower score than ``than``.
 
         Raises:
@@ -197,7 +197,7 @@ class Call:
         cost = score[1]
         return cost > 0 and (any(self.prices.talk) or 0 < self.prices.epoch <= cost)
 
-    def decided(self, minimum: Minimum) -> Solution | None:
+    def decided(self, minimum: Minimum) -> PricedPlan | None:
         """The minimum's plan, None if there is provably none.
 
         Raises:

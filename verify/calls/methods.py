@@ -1,45 +1,170 @@
-"""What decides a question: integer programs, an exhaustive search, or both in turns."""
+"""The methods that decide a question, in one table, and the loop that deals out the time to them."""
 
-from dataclasses import replace
-from itertools import count
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from math import log2
+from time import perf_counter
 from typing import Final
 
-from serendipity.model import Window
+from serendipity.model import Deadline, UsageError, Window
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.small_numbers import with_small_numbers
-from verify.base.subproblem import FREE, WINDOW, Solution, Subproblem
+from verify.base.subproblem import FREE, PricedPlan, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, why
-from verify.beside.short_windows import is_short, no_short_window
+from verify.exhaustive.beside_plans import answers_all
+from verify.exhaustive.decoupled.short_windows import is_short, no_short_window
 from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers, cheapest_by_epochs
 from verify.exhaustive.uniform_cost import cheapest
-from verify.limits import limits
+from verify.limits import PARTS, limits, uses
 from verify.programs.effort import Attempt, Effort, Minimum
 from verify.programs.minimise import minimise
 
-_TURNS: Final = (0.4, 4.0, 4.0, 40.0, 40.0)
-"""Seconds of the first turns, of programs and exhaustive search; the last two go on, longer and longer."""
-
-_LONGER: Final = 10
-
-_EASIER: Final = 60.0
-"""Seconds for an easier question at most."""
-
 _FEW_STATES: Final = 64.0
-"""Bits of a state: with more of them programs begin with a long turn."""
+"""Bits of a state: with more of them an exhaustive search is the less likely to end."""
 
-_SHARE: Final = 0.4
-"""What of the time that is left a turn may take."""
+
+# -- whether a method applies
+
+
+def _always(question: Subproblem) -> bool:
+    del question
+    return True
+
+
+def _is_packed(question: Subproblem) -> bool:
+    """Whether states of the task can be packed."""
+    task = question.task
+    return len(task.facts) <= limits().packed_facts and len(task.actions) <= limits().packed_actions
+
+
+def _has_short_windows(question: Subproblem) -> bool:
+    """Whether windows have one epoch, nothing is joint, and the human replans after it."""
+    return _is_packed(question) and is_short(question)
+
+
+def _has_many_plans(question: Subproblem) -> bool:
+    """Whether windows open beside any optimal plan, and the human replans after them."""
+    return question.has_plain_windows and not question.is_free
+
+
+def _is_without_windows(question: Subproblem) -> bool:
+    """Whether anybody may do anything at any time, for a limited cost."""
+    return question.most is not None and question.rule == FREE and _is_packed(question)
+
+
+def _has_few_actions(question: Subproblem) -> bool:
+    """Whether all joint actions can be compared with each other, under rules that the search knows."""
+    few = len(question.task.actions) <= limits().compared_actions
+    return few and _is_packed(question) and answers(question)
+
+
+# -- what a method does
+
+
+def _by_programs(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
+    return minimise(question, effort, plans)
+
+
+def _decoupled(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
+    """Whether robots one by one, and then the human alone, leave no plan."""
+    del effort, plans
+    return no_short_window(question)
+
+
+def _without_epochs(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
+    """Whether there is no plan even if epochs did not count."""
+    del plans
+    try:
+        found = cheapest(question, effort)
+    except UNDECIDED as error:
+        return Minimum("undecided", reason=why(error))
+    return found if found.status == "none" else replace(found, status="undecided", found=None)
+
+
+def _exhaustively(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
+    try:
+        return cheapest_by_epochs(question, plans, bounded=effort.method != "exhaustive")
+    except OtherMethodError as error:
+        return Minimum("undecided", reason=str(error))
+    except UNDECIDED as error:
+        bound = error.bound if isinstance(error, UndecidedError) else None
+        return Minimum("undecided", bound=bound, reason=why(error))
+
+
+# -- the table
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """A row of the table.
+
+    Attributes:
+        name: by which it is chosen and told of.
+        proves: what it can say of a question: its ``optimum``, or that there is ``no plan``.
+        applies: a test of a question.
+        share: of the time left that a turn takes at most.
+        seconds: of its first turn at most.
+        longer: how many times as long each turn is as the one before; 0: there is no second one.
+        run: answers a question by its deadline; None: whoever asks does.
+    """
+
+    name: str
+    proves: str
+    applies: Callable[[Subproblem], bool]
+    share: float
+    seconds: float
+    longer: int = 0
+    run: Callable[[Subproblem, Effort, OptimalPlans], Minimum] | None = None
+
+    def turn(self, whole: Deadline, number: int = 0) -> Deadline:
+        """The deadline of a turn that begins now; they are numbered from 0."""
+        return whole.part(self.share).within(self.seconds * max(self.longer, 1) ** number)
+
+    def is_last(self, whole: Deadline, number: int) -> bool:
+        """Whether so little time is left that it had better have all of it."""
+        left = whole.left()
+        return left is not None and left * self.share < self.seconds * self.longer ** (number - 1)
+
+
+TURNS: Final = (
+    #      name, what it proves of a question, whether it applies, share, seconds, longer, what it does
+    Method("programs", "optimum", _always, 0.4, 0.4, 10, _by_programs),
+    Method("decoupled", "no plan", _has_short_windows, 0.4, 60, 0, _decoupled),
+    Method("without-epochs", "no plan", _is_without_windows, 0.4, 60, 0, _without_epochs),
+    Method("exhaustive", "optimum", _has_few_actions, 0.4, 4, 10, _exhaustively),
+)
+"""What decides a question with a horizon, in turns: programs close most of them at once."""
+
+ANY_PLAN: Final = Method("any-plan", "no plan", _has_many_plans, 0.4, 4)
+"""One program for all optimal plans of the human, before each is asked about."""
+
+BESIDE_PLANS: Final = Method("beside-plans", "optima", answers_all, 0.4, 20)
+"""One search beside all of them."""
+
+JOINT_PLANS: Final = Method("joint-plans", "no plan", _always, 0.2, 2)
+"""A program for whatever the human may do, before all is played that may happen with one who replans."""
+
+NAMES: Final = (*(each.name for each in (*TURNS, ANY_PLAN, BESIDE_PLANS, JOINT_PLANS)), *PARTS)
+"""Of all methods and parts that can be left out."""
+
+
+def require_known(names: tuple[str, ...]) -> None:
+    """Return if all names, each with a minus sign or without, are of methods or of their parts.
+
+    Raises:
+        UsageError: one is not.
+    """
+    for name in names:
+        if name.removeprefix("-") not in NAMES:
+            raise UsageError(f"methods: expected some of {', '.join(NAMES)}, got {name!r}")
+
+
+# -- the loop
 
 
 def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
-    """The least objective of a question, by the method that the effort names.
-
-    ``auto`` takes turns, each far longer than the last of the same method, so that what the other one wastes
-    is little.  Programs come first: most questions they close at once.  Where there are many states
-    they get longer for it, since an exhaustive search is the less likely to end.
-
-    ``exhaustive`` has no bound to trust on what is still to be paid; in turns there is one.
+    """The least objective of a question, by the method that the effort names; ``auto``: by all, in turns.
 
     Args:
         question: with a horizon.
@@ -62,143 +187,74 @@ def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum
     return replace(found, found=replace(found.found, objective=objective, cost=cost))
 
 
-def _decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
-    if is_free(question):
-        found = _decide(question.but(rule=FREE), effort, plans)
-        return found if found.found is None else replace(found, found=_throughout(question, found.found))
-    if effort.method == "exhaustive" and question.horizon > 0:
-        return _exhaustively(question, effort, plans)
-    if effort.method != "auto" or effort.encoding != "automata" or not question.horizon:
-        return _by_programs(question, effort, plans)
-    return _relaxed(question, effort, plans) or _in_turns(question, effort, plans)
-
-
 def decide_without_horizon(question: Subproblem, effort: Effort) -> Minimum:
     """The least cost of a plan with any number of epochs: no program says that, an exhaustive search does."""
-    attempts = len(effort.attempts)
+    started = perf_counter()
     found = cheapest(question, effort)
-    if len(effort.attempts) == attempts:  # numbers of actions did not decide it
-        effort.attempts.append(Attempt("exhaustive", found.status != "undecided", found.states))
+    _note(effort, "without-epochs", found, perf_counter() - started)
     return found
 
 
-def is_free(question: Subproblem) -> bool:
-    """Whether the window of all epochs is as good as any: no epoch of it costs, and none is too many.
-
-    There is neither prefix nor suffix then, so that every plan fits it.
-    """
-    options, longest = question.options, question.options.max_window
-    return (
-        question.rule == WINDOW
-        and not question.prices.epoch
-        and (longest is None or longest >= question.horizon)
-        and bool(question.human_plan)
-        and options.preservation == "kernel"
-        and not options.keep_prefix
-    )
+def _decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
+    if question.is_free:
+        found = _decide(question.but(rule=FREE), effort, plans)
+        return found if found.found is None else replace(found, found=_throughout(question, found.found))
+    return _in_turns(question, effort, plans)
 
 
-def _throughout(question: Subproblem, found: Solution) -> Solution:
+def _throughout(question: Subproblem, found: PricedPlan) -> PricedPlan:
     """A plan whose window is all epochs."""
     return replace(found, window=Window(1, question.horizon + 1))
 
 
-def _searchable(question: Subproblem) -> bool:
-    task = question.task
-    small = len(task.facts) <= limits().packed_facts and len(task.actions) <= limits().compared_actions
-    return small and answers(question)
-
-
-def _relaxed(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum | None:
-    """The answer as far as an easier question tells, after a moment for programs; None: it does not."""
-    task = question.task
-    large = len(task.facts) > limits().packed_facts or len(task.actions) > limits().packed_actions
-    if question.most is None or large:
-        return None
-    easier = _one_by_one if is_short(question) else _without_epochs if question.rule == FREE else None
-    if easier is None:
-        return None
-    # buildings, say: programs are good at them
-    long = easier is _without_epochs and _bits(question) > _FEW_STATES
-    moment = effort.deadline.part(_SHARE).within(_length(2 * long))
-    found = _by_programs(question.but(deadline=moment), replace(effort, deadline=moment), plans)
-    if found.status == "undecided" and effort.deadline.reached() is None:
-        part = effort.deadline.part(_SHARE).within(_EASIER)
-        found = easier(question.but(deadline=part), replace(effort, deadline=part))
-    return None if found.status == "undecided" and effort.deadline.reached() is None else found
-
-
-def _one_by_one(question: Subproblem, effort: Effort) -> Minimum:
-    """Whether robots one by one, and then the human alone, leave no plan."""
-    found, states = no_short_window(question)
-    if found.status == "none":
-        effort.attempts.append(Attempt("exhaustive", decided=True, states=states, apart=True))
-    return found
-
-
-def _without_epochs(question: Subproblem, effort: Effort) -> Minimum:
-    """Whether there is no plan even if epochs did not count."""
-    given = replace(effort, attempts=[])
-    try:
-        found = decide_without_horizon(question, given)
-    except UNDECIDED as error:
-        return Minimum("undecided", reason=why(error))
-    if found.status != "none":
-        return Minimum("undecided", bound=found.bound, reason=found.reason)
-    effort.attempts.extend(given.attempts)
-    return found
+def _asked(question: Subproblem, effort: Effort) -> list[Method]:
+    """The methods that take turns."""
+    if effort.method == "exhaustive" and question.horizon:
+        return [each for each in TURNS if each.name == "exhaustive"]
+    if effort.method != "auto" or effort.encoding != "automata" or not question.horizon:
+        return [each for each in TURNS if each.name == "programs"]
+    return [each for each in TURNS if each.applies(question) and uses(each.name)]
 
 
 def _in_turns(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
-    bounds: list[int] = []
-    asked = [_by_programs, _exhaustively] if _searchable(question) else [_by_programs]
-    long_first = _bits(question) > _FEW_STATES
-    for turn in count():
-        seconds = _length(turn + 2 * long_first)
-        left = effort.deadline.left()
-        last = len(asked) == 1
-        if left is not None and not last:
-            last = left * _SHARE < seconds / _LONGER
-            seconds = min(seconds, left * _SHARE)
-        deadline = effort.deadline if last else effort.deadline.within(seconds)
-        method = asked[turn % len(asked)]
-        given = replace(effort, deadline=deadline)
-        found = method(question.but(deadline=deadline), given, plans)
-        if found.bound is not None:
-            bounds.append(found.bound)
-        if found.status != "undecided" or effort.deadline.reached() is not None:
-            break
-        if last or (method is _exhaustively and not deadline.reached()):
-            asked = [each for each in asked if each is not method]  # more time would not help
-        if not asked:
-            break
+    """Ask one method after the other, again and again, each time for longer; who is left alone has all time.
+
+    Where there are many states, turns are longer from the beginning, since an exhaustive search is the less
+    likely to end.
+    """
+    whole, bounds = effort.deadline, list[int]()
+    found = Minimum("undecided", reason="all methods that apply are left out")
+    asked, number = _asked(question, effort), int(_begins_long(question))
+    while asked:
+        for method in tuple(asked):
+            assert method.run is not None, "a row of turns"
+            last = bool(method.longer) and (asked == [method] or method.is_last(whole, number))
+            deadline = whole if last or asked == [method] else method.turn(whole, number)
+            given, started = replace(effort, deadline=deadline), perf_counter()
+            found = method.run(question.but(deadline=deadline), given, plans)
+            _note(effort, method.name, found, perf_counter() - started)
+            if found.bound is not None:
+                bounds.append(found.bound)
+            if found.status != "undecided" or whole.reached() is not None:
+                return replace(found, bound=max(bounds, default=None))
+            if last or not method.longer or (method.name == "exhaustive" and not deadline.reached()):
+                asked.remove(method)  # more time would not help
+        number += 1
     return replace(found, bound=max(bounds, default=None))
 
 
-def _length(turn: int) -> float:
-    """Seconds of a turn."""
-    beyond = max(0, turn - len(_TURNS) + 2) // 2
-    return float(_TURNS[turn - 2 * beyond] * _LONGER**beyond)
+def _begins_long(question: Subproblem) -> bool:
+    """Whether there are many states, as far as the task's variables tell, and not just short windows."""
+    bits = sum(log2(max(2, len(variable.facts))) for variable in question.task.variables)
+    return bits > _FEW_STATES and not _has_short_windows(question)
 
 
-def _bits(question: Subproblem) -> float:
-    """The logarithm of the number of states, as far as the task's variables tell."""
-    return sum(log2(max(2, len(variable.facts))) for variable in question.task.variables)
+def _note(effort: Effort, name: str, found: Minimum, seconds: float) -> None:
+    """Keep what a method has made of a question, and tell of it where anybody logs (``verify -v``)."""
+    decided = found.status != "undecided"
+    effort.attempts.append(Attempt(name, decided, found.states, found.paths, seconds))
+    if "logging" in sys.modules:  # it takes longer to load than many a certificate
+        import logging
 
-
-def _by_programs(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
-    if effort.method == "auto" and question.horizon and not limits().programs:
-        return Minimum("undecided", reason="programs are left out")
-    return minimise(question, effort, plans)
-
-
-def _exhaustively(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
-    try:
-        found, states = cheapest_by_epochs(question, plans, bounded=effort.method != "exhaustive")
-    except OtherMethodError as error:
-        return Minimum("undecided", reason=str(error))
-    except UNDECIDED as error:
-        bound = error.bound if isinstance(error, UndecidedError) else None
-        return Minimum("undecided", bound=bound, reason=why(error))
-    effort.attempts.append(Attempt("exhaustive", found.status != "undecided", states))
-    return found
+        words = found.status if decided else f"undecided, {found.reason}"
+        logging.getLogger("verify").info("%s: %s in %.3f s", name, words, seconds)

@@ -6,17 +6,17 @@ from serendipity.model import PlanStep, Result, Step, Window
 from serendipity.model.keywords import Horizon
 from serendipity.model.numbers import figure
 from verify.base.execution import plan_step, shares
-from verify.base.subproblem import Solution
-from verify.calls.answer import Answer, idle_cost
-from verify.calls.call import Call
+from verify.base.subproblem import PricedPlan
+from verify.calls.answer import CallAnswer, idle_cost
+from verify.calls.call import ExaminedCall
 
 
-def plan_steps(call: Call, steps: tuple[Step, ...]) -> tuple[PlanStep, ...]:
+def plan_steps(call: ExaminedCall, steps: tuple[Step, ...]) -> tuple[PlanStep, ...]:
     """Steps with names and costs, in order."""
     return tuple(plan_step(call.task, step, call.options.discount) for step in sorted(steps))
 
 
-def found_result(call: Call, found: Solution, *, opportunity: bool) -> Result:
+def found_result(call: ExaminedCall, found: PricedPlan, *, opportunity: bool) -> Result:
     """A plan as a result whose bound is its objective.
 
     Args:
@@ -27,7 +27,7 @@ def found_result(call: Call, found: Solution, *, opportunity: bool) -> Result:
     return _result(call, found.steps, found.window, found.objective, found.cost, opportunity=opportunity)
 
 
-def to_result(answer: Answer) -> Result:
+def to_result(answer: CallAnswer) -> Result:
     """The result that an answer is."""
     call, found = answer.call, answer.found
     if found is not None:
@@ -46,7 +46,7 @@ def to_result(answer: Answer) -> Result:
 
 
 def _result(
-    call: Call,
+    call: ExaminedCall,
     steps: tuple[Step, ...],
     window: Window | None,
     objective: int,
@@ -71,7 +71,7 @@ def _result(
     )
 
 
-def _header(call: Call) -> dict[str, Any]:
+def _header(call: ExaminedCall) -> dict[str, Any]:
     task, plan = call.task, call.human_plan
     return {
         "mode": call.options.mode,
@@ -82,23 +82,23 @@ def _header(call: Call) -> dict[str, Any]:
     }
 
 
-def _infeasible(call: Call, reason: str | None) -> Result:
+def _infeasible(call: ExaminedCall, reason: str | None) -> Result:
     return Result(status="infeasible", reason=reason, horizon=_horizon(call), **_header(call))
 
 
-def _horizon(call: Call) -> Horizon | None:
+def _horizon(call: ExaminedCall) -> Horizon | None:
     if call.human_plan is None and call.needs_pi_h:
         return None
     return len(call.human_plan or ()) if call.options.mode == "individual" else call.horizon
 
 
-def _saving(call: Call, cost: int, *, opportunity: bool) -> float | None:
+def _saving(call: ExaminedCall, cost: int, *, opportunity: bool) -> float | None:
     if call.baseline is None:
         return None
     return figure(call.prices.cost(call.baseline - cost)) if opportunity else 0.0
 
 
-def _saving_alone(call: Call) -> float | None:
+def _saving_alone(call: ExaminedCall) -> float | None:
     if call.baseline is None:
         return None
     idle = idle_cost(call)
@@ -106,6 +106,6 @@ def _saving_alone(call: Call) -> float | None:
     return figure(call.prices.cost(call.baseline - idle))
 
 
-def _agent_costs(call: Call, steps: tuple[Step, ...]) -> dict[str, float]:
+def _agent_costs(call: ExaminedCall, steps: tuple[Step, ...]) -> dict[str, float]:
     paid = shares(call.task, (step.action for step in steps), call.options.discount)
     return {agent: figure(share) for agent, share in paid.items()}

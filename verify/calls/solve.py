@@ -12,9 +12,10 @@ from serendipity.model.resources.collection import no_collection
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.undecided import END_SHARE, UNDECIDED, why
-from verify.calls.answer import Answer, answer, calls
+from verify.base.undecided import UNDECIDED, why
+from verify.calls.answer import CallAnswer, answer, calls
 from verify.calls.results import to_result
+from verify.limits import limits
 from verify.programs.effort import Effort
 from verify.solvers.mip import solver_version
 
@@ -52,8 +53,8 @@ def solve(
     if options.mode == "assistance" or options.human_model != "omniscient":
         raise UsageError("solve: expected a mode other than 'assistance' and the omniscient human model")
     started = perf_counter()
-    limits = (deadline or Deadline()).within(options.time_limit, options.memory_limit)
-    effort = Effort(encoding, solver, limits.sooner(END_SHARE), method)
+    end = (deadline or Deadline()).within(options.time_limit, options.memory_limit)
+    effort = Effort(encoding, solver, end.sooner(limits().end_share), method)
     given: HumanPlan | None = None if human_plan is None else task.plan_from_names(human_plan)
     if given is not None:
         options = options.but(ties="fixed")  # there is but one plan
@@ -81,7 +82,7 @@ def _solve(task: Task, options: Options, given: HumanPlan | None, effort: Effort
     return over_ties(answers, options.ties) if several else to_result(answers[0])
 
 
-def over_ties(answers: list[Answer], ties: str) -> Result:
+def over_ties(answers: list[CallAnswer], ties: str) -> Result:
     """One result from the answers for all optimal ``pi_H`` (semantics 1)."""
     results = [to_result(each) for each in answers]
     listed = tuple(TiedAnswer(r.human_plan or (), r.cost, r.opportunity) for r in results)
@@ -97,7 +98,7 @@ def over_ties(answers: list[Answer], ties: str) -> Result:
     return replace(chosen, ties=listed)
 
 
-def _mean(answers: list[Answer], results: list[Result]) -> Result:
+def _mean(answers: list[CallAnswer], results: list[Result]) -> Result:
     """The expected answer: means of the figures, no single plan."""
 
     def mean(values: Iterable[Fraction | None]) -> float | None:

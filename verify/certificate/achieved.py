@@ -9,18 +9,18 @@ from serendipity.model.answers.result_parts import TiedAnswer
 from serendipity.model.numbers import agrees, as_written
 from verify.base import wording
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import Solution
+from verify.base.subproblem import PricedPlan
 from verify.base.undecided import UndecidedError
-from verify.calls.call import Call
+from verify.calls.call import ExaminedCall
 from verify.calls.methods import decide
 from verify.calls.results import found_result
 from verify.certificate.each_plan import EachPlan
+from verify.certificate.simulator import realised_claim
 from verify.rules import Checker
 from verify.rules.replay import replay
-from verify.simulator import realised_claim
 
 
-class Figures(NamedTuple):
+class AchievedFigures(NamedTuple):
     """What an answer costs, is worth and saves."""
 
     cost: Fraction
@@ -32,7 +32,7 @@ class NotAchievedError(Exception):
     """An answer can't be had; the text says why."""
 
 
-def achieved(said: TiedAnswer, plan: HumanPlan, each: EachPlan, plans: OptimalPlans) -> Figures:
+def achieved(said: TiedAnswer, plan: HumanPlan, each: EachPlan, plans: OptimalPlans) -> AchievedFigures:
     """The figures of a listed answer that has a cost.
 
     Args:
@@ -51,21 +51,21 @@ def achieved(said: TiedAnswer, plan: HumanPlan, each: EachPlan, plans: OptimalPl
     solved = each.beside(plan)
     if agrees(said.cost, solved.cost) and said.opportunity == solved.opportunity:
         assert solved.cost is not None and solved.objective is not None, "they agree"
-        return Figures(solved.cost, solved.objective, solved.saving)
+        return AchievedFigures(solved.cost, solved.objective, solved.saving)
     if agrees(said.cost, each.alone) and not said.opportunity and each.alone is not None:
-        return Figures(each.alone, each.alone, Fraction(0))
+        return AchievedFigures(each.alone, each.alone, Fraction(0))
     if solved.cost is None or _is_too_cheap(said, solved.cost, each.call(plan)):
         cost = None if solved.cost is None else float(solved.cost)
         raise NotAchievedError(wording.tie_costs(said.human_plan, cost))
     raise UndecidedError(wording.TIE_WITHOUT_ITS_PLAN)
 
 
-def _by_its_plan(said: TiedAnswer, call: Call, plans: OptimalPlans) -> Figures:
+def _by_its_plan(said: TiedAnswer, call: ExaminedCall, plans: OptimalPlans) -> AchievedFigures:
     deadline, strict = call.effort.deadline, call.options.strict
     sets = replay(call.task, said.plan or (), deadline, strict=strict).sets
     steps = tuple(Step(epoch, i) for epoch, chosen in sets.items() for i in chosen)
     objective, cost = call.endless.measure(steps, said.window)
-    found = found_result(call, Solution(steps, said.window, objective, cost), opportunity=said.opportunity)
+    found = found_result(call, PricedPlan(steps, said.window, objective, cost), opportunity=said.opportunity)
     result = replace(found, options=call.options.but(ties="fixed"), plan=said.plan)
     report = Checker(call.task, plans.alone).check(result)
     if not report.ok:
@@ -76,10 +76,10 @@ def _by_its_plan(said: TiedAnswer, call: Call, plans: OptimalPlans) -> Figures:
     if not agrees(said.cost, call.prices.cost(cost)):
         raise NotAchievedError(wording.tie_costs(said.human_plan, float(call.prices.cost(cost))))
     saving = None if result.saving is None else as_written(result.saving)
-    return Figures(call.prices.cost(cost), call.prices.cost(objective), saving)
+    return AchievedFigures(call.prices.cost(cost), call.prices.cost(objective), saving)
 
 
-def _require_realised(call: Call, result: Result, plans: OptimalPlans) -> None:
+def _require_realised(call: ExaminedCall, result: Result, plans: OptimalPlans) -> None:
     """Return if the plan is what happens with a human who replans.
 
     Raises:
@@ -93,7 +93,7 @@ def _require_realised(call: Call, result: Result, plans: OptimalPlans) -> None:
         raise UndecidedError(claim.reason)
 
 
-def _is_too_cheap(said: TiedAnswer, best: Fraction, call: Call) -> bool:
+def _is_too_cheap(said: TiedAnswer, best: Fraction, call: ExaminedCall) -> bool:
     """Whether no plan costs as little as that; the best one may cost more, and have a lower objective."""
     assert said.cost is not None
     cost = as_written(said.cost)

@@ -1,16 +1,13 @@
 """What rules alone say of a result: quick, and without loading a solver."""
 
 from collections.abc import Iterable, Iterator
-from typing import Final
 
 from serendipity.model import Claim, Deadline, Result, Task
 from verify.base import wording
 from verify.base.obligations import complete
+from verify.limits import limits
 from verify.rules import CLAIMS, check
 from verify.rules.claims import rule_claim
-
-_A_MOMENT: Final = 1.0
-"""Seconds for working out what the human would do in a policy's states."""
 
 
 def check_by_rules(task: Task, result: Result, deadline: Deadline) -> tuple[Claim, ...]:
@@ -31,7 +28,7 @@ def _claims(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
         from verify.policy import check_policy
 
         # a walk through the policy's states, as far as it gets within a moment (semantics 7)
-        return check_policy(task, result, deadline.within(_A_MOMENT), replay_only=True)
+        return check_policy(task, result, deadline.within(limits().rules_seconds), replay_only=True)
     return _for_plan(task, result, deadline)
 
 

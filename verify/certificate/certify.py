@@ -1,11 +1,10 @@
 """Certificates: every claim of a result, proved, refuted, undecided or out of scope."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from time import perf_counter
-from typing import Final
 
 from serendipity.model import (
     Certificate,
@@ -24,14 +23,17 @@ from verify.base import wording
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import BY_RULES, complete, is_mean, is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.undecided import END_SHARE, UNDECIDED, why
-from verify.calls.call import Call
+from verify.base.undecided import UNDECIDED, why
+from verify.calls.call import ExaminedCall
+from verify.calls.methods import require_known
 from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.humans import HumanExaminer
 from verify.certificate.provable import require_programs
+from verify.certificate.simulator import realised_claim
 from verify.certificate.tied import combined
 from verify.goals.check import claims_by_rules, examine, unexamined
 from verify.goals.proof import GoalsProof
+from verify.limits import limited, limits
 from verify.policy import check_policy
 from verify.programs.alone import least_alone
 from verify.programs.effort import Effort, NoProgramError
@@ -40,11 +42,7 @@ from verify.rules import Checker, RuleReport
 from verify.rules.claims import rule_claim
 from verify.rules.header import require_same_task
 from verify.rules.replay import replay, replay_human
-from verify.simulator import realised_claim
 from verify.solvers.mip import solver_version
-
-_ASIDE: Final = 2.0
-"""Seconds for what a certificate says beside its claims."""
 
 
 def certify(
@@ -54,6 +52,7 @@ def certify(
     encoding: str = "automata",
     solver: str = "highs",
     method: str = "auto",
+    methods: Sequence[str] = (),
     proof: ProofWriter | ProofReader | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
@@ -71,6 +70,8 @@ def certify(
         solver: ``highs`` or ``cbc``.
         method: ``auto``; ``program``: the solver decides every program, also where reachability and
             shortest paths could; ``exhaustive``: no program, but a search of all states.
+        methods: those of :mod:`verify.calls.methods` that take turns under ``auto``, by name; with a minus
+            sign in front: all but these.
         proof: where the programs that convinced are written down, or read from instead of asking a
             solver; the method is ``program`` then.
         time_limit: seconds for the whole certificate, or None.
@@ -84,12 +85,14 @@ def certify(
         InputError: the result is for another task.
         UsageError: there is no such encoding, solver or method, or no program that proves such a result.
     """
-    limits = (deadline or Deadline()).within(time_limit, memory_limit).sooner(END_SHARE)
+    require_known(tuple(methods))
+    end = (deadline or Deadline()).within(time_limit, memory_limit).sooner(limits().end_share)
     if proof is not None:
         require_programs(result, method)
         method = "program"
-    effort = Effort(encoding, solver, limits, method, proof)
-    with no_collection():  # beside a large task a collection takes longer than a short limit
+    effort = Effort(encoding, solver, end, method, proof)
+    given = {"methods": tuple(methods)} if methods else {}
+    with limited(**given), no_collection():  # a collection takes longer than a short limit
         return _certify(task, result, effort)
 
 
@@ -190,10 +193,10 @@ class _Certifier:
     def _about_pi_h(self) -> str:
         """Whether ``pi_H`` is what semantics 1 predicts; anything else must have been given.
 
-        It decides nothing, so it takes no longer than all else did, or than :data:`_ASIDE`.
+        It decides nothing, so it takes no longer than all else did, or than ``aside_seconds`` of the limits.
         """
         deadline = self.effort.deadline
-        deadline.renew(deadline.within(max(_ASIDE, deadline.elapsed())))
+        deadline.renew(deadline.within(max(limits().aside_seconds, deadline.elapsed())))
         try:
             return self._kind_of_pi_h()
         except UNDECIDED:
@@ -261,7 +264,7 @@ class _Certifier:
         names = result.human_plan
         deadline = self.effort.deadline
         plan: HumanPlan | None = None if names is None else replay_human(self.task, names, deadline)
-        call = Call(self.task, result.options, plan, self.plans, self.effort)
+        call = ExaminedCall(self.task, result.options, plan, self.plans, self.effort)
         if plan is not None or not call.needs_pi_h:
             assert call.horizon is not None
         sets = replay(self.task, result.plan or (), deadline, strict=result.options.strict).sets

@@ -9,10 +9,10 @@ from serendipity.model import INFINITE, Claim, Result, Step
 from serendipity.model.answers.certificate import ClaimVerdict
 from serendipity.model.numbers import agrees, as_written
 from verify.base import wording
-from verify.base.subproblem import Solution, Subproblem
+from verify.base.subproblem import PricedPlan, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
-from verify.calls.answer import Answer, answer, best_plan, idle_cost, is_help
-from verify.calls.call import Call, Score
+from verify.calls.answer import CallAnswer, answer, best_plan, idle_cost, is_help
+from verify.calls.call import ExaminedCall, Score
 from verify.calls.methods import decide, decide_without_horizon
 from verify.calls.results import found_result, plan_steps
 from verify.certificate.savings import savings_fault
@@ -21,7 +21,7 @@ from verify.programs.effort import Attempt, Minimum, SolverCall
 from verify.rules import Checker
 from verify.solvers.mip import solver_version
 
-Verdict = tuple[ClaimVerdict, str, Solution | None]
+Verdict = tuple[ClaimVerdict, str, PricedPlan | None]
 """Verdict, reason, counter-example."""
 
 _BOUNDED = ("optimal", "no_opportunity", "lower_bound")
@@ -38,7 +38,7 @@ class Examiner:
         checker: checks counter-examples.
     """
 
-    def __init__(self, call: Call, result: Result, steps: tuple[Step, ...], checker: Checker) -> None:
+    def __init__(self, call: ExaminedCall, result: Result, steps: tuple[Step, ...], checker: Checker) -> None:
         self.call = call
         self.result = result
         self.steps = steps
@@ -70,10 +70,9 @@ class Examiner:
     def _how(self, made: list[Attempt], called: list[SolverCall]) -> str:
         """What decided the questions of a claim."""
         decided = [attempt for attempt in made if attempt.decided]
-        states = max((attempt.states for attempt in decided if not attempt.apart), default=0)
+        states = max((attempt.states for attempt in decided if attempt.name != "decoupled"), default=0)
         paths = max((attempt.paths for attempt in decided), default=0)
-        words = "".join(wording.apart(attempt.states) for attempt in decided if attempt.apart)
-        words += "".join(wording.counted(attempt.landmarks) for attempt in decided if attempt.landmarks)
+        words = "".join(wording.apart(attempt.states) for attempt in decided if attempt.name == "decoupled")
         words += wording.searched(states) if states else ""
         words += wording.walked(paths) if paths else ""
         return words or (self._solved(called) if called else wording.CLOSED)
@@ -197,7 +196,7 @@ class Examiner:
             if not self._has_plan_alone():
                 return "proved", wording.ALL_VISITED, None
             return "refuted", wording.HE_HAS_A_PLAN, None
-        given: Answer = answer(call)
+        given: CallAnswer = answer(call)
         if given.cost is None:
             return "proved", wording.NOTHING_SATISFIES, None
         return "refuted", wording.PLAN, given.found or call.idle_robots_plan
@@ -235,7 +234,7 @@ class Examiner:
         """Whether doing nothing and the answer without robots are both ``pi_H``."""
         return not self.call.robots_goal and self.call.is_optimal
 
-    def _better(self, score: Score) -> Solution | None:
+    def _better(self, score: Score) -> PricedPlan | None:
         if not self._endless:
             return self.call.better(self.call.question, score)
         return self._decide(self.call.endless.below(score[0] - 1)).settled()
@@ -262,11 +261,11 @@ class Examiner:
     def _none_better(self, score: Score) -> str:
         return wording.no_better(self._amount(score[0]), tie=self.call.may_tie(score))
 
-    def _describe(self, what: str, found: Solution) -> str:
+    def _describe(self, what: str, found: PricedPlan) -> str:
         cost, objective = self._amount(found.cost), self._amount(found.objective)
         return wording.described(what, cost, objective, found.window)
 
-    def _require_valid(self, found: Solution) -> None:
+    def _require_valid(self, found: PricedPlan) -> None:
         """Return if a counter-example stands.
 
         Raises:

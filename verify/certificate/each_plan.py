@@ -5,33 +5,25 @@ from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Final
 
 from serendipity.model import HumanPlan, LimitReachedError, Options, Task
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.plan_graph import PlanGraph
+from verify.base.plan_graph import OptimalPlanGraph
 from verify.base.subproblem import in_plan
 from verify.calls.answer import answer
-from verify.calls.call import Call
-from verify.calls.methods import decide, is_free
+from verify.calls.call import ExaminedCall
+from verify.calls.methods import ANY_PLAN, BESIDE_PLANS, decide
 from verify.certificate.humans import human_cost
-from verify.exhaustive.beside_plans import HelpBesidePlans, answers_all
-from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers
-from verify.limits import limits
+from verify.exhaustive.beside_plans import HelpBesidePlans
+from verify.exhaustive.epoch_by_epoch import OtherMethodError
+from verify.limits import limits, uses
 from verify.programs.effort import Attempt, Effort
 from verify.programs.recorded import BESIDE_ANY
 from verify.proofs.book import ProofReader
 
-_SECONDS: Final = 4.0
-_SECONDS_A_PLAN: Final = 0.1
-_A_MOMENT: Final = 2.0
-_A_WHILE: Final = 10.0
-_SHARE: Final = 0.4
-"""Where methods take turns: what a search beside all plans may take, and a program; of the time left."""
-
 
 @dataclass(frozen=True, slots=True)
-class Solved:
+class SolvedPlan:
     """The proved answer for one optimal ``pi_H``; None where there is no plan."""
 
     cost: Fraction | None
@@ -64,11 +56,11 @@ class EachPlan:
 
     def __init__(self, task: Task, options: Options, effort: Effort, plans: OptimalPlans) -> None:
         self._task, self._options, self._effort, self._plans = task, options, effort, plans
-        self.graph = PlanGraph(task, plans, options.max_ties)
+        self.graph = OptimalPlanGraph(task, plans, options.max_ties)
         self.asked = self.graph.count
-        self._known: dict[Hashable, Solved] = {}
+        self._known: dict[Hashable, SolvedPlan] = {}
 
-    def beside(self, plan: HumanPlan) -> Solved:
+    def beside(self, plan: HumanPlan) -> SolvedPlan:
         """The answer beside one plan.
 
         Raises:
@@ -83,7 +75,7 @@ class EachPlan:
             self._known[same] = _solved(call)
         return self._known[same]
 
-    def all(self) -> Counter[Solved]:
+    def all(self) -> Counter[SolvedPlan]:
         """The answers, each with the number of plans that it is for.
 
         Raises:
@@ -94,7 +86,7 @@ class EachPlan:
         shared = self._shared
         if shared is None:
             return Counter(self.beside(plan) for plan in self.graph.plans())
-        found: Counter[Solved] = Counter()
+        found: Counter[SolvedPlan] = Counter()
         for score, count in shared.scores.items():
             found[self._solved(score)] += count
         return found
@@ -107,14 +99,14 @@ class EachPlan:
 
     def none_cheaper(self, cost: Fraction) -> bool:
         """Whether one program says that nothing costs less, whichever of the plans the human is on."""
-        if not self._windows or self._effort.method == "exhaustive" or self._shared is not None:
+        if not self._one_program or self._shared is not None:
             return False
         nothing = self._nothing
         least = self._first.prices.units(cost)
         return self._unaided if least >= nothing[1] else self._nobody(nothing[0], least - 1)
 
     @cached_property
-    def _first(self) -> Call:
+    def _first(self) -> ExaminedCall:
         return self.call(next(self.graph.plans()))
 
     @property
@@ -129,15 +121,19 @@ class EachPlan:
         """Whether the plans are prefixes of windows that are replanned: all can be looked at together."""
         call = self._first
         options = call.options
-        if self.asked < limits().several_plans or options.human_model != "omniscient" or call.robots_goal:
+        if self.asked < limits().several_plans or options.human_model != "omniscient":
             return False
-        replanned = answers(call.question) and not options.keep_prefix and self._effort.encoding == "automata"
-        return options.windowed and len(self.graph) > 0 and replanned and not is_free(call.question)
+        return self._effort.encoding == "automata" and options.windowed and ANY_PLAN.applies(call.question)
+
+    @property
+    def _one_program(self) -> bool:
+        """Whether one program for all plans may be asked."""
+        return self._windows and self._effort.method != "exhaustive" and uses(ANY_PLAN.name)
 
     @cached_property
     def _unaided(self) -> bool:
         """Whether one program says that nothing helps, whichever of the plans the human is on."""
-        if not self._windows or self._effort.method == "exhaustive":
+        if not self._one_program:
             return False
         objective, cost = self._nothing
         if not self._nobody(objective - 1):
@@ -149,9 +145,8 @@ class EachPlan:
         effort = self._effort
         if isinstance(effort.proof, ProofReader) and not _is_next(effort.proof):
             return False  # it took too long when the proof was written
-        seconds = _A_MOMENT if effort.method == "auto" else _A_WHILE
         method = "pruned" if effort.method == "auto" else effort.method
-        effort = replace(effort, deadline=effort.deadline.part(_SHARE).within(seconds), method=method)
+        effort = replace(effort, deadline=ANY_PLAN.turn(effort.deadline), method=method)
         question = self._first.question.below(*limits).but(any_of=self.graph, deadline=effort.deadline)
         minimum = decide(question, effort, self._plans)
         if minimum.status == "undecided":
@@ -162,12 +157,11 @@ class EachPlan:
     def _shared(self) -> HelpBesidePlans | None:
         """The search beside all plans; None where it does not apply, or is not done in its turn."""
         effort, call = self._effort, self._first
-        if not self._windows or effort.method == "program" or not answers_all(call.question):
+        if not self._windows or effort.method == "program" or not uses(BESIDE_PLANS.name):
             return None
-        deadline = effort.deadline
-        if effort.method == "auto":
-            seconds = _SECONDS + _SECONDS_A_PLAN * self.graph.count
-            deadline = deadline.part(_SHARE).within(seconds)
+        if not BESIDE_PLANS.applies(call.question):
+            return None
+        deadline = BESIDE_PLANS.turn(effort.deadline) if effort.method == "auto" else effort.deadline
         question = call.question.but(deadline=deadline)
         try:
             found = HelpBesidePlans(question, self.graph, self._plans, bounded=effort.method == "auto")
@@ -178,25 +172,25 @@ class EachPlan:
             if effort.method == "exhaustive":
                 raise
             return None
-        effort.attempts.append(Attempt("exhaustive", decided=True, states=found.states))
+        effort.attempts.append(Attempt(BESIDE_PLANS.name, decided=True, states=found.states))
         return found
 
-    def call(self, plan: HumanPlan) -> Call:
+    def call(self, plan: HumanPlan) -> ExaminedCall:
         """The call beside one plan."""
-        return Call(self._task, self._options, plan, self._plans, self._effort)
+        return ExaminedCall(self._task, self._options, plan, self._plans, self._effort)
 
-    def _solved(self, score: tuple[int, int] | None) -> Solved:
+    def _solved(self, score: tuple[int, int] | None) -> SolvedPlan:
         """The answer where windows allow a score; None: nothing that undercuts leaving the human alone."""
         call = self._first
         assert call.baseline is not None
         idle = call.prices.cost(call.baseline)
         if score is None:
-            return Solved(idle, idle, Fraction(0), opportunity=False)
+            return SolvedPlan(idle, idle, Fraction(0), opportunity=False)
         objective, cost = map(call.prices.cost, score)
-        return Solved(cost, objective, idle - cost, opportunity=True)
+        return SolvedPlan(cost, objective, idle - cost, opportunity=True)
 
 
-def kin(call: Call) -> Hashable:
+def kin(call: ExaminedCall) -> Hashable:
     """What of ``pi_H`` a call depends on: optimal plans of which it is the same have the same answer.
 
     All optimal plans cost the same and have the same length.  Told humans are asked for what is not in their
@@ -209,7 +203,7 @@ def kin(call: Call) -> Hashable:
         if options.keep_prefix and (options.suffix, options.preservation) != ("replan", "kernel"):
             return plan
         return in_plan(call.task, plan) if options.keep_prefix or any(call.prices.talk) else None
-    return None if is_free(call.question) else plan
+    return None if call.question.is_free else plan
 
 
 def _is_next(proof: ProofReader) -> bool:
@@ -217,12 +211,12 @@ def _is_next(proof: ProofReader) -> bool:
     return bool(proof.left) and BESIDE_ANY in str(proof.left[0].get("name"))
 
 
-def _solved(call: Call) -> Solved:
+def _solved(call: ExaminedCall) -> SolvedPlan:
     if call.options.human_model == "omniscient":
         found = answer(call)
-        return Solved(found.cost, found.objective, found.saving, found.opportunity)
+        return SolvedPlan(found.cost, found.objective, found.saving, found.opportunity)
     cost = human_cost(call)
     if cost is None or call.baseline is None:  # whatever can be done then is an opportunity
-        return Solved(cost, cost, None, opportunity=cost is not None)
+        return SolvedPlan(cost, cost, None, opportunity=cost is not None)
     saving = max(call.prices.cost(call.baseline) - cost, Fraction(0))
-    return Solved(cost, cost, saving, opportunity=saving > 0)
+    return SolvedPlan(cost, cost, saving, opportunity=saving > 0)

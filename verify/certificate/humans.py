@@ -3,21 +3,17 @@
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Final
 
 from verify.base import wording
-from verify.base.subproblem import FREE, Solution
+from verify.base.subproblem import FREE, PricedPlan
 from verify.base.undecided import UndecidedError
-from verify.calls.call import Call
-from verify.calls.methods import decide
+from verify.calls.call import ExaminedCall
+from verify.calls.methods import JOINT_PLANS, decide
 from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.reactions import cheapest_reaction
+from verify.certificate.simulator import ReplanningPerson, play
+from verify.limits import uses
 from verify.programs.effort import NoProgramError
-from verify.simulator import Person, play
-
-_A_MOMENT: Final = 2.0
-_SHARE: Final = 0.2
-"""Seconds, and of the time that is left, for a program that may spare playing what robots can do."""
 
 
 class HumanExaminer(Examiner):
@@ -101,7 +97,7 @@ class HumanExaminer(Examiner):
         return (wording.all_played if played else wording.whatever_happens)(self._amount(cost))
 
 
-def human_cost(call: Call) -> Fraction | None:
+def human_cost(call: ExaminedCall) -> Fraction | None:
     """Cost of the answer to a call under its human model; None: infeasible.
 
     Raises:
@@ -119,11 +115,11 @@ def human_cost(call: Call) -> Fraction | None:
     return call.prices.cost(call.baseline if found is None else found.cost)
 
 
-def _cheaper(call: Call, cost: int) -> Solution | None:
+def _cheaper(call: ExaminedCall, cost: int) -> PricedPlan | None:
     return _decided(call, cost - 1)
 
 
-def _decided(call: Call, most: int | None) -> Solution | None:
+def _decided(call: ExaminedCall, most: int | None) -> PricedPlan | None:
     """The cheapest that happens with the human, for this much at most; None: proved that there is nothing.
 
     Raises:
@@ -140,7 +136,7 @@ def _decided(call: Call, most: int | None) -> Solution | None:
     return minimum.found
 
 
-def _out_of_reach(call: Call, most: int | None) -> bool:
+def _out_of_reach(call: ExaminedCall, most: int | None) -> bool:
     """Whether a program says that no joint plan costs so little: then nothing that happens does.
 
     Whatever robots do beside a human who replans, what is executed is a plan of the team.  ``exhaustive``
@@ -148,10 +144,10 @@ def _out_of_reach(call: Call, most: int | None) -> bool:
     """
     effort = call.effort
     question = call.question.but(rule=FREE).below(most)
-    if effort.method == "exhaustive":
+    if effort.method == "exhaustive" or not uses(JOINT_PLANS.name):
         return False
     if effort.method == "auto":
-        deadline = effort.deadline.part(_SHARE).within(_A_MOMENT)
+        deadline = JOINT_PLANS.turn(effort.deadline)
         effort, question = (
             replace(effort, method="pruned", deadline=deadline),
             question.but(deadline=deadline),
@@ -159,7 +155,7 @@ def _out_of_reach(call: Call, most: int | None) -> bool:
     return decide(question, effort, call.plans).status == "none"
 
 
-def _idle_cost(call: Call) -> int | None:
+def _idle_cost(call: ExaminedCall) -> int | None:
     """What the human pays alone; None if that does not reach all goals in time."""
     if call.human_plan is None:
         return None
@@ -171,6 +167,6 @@ def _idle_cost(call: Call) -> int | None:
         (),
         human_model=call.options.human_model,
         horizon=horizon if isinstance(horizon, int) else None,
-        person=Person(call.task, call.plans),
+        person=ReplanningPerson(call.task, call.plans),
     )
     return call.prices.units(played.cost) if played.goals_hold else None

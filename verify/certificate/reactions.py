@@ -13,16 +13,16 @@ from serendipity.model import LimitReachedError, Step, surroundings
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.execution import State, applicable, sets_beside
 from verify.base.relevance import relevant_part
-from verify.base.subproblem import FREE, Solution
+from verify.base.subproblem import FREE, PricedPlan
 from verify.base.undecided import during
-from verify.calls.call import Call
+from verify.calls.call import ExaminedCall
+from verify.certificate.simulator import MomentOfPlay, Play, ReplanningPerson
 from verify.exhaustive.uniform_cost import LeastLeft
 from verify.limits import limits
 from verify.programs.effort import Attempt, Minimum
-from verify.simulator import Moment, Person, Play
 
 
-def cheapest_reaction(call: Call, most: int | None) -> Minimum:
+def cheapest_reaction(call: ExaminedCall, most: int | None) -> Minimum:
     """The cheapest plan that happens under the options' human model.
 
     Args:
@@ -43,18 +43,18 @@ def cheapest_reaction(call: Call, most: int | None) -> Minimum:
 
 
 class _Reactions:
-    def __init__(self, call: Call, left: LeastLeft, *limits: int | None) -> None:
+    def __init__(self, call: ExaminedCall, left: LeastLeft, *limits: int | None) -> None:
         task, options = call.task, call.options
         self.call = call
         self.deadline = call.effort.deadline
         tick = self.deadline.tick
         sees = surroundings(task, tick).visible if options.human_model == "local" else None
-        self.game = Play(task, options, Person(task, call.plans), sees)
+        self.game = Play(task, options, ReplanningPerson(task, call.plans), sees)
         self.left = left
         self.most = min((limit for limit in limits if limit is not None), default=None)
         self.may_block = options.no_block is False
-        self.known: dict[Moment, int] = {}
-        self.before: dict[tuple[int, Moment], tuple[Moment, tuple[int, ...]]] = {}
+        self.known: dict[MomentOfPlay, int] = {}
+        self.before: dict[tuple[int, MomentOfPlay], tuple[MomentOfPlay, tuple[int, ...]]] = {}
         self.offered: dict[int, list[int]] = {}
         for i, action in enumerate(self.deadline.each(task.actions)):
             if action.participants != (task.human,):
@@ -68,19 +68,19 @@ class _Reactions:
             doing = f"playing what robots can do, {len(self.known):,} states and minds so far"
             return Minimum("undecided", reason=str(LimitReachedError(limit_reason(limit), doing)))
         decided = found.status != "undecided"
-        self.call.effort.attempts.append(Attempt("exhaustive", decided, states=len(self.known)))
+        self.call.effort.attempts.append(Attempt("played", decided, states=len(self.known)))
         return found
 
     def _run(self) -> Minimum:
         start = self.game.start(self.call.human_plan or ())
         if self.game.done(start.state):
             affordable = self.most is None or self.most >= 0
-            return Minimum("found", Solution((), None, 0, 0), 0) if affordable else Minimum("none")
+            return Minimum("found", PricedPlan((), None, 0, 0), 0) if affordable else Minimum("none")
         self.known[start] = 0
-        best: Solution | None = None
+        best: PricedPlan | None = None
         layer = {start: 0}
         for epoch in range(1, self.call.question.horizon + 1):
-            following: dict[Moment, int] = {}
+            following: dict[MomentOfPlay, int] = {}
             for now, spent in layer.items():
                 if len(self.known) > limits().moments:
                     return Minimum("undecided", best, reason=f"more than {limits().moments} states and minds")
@@ -93,7 +93,7 @@ class _Reactions:
             layer = following
         return Minimum("none") if best is None else Minimum("found", best, best.cost)
 
-    def _play(self, epoch: int, now: Moment, spent: int) -> Iterator[tuple[Moment, int]]:
+    def _play(self, epoch: int, now: MomentOfPlay, spent: int) -> Iterator[tuple[MomentOfPlay, int]]:
         """What can come of an epoch, where it is worth going on, with the cost so far."""
         look, team = self.game.look(now), self.call.prices.team
         for offers in self._offers(now.state):
@@ -118,10 +118,10 @@ class _Reactions:
         candidates = [i for i in self.deadline.each(found) if applicable(task.actions[i], state)]
         return sets_beside(task, (), candidates, self.deadline, strict=self.call.options.strict)
 
-    def _found(self, epoch: int, moment: Moment, cost: int) -> Solution:
-        return Solution(tuple(self._steps(epoch, moment)), None, cost, cost)
+    def _found(self, epoch: int, moment: MomentOfPlay, cost: int) -> PricedPlan:
+        return PricedPlan(tuple(self._steps(epoch, moment)), None, cost, cost)
 
-    def _steps(self, epoch: int, moment: Moment) -> Iterable[Step]:
+    def _steps(self, epoch: int, moment: MomentOfPlay) -> Iterable[Step]:
         steps = []
         for t in range(epoch, 0, -1):
             moment, executed = self.before[t, moment]

@@ -11,8 +11,8 @@ from serendipity.model.numbers import agrees, as_written, excess, rounded
 from verify.base import wording
 from verify.base.obligations import is_mean
 from verify.base.optimal_plans import OptimalPlans
-from verify.certificate.achieved import Figures, NotAchievedError, achieved
-from verify.certificate.each_plan import EachPlan, Solved
+from verify.certificate.achieved import AchievedFigures, NotAchievedError, achieved
+from verify.certificate.each_plan import EachPlan, SolvedPlan
 from verify.certificate.savings import savings_fault
 from verify.programs.effort import Effort
 from verify.rules.tied import tied_answers
@@ -77,7 +77,7 @@ def _is_best(result: Result, each: EachPlan) -> bool:
     return each.none_cheaper(own.cost)
 
 
-def _own(result: Result, each: EachPlan) -> Solved | None:
+def _own(result: Result, each: EachPlan) -> SolvedPlan | None:
     """The answer beside the result's own plan; None: that is no optimal plan."""
     plan = each.graph.named(result.human_plan or ())
     return None if plan is None else each.beside(plan)
@@ -128,7 +128,7 @@ def _unachieved(result: Result, each: EachPlan, plans: OptimalPlans) -> str | No
         and each.graph.count > 1
     ):
         return wording.ONE_OF_SEVERAL
-    found: list[Figures] = []
+    found: list[AchievedFigures] = []
     for said in listed:
         plan = each.graph.named(said.human_plan)
         own = result.plan is not None and said.human_plan == result.human_plan  # which rules have replayed
@@ -145,7 +145,7 @@ def _unachieved(result: Result, each: EachPlan, plans: OptimalPlans) -> str | No
     return _mean_fault(result, Counter(found))
 
 
-def _mean_fault(result: Result, found: Counter[Figures]) -> str | None:
+def _mean_fault(result: Result, found: Counter[AchievedFigures]) -> str | None:
     cost, objective = (_mean(found, lambda each: each.cost), _mean(found, lambda each: each.objective))
     if not agrees(result.cost, cost) or not agrees(result.objective, objective):
         return wording.over_ties("expected", found.total(), cost)
@@ -163,7 +163,7 @@ def _is_at_hand(result: Result) -> bool:
     return unproved and not result.opportunity and len(tied_answers(result)) == 1
 
 
-def _compared(result: Result, known: Counter[Solved], each: EachPlan) -> Verdict:
+def _compared(result: Result, known: Counter[SolvedPlan], each: EachPlan) -> Verdict:
     """Compare the figures of an answer with those that the options make of all of them."""
     ties, count = result.options.ties, known.total()
     if ties == "expected":
@@ -191,7 +191,7 @@ def _compared(result: Result, known: Counter[Solved], each: EachPlan) -> Verdict
     return "proved", words
 
 
-def _net(solved: Solved, result: Result) -> Fraction:
+def _net(solved: SolvedPlan, result: Result) -> Fraction:
     """The objective, net of a window of one epoch where the result claims no help that there is."""
     priced = solved.opportunity and result.options.windowed and result.options.human_model == "omniscient"
     net = priced and not result.opportunity

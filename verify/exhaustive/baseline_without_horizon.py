@@ -7,10 +7,11 @@ same time or after its end.  A clock that stops at that end is part of the state
 from collections.abc import Iterator
 
 from verify.base.execution import sets_beside
+from verify.base.fact_bits import BitOperator
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
-from verify.exhaustive.uniform_cost import Bundle, JointSearch
+from verify.exhaustive.uniform_cost import JointSearch
 from verify.programs.effort import Minimum
 
 
@@ -52,13 +53,13 @@ class _Following(JointSearch):
         rest = self.question.human_plan[self._epoch(state) :]
         return sum(self.question.prices.team[i] for i in rest)
 
-    def applicable(self, state: int) -> Iterator[Bundle]:
+    def applicable(self, state: int) -> Iterator[BitOperator]:
         epoch, plan = self._epoch(state), self.question.human_plan
         human = self.task.human
         facts = state & self._facts
         if epoch == len(plan):
             for bundle in super().applicable(facts):
-                if all(human not in self.task.actions[i].participants for i in bundle.actions):
+                if all(human not in self.task.actions[i].participants for i in bundle.label):
                     yield bundle
             return
         if not self._fits(plan[epoch], facts):
@@ -70,10 +71,8 @@ class _Following(JointSearch):
         ]
         strict = self.question.options.strict
         for chosen in sets_beside(self.task, (plan[epoch],), robots, self.deadline, strict=strict):
-            bundle = self.bundle(chosen)
-            tick, tock = self._clock(epoch), self._clock(epoch + 1)
-            yield Bundle(chosen, bundle.pre, bundle.neg, bundle.add | tock, bundle.delete | tick, bundle.cost)
+            bundle, tick, tock = self.bundle(chosen), self._clock(epoch), self._clock(epoch + 1)
+            yield bundle._replace(add=bundle.add | tock, delete=bundle.delete | tick)
 
     def _fits(self, i: int, facts: int) -> bool:
-        bundle = self._single[i]
-        return facts & bundle.pre == bundle.pre and not facts & bundle.neg
+        return self._single[i].applicable(facts)

@@ -19,12 +19,12 @@ import numpy as np
 from serendipity.model import Deadline, HumanPlan
 from verify.base.execution import facts_of_his
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.plan_graph import PlanGraph
+from verify.base.plan_graph import OptimalPlanGraph
 from verify.base.relevance import Relevant, relevant_part
-from verify.base.subproblem import WINDOW, Subproblem
+from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
-from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers
-from verify.exhaustive.team import Team
+from verify.exhaustive.epoch_by_epoch import OtherMethodError
+from verify.exhaustive.team import TeamEpochs
 from verify.exhaustive.team_problem import team_problem
 from verify.limits import limits
 from verify.packed.layout import Words
@@ -42,18 +42,10 @@ _NONE: Final = np.zeros(0, np.int64)
 
 def answers_all(question: Subproblem) -> bool:
     """Whether the method knows a question's rules."""
-    options = question.options
-    longest = options.max_window
-    return (
-        question.rule == WINDOW
-        and answers(question)
-        and not options.keep_prefix
-        and question.most_cost is None
-        and (longest is None or longest >= question.horizon)
-        and not any(question.prices.talk)
-        and bool(question.human_plan)
-        and not (question.robots_goal and question.task.robot_goal)
-    )
+    longest = question.options.max_window
+    whole = longest is None or longest >= question.horizon
+    unlimited = question.most_cost is None and not any(question.prices.talk)
+    return question.has_plain_windows and whole and unlimited
 
 
 class Front(NamedTuple):
@@ -121,7 +113,9 @@ class HelpBesidePlans:
         LimitReachedError: the deadline came first.
     """
 
-    def __init__(self, question: Subproblem, graph: PlanGraph, plans: OptimalPlans, *, bounded: bool) -> None:
+    def __init__(
+        self, question: Subproblem, graph: OptimalPlanGraph, plans: OptimalPlans, *, bounded: bool
+    ) -> None:
         if not answers_all(question):
             raise OtherMethodError("not all optimal plans can be searched beside at once")
         with during("preparing a search beside all optimal plans"):
@@ -150,7 +144,7 @@ class HelpBesidePlans:
         self._layout = self._problem.layout
         table = OperatorTable(self._layout, team.singles)
         strict = question.options.strict
-        self._team = Team(question.task, part.actions, table, self._deadline, strict=strict)
+        self._team = TeamEpochs(question.task, part.actions, table, self._deadline, strict=strict)
         self._numbers = {i: k for k, i in enumerate(part.actions)}
         alone = sum(question.prices.team[i] for i in question.human_plan)
         epoch = question.prices.epoch

@@ -11,6 +11,7 @@ as one.
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,17 +20,17 @@ from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.execution import State, states_along
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant, relevant_part
-from verify.base.subproblem import EXACT, FREE, WINDOW, Solution, Subproblem, in_plan
+from verify.base.subproblem import EXACT, FREE, WINDOW, PricedPlan, Subproblem, in_plan
 from verify.base.undecided import UndecidedError, during
-from verify.exhaustive.layers import Layer, advance, first
-from verify.exhaustive.team import NOBODY, Steps, Team
+from verify.exhaustive.layers import EpochLayer, advance, first
+from verify.exhaustive.team import NOBODY, Steps, TeamEpochs
 from verify.exhaustive.team_problem import as_operator, team_problem
 from verify.limits import limits
-from verify.packed.cheapest_path import TooManyStatesError
+from verify.packed.cheapest_path import TooManyPackedStatesError
 from verify.packed.layout import Words
 from verify.packed.operators import Ints, OperatorTable
 from verify.packed.pattern import FAR
-from verify.packed.problem import Problem, TooLargeError
+from verify.packed.problem import PackedProblem, TooLargeError
 from verify.packed.state_table import StateTable
 from verify.programs.effort import Minimum
 from verify.programs.mending import best_suffix, replay
@@ -41,14 +42,11 @@ class OtherMethodError(UndecidedError):
 
 def answers(question: Subproblem) -> bool:
     """Whether the method knows the question's rules."""
-    options = question.options
-    if question.rule == WINDOW:
-        return options.suffix == "replan" and options.preservation == "kernel"
-    return question.rule in (FREE, EXACT)
+    return question.replans or question.rule in (FREE, EXACT)
 
 
-def cheapest_by_epochs(question: Subproblem, plans: OptimalPlans, *, bounded: bool) -> tuple[Minimum, int]:
-    """The plan of least objective, and the number of states that were looked at.
+def cheapest_by_epochs(question: Subproblem, plans: OptimalPlans, *, bounded: bool) -> Minimum:
+    """The plan of least objective.
 
     Args:
         question: with a horizon of at least 1.
@@ -64,14 +62,14 @@ def cheapest_by_epochs(question: Subproblem, plans: OptimalPlans, *, bounded: bo
     with during("preparing an exhaustive search"):
         part = relevant_part(question)
         if part is None:
-            return Minimum("none"), 0
+            return Minimum("none")
         if len(part.actions) > limits().compared_actions:
             raise OtherMethodError(f"the exhaustive method takes {limits().compared_actions} actions at most")
         try:
             search = _Search(question, part, plans, bounded=bounded)
         except TooLargeError:
             raise OtherMethodError("the task is too large for the exhaustive method") from None
-    return search.run(), search.states
+    return replace(search.run(), states=search.states)
 
 
 class _Search:
@@ -98,26 +96,19 @@ class _Search:
         if (question.largest + question.an_epoch + 1) * self._unit > limits().weight:
             raise TooLargeError
         table = OperatorTable(self._layout, singles)
-        self._team = Team(task, actions, table, deadline, strict=strict)
+        self._team = TeamEpochs(task, actions, table, deadline, strict=strict)
         self._table = table
         his = [i for i in actions if task.actions[i].participants == (task.human,)]
         own = [as_operator((task.actions[i],), question.prices.team[i] * self._unit + 1) for i in his]
         alone = list(task.goal.positive), list(task.goal.negative)
-        self._alone = Problem(space, facts, own, alone, deadline, bounded=bounded)
+        self._alone = PackedProblem(space, facts, own, alone, deadline, bounded=bounded)
         assert not self._layout.differs(self._alone.layout), "the same facts"
         self._epoch = question.prices.epoch if question.rule == WINDOW else 0
-        self._free = question.rule == FREE or (question.rule == WINDOW and self._is_free())
-        self._layers: list[Layer] = []
+        self._free = question.rule == FREE or question.is_free
+        self._layers: list[EpochLayer] = []
         self._known: int | None = None
         self._prefixes = {0}
-        self._best: Solution | None = None
-
-    def _is_free(self) -> bool:
-        """Whether the window of all epochs is as good as any: no epoch of it costs, and none is too many."""
-        question, options = self._question, self._question.options
-        longest = options.max_window
-        whole = longest is None or longest >= question.horizon
-        return not self._epoch and whole and bool(question.human_plan) and not options.keep_prefix
+        self._best: PricedPlan | None = None
 
     # -- the whole
 
@@ -129,7 +120,7 @@ class _Search:
             doing = f"searching exhaustively, {self.states:,} states so far"
             reason = str(LimitReachedError(limit_reason(limit), doing))
             return Minimum("undecided", self._best, self._bound(), reason)
-        except TooManyStatesError as error:
+        except TooManyPackedStatesError as error:
             reason = str(error) or "there are too many states"
             return Minimum("undecided", self._best, self._bound(), reason)
 
@@ -192,14 +183,14 @@ class _Search:
         total = paid + self._team_problem.bounds(states) + rest
         return np.flatnonzero(total <= limit)
 
-    def _exactly(self, begin: Layer) -> None:
+    def _exactly(self, begin: EpochLayer) -> None:
         """The human executes ``pi_H``; robots reach all goals."""
         self._layers = [begin]
         for epoch in range(1, self._question.horizon + 1):
             self._layers.append(self._prefix(epoch - 1, epoch))
         self._close([(self._question.horizon, self._question.horizon)], 0)
 
-    def _windows(self, begin: Layer) -> None:
+    def _windows(self, begin: EpochLayer) -> None:
         """All windows; without rules the window is all there is.
 
         Where lengths of windows are told apart, there is a layer for each; else all are in one.
@@ -235,7 +226,7 @@ class _Search:
         for age, places in ends.items():
             self._close(places, age if oldest else question.horizon)
 
-    def _inside(self, sources: list[int], age: int | None) -> Layer:
+    def _inside(self, sources: list[int], age: int | None) -> EpochLayer:
         """The states after one more epoch of windows."""
         limit = self._limit(self._question.horizon if age is None else age)
         return self._advance(
@@ -244,7 +235,7 @@ class _Search:
             lambda states, paid: self._hopeful(states, paid, 0, limit),
         )
 
-    def _prefix(self, number: int, epoch: int) -> Layer:
+    def _prefix(self, number: int, epoch: int) -> EpochLayer:
         """The states after an epoch of the prefix."""
         question, layer = self._question, self._layers[number]
         limit, rest = self._limit(question.horizon), self._epoch
@@ -263,14 +254,14 @@ class _Search:
 
     def _advance(
         self,
-        steps: list[tuple[int, Layer, Iterator[Steps]]],
+        steps: list[tuple[int, EpochLayer, Iterator[Steps]]],
         extra: int,
         hopeful: Callable[[Words, Ints], Ints],
-    ) -> Layer:
+    ) -> EpochLayer:
         agents = len(self._team.order)
         return advance(steps, extra, hopeful, self._layout.words, agents, self._deadline)
 
-    def _improved(self, layer: Layer, known: StateTable, least: Ints) -> tuple[Layer, Ints]:
+    def _improved(self, layer: EpochLayer, known: StateTable, least: Ints) -> tuple[EpochLayer, Ints]:
         """The states of a layer that no earlier epoch had at no higher cost; and the least costs so far."""
         numbers, new = known.numbers(layer.states)
         least = np.concatenate((least, np.full(len(new), FAR)))
@@ -366,7 +357,7 @@ class _Search:
                 raise UndecidedError("a limit on cost, and communication that costs")
             return
         if self._best is None or objective < self._best.objective:
-            self._best = Solution(steps, window, objective, cost)
+            self._best = PricedPlan(steps, window, objective, cost)
 
     def _window(self, number: int, row: int, epoch: int) -> Window:
         """The window of a plan: its prefix ends with the last layer of prefixes that it goes through."""

@@ -13,7 +13,7 @@ from verify.packed.state_table import StateTable
 
 
 @dataclass(slots=True)
-class Layer:
+class EpochLayer:
     """Different states after an epoch, each at its least cost.
 
     Attributes:
@@ -33,27 +33,27 @@ class Layer:
     def __len__(self) -> int:
         return len(self.states)
 
-    def only(self, rows: Ints) -> "Layer":
+    def only(self, rows: Ints) -> "EpochLayer":
         """Some of its states."""
-        return Layer(
+        return EpochLayer(
             self.states[rows], self.paid[rows], self.before[rows], self.sets[rows], self.source[rows]
         )
 
 
-def first(states: Words, agents: int) -> Layer:
+def first(states: Words, agents: int) -> EpochLayer:
     """The layer before the first epoch."""
     zero = np.zeros(len(states), np.int64)
-    return Layer(states, zero, zero - 1, np.full((len(states), agents), NOBODY), zero - 1)
+    return EpochLayer(states, zero, zero - 1, np.full((len(states), agents), NOBODY), zero - 1)
 
 
 def advance(
-    steps: Iterable[tuple[int, Layer, Iterable[Steps]]],
+    steps: Iterable[tuple[int, EpochLayer, Iterable[Steps]]],
     extra: int,
     hopeful: Callable[[Words, Ints], Ints],
     words: int,
     agents: int,
     deadline: Deadline,
-) -> Layer:
+) -> EpochLayer:
     """The layer after one more epoch.
 
     Args:
@@ -84,5 +84,5 @@ def advance(
             paid[chosen] = cost[kept]
             where[chosen, 0], where[chosen, 1] = piece.before[kept], source
             sets[chosen] = piece.sets[kept]
-    layer = Layer(table.rows, paid, where[:, 0], sets, where[:, 1])
+    layer = EpochLayer(table.rows, paid, where[:, 0], sets, where[:, 1])
     return layer.only(hopeful(layer.states, layer.paid))

@@ -27,7 +27,7 @@ class Steps:
 
     Attributes:
         before: the row of the state that each starts in.
-        sets: by agent, in the order of :class:`Team`, the action that they are first in; or ``NOBODY``.
+        sets: by agent, in the order of :class:`TeamEpochs`, the action that they are first in; or ``NOBODY``.
         after: the states that they lead to.
         cost: what they add to the objective.
     """
@@ -38,7 +38,7 @@ class Steps:
     cost: Ints
 
 
-class Team:
+class TeamEpochs:
     """Sets of actions by which the agents spend an epoch.
 
     Args:

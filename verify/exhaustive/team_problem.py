@@ -2,25 +2,20 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Final
 
 import numpy as np
 
 from serendipity.model import Deadline, GroundAction, LimitReachedError, Step
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.relevance import Relevant
-from verify.base.subproblem import Solution, Subproblem, least
+from verify.base.subproblem import PricedPlan, Subproblem, least
 from verify.exhaustive.circles import circles
-from verify.limits import limits
+from verify.limits import uses
 from verify.packed.affordable import affordable
-from verify.packed.cheapest_path import TooManyStatesError
-from verify.packed.operators import Operator
-from verify.packed.problem import Problem, StateSpace
-from verify.programs.counts import least_weight
-from verify.programs.effort import Attempt, Effort, Minimum
-
-_SHARE: Final = 0.15
-"""What of the time that is left numbers of actions may take."""
+from verify.packed.cheapest_path import TooManyPackedStatesError
+from verify.packed.operators import PackedOperator
+from verify.packed.problem import PackedProblem, StateSpace
+from verify.programs.effort import Minimum
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +31,8 @@ class TeamProblem:
     """
 
     space: StateSpace
-    problem: Problem
-    singles: list[Operator]
+    problem: PackedProblem
+    singles: list[PackedOperator]
     sets: list[tuple[int, ...]]
     goal: tuple[tuple[int, ...], tuple[int, ...]]
 
@@ -60,12 +55,12 @@ class TeamProblem:
         constant = start - turned
         possible = [k for k, each in enumerate(kept) if constant.isdisjoint(each.neg)]
         asked = facts & turned.union(*self.goal)
-        problem = Problem(self.space, asked, [kept[k] for k in possible], self.goal, deadline)
+        problem = PackedProblem(self.space, asked, [kept[k] for k in possible], self.goal, deadline)
         return replace(self, problem=problem, sets=[self.sets[left[k]] for k in possible])
 
 
 def team_problem(question: Subproblem, part: Relevant, *, bounded: bool) -> TeamProblem:
-    """The team's problem of a question; ``bounded`` as :class:`verify.packed.problem.Problem` has it.
+    """The team's problem of a question; ``bounded`` as :class:`verify.packed.problem.PackedProblem` has it.
 
     Raises:
         TooLargeError: it is not one for packed states.
@@ -87,19 +82,19 @@ def team_problem(question: Subproblem, part: Relevant, *, bounded: bool) -> Team
         tuple(f for c in conditions for f in c.positive),
         tuple(f for c in conditions for f in c.negative),
     )
-    problem = Problem(space, part.facts, operators, goal, deadline, bounded=bounded)
+    problem = PackedProblem(space, part.facts, operators, goal, deadline, bounded=bounded)
     kept = [one for one, operator in zip(sets, operators, strict=True) if space.pairs.possible(operator.pre)]
     return TeamProblem(space, problem, operators[: len(part.actions)], kept, goal)
 
 
-def as_operator(together: Iterable[GroundAction], weight: int) -> Operator:
+def as_operator(together: Iterable[GroundAction], weight: int) -> PackedOperator:
     """Actions as one."""
     chosen = tuple(together)
 
     def union(sets: Iterable[tuple[int, ...]]) -> tuple[int, ...]:
         return tuple(sorted({fact for facts in sets for fact in facts}))
 
-    return Operator(
+    return PackedOperator(
         union(a.pre for a in chosen),
         union(a.neg for a in chosen),
         union(a.add for a in chosen),
@@ -108,74 +103,39 @@ def as_operator(together: Iterable[GroundAction], weight: int) -> Operator:
     )
 
 
-def cheapest_without_epochs(question: Subproblem, team: TeamProblem, effort: Effort | None = None) -> Minimum:
+def cheapest_without_epochs(question: Subproblem, team: TeamProblem, *, bounded: bool) -> Minimum:
     """The cheapest plan with any number of epochs, within the question's limits.
 
     Args:
         question: its deadline is polled.
         team: what the team may do.
-        effort: where it is given, numbers of actions are asked first whether there is a plan at all.
+        bounded: whether operators that are too dear are left out.
     """
     # operators weigh what they add to the objective: with communication that is no cost
     most = question.most if any(question.prices.talk) else least(question.most, question.most_cost)
     below = None if most is None else most + 1
-    counts = _Counts(question, team, below, effort)
+    known: int | None = None
     try:
-        if effort is not None and below is not None:
+        if bounded and below is not None and uses("cost-fixing"):
             within = team.below(below, question.task.init, question.deadline)
             if within is None:
                 return Minimum("none", states=1)
-            counts.team = team = within
+            team = within
         problem = team.problem
         start = problem.pack([question.task.init])
         assert start is not None, "the initial state is reached"
-        counts.least = int(problem.bounds(start)[0])
-        search, found = problem.search(start, np.zeros(1, np.int64), below, counts.say_no)
+        known = int(problem.bounds(start)[0])
+        search, found = problem.search(start, np.zeros(1, np.int64), below)
     except LIMITS as limit:
         reason = str(LimitReachedError(limit_reason(limit), "searching joint plans"))
-        return Minimum("undecided", bound=counts.least, reason=reason)
-    except TooManyStatesError as error:
+        return Minimum("undecided", bound=known, reason=reason)
+    except TooManyPackedStatesError as error:
         reason = str(error) or "there are too many joint states"
-        return Minimum("undecided", bound=counts.least, reason=reason)
+        return Minimum("undecided", bound=known, reason=reason)
     if found is None:
         return Minimum("none", states=search.states)
     _, path = search.path(found)
     sets = enumerate((team.sets[k] for k in path), start=1)
     steps = tuple(Step(epoch, i) for epoch, chosen in sets for i in chosen)
     cost = search.paid(found)
-    return Minimum("found", Solution(steps, None, cost, cost), cost, states=search.states)
-
-
-class _Counts:
-    """What numbers of actions say, in the share of the time that it may take.
-
-    Attributes:
-        team: whose actions are counted.
-        least: no plan costs less; None: nothing is known.
-    """
-
-    def __init__(
-        self, question: Subproblem, team: TeamProblem, below: int | None, effort: Effort | None
-    ) -> None:
-        self._question, self._below, self._effort = question, below, effort
-        self.team = team
-        self.least: int | None = None
-
-    def say_no(self) -> bool:
-        """Whether there is no plan within the limits."""
-        effort, table, below = self._effort, self.team.problem.table, self._below
-        if effort is None or below is None or not table.weight.all() or below > limits().coefficient:
-            return False
-        deadline = self._question.deadline.part(_SHARE)
-        given = replace(effort, deadline=deadline)
-        task = self._question.task
-        try:
-            bound = least_weight(table, task.init, self.team.goal[0], below, given)
-        except LIMITS:
-            self._question.deadline.check()
-            return False
-        self.least = max(self.least or 0, bound.least)
-        if self.least < below:
-            return False
-        effort.attempts.append(Attempt("program", decided=True, landmarks=bound.landmarks))
-        return True
+    return Minimum("found", PricedPlan(steps, None, cost, cost), cost, states=search.states)

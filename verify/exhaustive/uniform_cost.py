@@ -6,16 +6,15 @@ Only sets in which actions disable each other in a circle have to stay together.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from itertools import chain
+from dataclasses import replace
 
 from serendipity.model import LimitReachedError, Step
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.execution import State
-from verify.base.fact_bits import FactBits, each_bit
+from verify.base.fact_bits import BitCondition, BitOperator, BitOperators, FactBits
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.shortest_paths import PathSearch
-from verify.base.subproblem import Solution, Subproblem, least
+from verify.base.subproblem import PricedPlan, Subproblem, least
 from verify.base.undecided import during
 from verify.exhaustive.circles import circles
 from verify.exhaustive.team_problem import cheapest_without_epochs, team_problem
@@ -26,24 +25,12 @@ from verify.programs.automata.network import distances, goal_states
 from verify.programs.effort import Effort, Minimum
 
 
-@dataclass(frozen=True, slots=True)
-class Bundle:
-    """Actions that are executed together, and what they need and do, as bits."""
-
-    actions: tuple[int, ...]
-    pre: int
-    neg: int
-    add: int
-    delete: int
-    cost: int
-
-
 def cheapest(question: Subproblem, effort: Effort) -> Minimum:
     """The least cost of a plan with any number of epochs, within the question's limits.
 
     Args:
         question: its horizon is not looked at; its rule is ``free``.
-        effort: its method says whether estimates of what is left may spare states, and a solver be asked.
+        effort: its method says whether estimates of what is left may spare states.
 
     Raises:
         LimitReachedError: the deadline came before the search began.
@@ -64,7 +51,7 @@ def cheapest(question: Subproblem, effort: Effort) -> Minimum:
         except TooLargeError:
             team = None
     if team is not None:
-        return cheapest_without_epochs(question, team, effort if bounded else None)
+        return cheapest_without_epochs(question, team, bounded=bounded)
     found = search.run()
     return replace(found, states=search.closed)
 
@@ -102,12 +89,12 @@ class JointSearch:
         self.deadline = question.deadline
         self.part = part
         self.bits = FactBits(part.facts)
-        self.table: dict[int, list[Bundle]] = {}
-        for bundle in self.deadline.each(self._bundles(part)):
-            self.table.setdefault(bundle.pre & -bundle.pre, []).append(bundle)
+        self.operators = BitOperators(self._bundles(part), self.deadline)
         conditions = [self.task.goal, *([self.task.robot_goal] if question.robots_goal else [])]
-        self.wanted = self.bits.of(f for c in conditions for f in c.positive)
-        self.unwanted = self.bits.of(f for c in conditions for f in c.negative)
+        self.goal = BitCondition(
+            self.bits.of(f for c in conditions for f in c.positive),
+            self.bits.of(f for c in conditions for f in c.negative),
+        )
         left = LeastLeft(question, part)
         self._human = self.bits.of(left.facts)
         self._left = {self.bits.of(state): least for state, least in left.by_state.items()}
@@ -137,9 +124,9 @@ class JointSearch:
                 return Minimum("undecided", bound=self.bound, reason=f"more than {most_states} joint states")
         return Minimum("none")
 
-    def _successors(self, state: int) -> Iterator[tuple[int, int, Bundle]]:
+    def _successors(self, state: int) -> Iterator[tuple[int, int, BitOperator]]:
         for bundle in self.applicable(state):
-            yield state & ~bundle.delete | bundle.add, bundle.cost, bundle
+            yield bundle.after(state), bundle.weight, bundle
 
     @property
     def start(self) -> int:
@@ -148,25 +135,22 @@ class JointSearch:
 
     def is_goal(self, state: int) -> bool:
         """Whether the goals hold."""
-        return state & self.wanted == self.wanted and not state & self.unwanted
+        return self.goal.holds(state)
 
-    def _found(self, bundles: list[Bundle], cost: int) -> Minimum:
+    def _found(self, bundles: list[BitOperator], cost: int) -> Minimum:
         epochs = enumerate(bundles, start=1)
-        steps = tuple(Step(epoch, i) for epoch, bundle in epochs for i in bundle.actions)
-        return Minimum("found", Solution(steps, None, cost, cost), cost)
+        steps = tuple(Step(epoch, i) for epoch, bundle in epochs for i in bundle.label)
+        return Minimum("found", PricedPlan(steps, None, cost, cost), cost)
 
-    def applicable(self, state: int) -> Iterator[Bundle]:
+    def applicable(self, state: int) -> Iterator[BitOperator]:
         """What can be done next."""
-        for bit in chain((0,), each_bit(state)):
-            for bundle in self.table.get(bit, ()):
-                if state & bundle.pre == bundle.pre and not state & bundle.neg:
-                    yield bundle
+        return self.operators.applicable(state)
 
     def estimate(self, state: int) -> int | None:
         """A lower bound on the cost that is left; None: there is no way to the goals."""
         return self._left.get(state & self._human, 0)
 
-    def _bundles(self, part: Relevant) -> Iterator[Bundle]:
+    def _bundles(self, part: Relevant) -> Iterator[BitOperator]:
         for i in part.actions:
             yield self.bundle((i,))
         if not self.question.options.strict:
@@ -174,14 +158,14 @@ class JointSearch:
             for circle in circles(actions, self.task, self.deadline):
                 yield self.bundle(circle)
 
-    def bundle(self, ids: tuple[int, ...]) -> Bundle:
+    def bundle(self, ids: tuple[int, ...]) -> BitOperator:
         """The actions as one."""
         chosen = [self.task.actions[i] for i in ids]
-        return Bundle(
-            ids,
+        return BitOperator(
             self.bits.of(f for action in chosen for f in action.pre),
             self.bits.of(f for action in chosen for f in action.neg),
             self.bits.of(f for action in chosen for f in action.add),
             self.bits.of(f for action in chosen for f in action.delete),
             sum(self.question.prices.team[i] for i in ids),
+            ids,
         )

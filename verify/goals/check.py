@@ -16,7 +16,7 @@ from verify.base.undecided import UNDECIDED, why
 from verify.goals.beliefs import considered_plan, faults
 from verify.goals.reading import Believed, Recognised, read
 from verify.goals.timelines import (
-    Timeline,
+    GoalTimeline,
     bound_fault,
     close,
     figures_fault,
@@ -40,7 +40,7 @@ class Examined:
 
     claims: tuple[Claim, ...] = ()
     single: tuple[Task, Result] | None = None
-    lines: tuple[Timeline, ...] = ()
+    lines: tuple[GoalTimeline, ...] = ()
 
 
 def examine(task: Task, result: Result, deadline: Deadline) -> Examined:
@@ -77,7 +77,7 @@ def examine(task: Task, result: Result, deadline: Deadline) -> Examined:
     return Examined(lines=tuple(timelines(task, result, goals, served, deadline)))
 
 
-def claims_by_rules(result: Result, lines: Sequence[Timeline]) -> tuple[Claim, ...]:
+def claims_by_rules(result: Result, lines: Sequence[GoalTimeline]) -> tuple[Claim, ...]:
     """What rules say of an answer for several goals: of its bound only if that is not consistent."""
     claims: dict[str, Claim] = {}
     for name, fault in _rules(result, lines):
@@ -117,7 +117,7 @@ def beyond_rules(result: Result) -> list[str]:
     return [name for name in needed(result) if name not in BY_RULES]
 
 
-def _rules(result: Result, lines: Sequence[Timeline]) -> Iterator[tuple[str, Callable[[], str | None]]]:
+def _rules(result: Result, lines: Sequence[GoalTimeline]) -> Iterator[tuple[str, Callable[[], str | None]]]:
     yield "replay", lambda: rule_fault("replay", lines) or together_fault(result, lines)
     yield "cost", lambda: rule_fault("cost", lines) or figures_fault(result, lines)
     yield "window", lambda: rule_fault("window", lines)

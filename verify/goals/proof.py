@@ -10,10 +10,10 @@ from verify.base import wording
 from verify.base.execution import plan_step
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
-from verify.calls.call import Call
+from verify.calls.call import ExaminedCall
 from verify.goals.check import beyond_rules
-from verify.goals.timelines import Timeline, close, mean
-from verify.goals.together import Better, Rank, Together
+from verify.goals.timelines import GoalTimeline, close, mean
+from verify.goals.together import AllGoals, Better, Rank
 from verify.programs.effort import Effort, NoProgramError
 
 _ROUNDED = 1 - Fraction(1, 10**9)
@@ -29,7 +29,7 @@ class GoalsProof:
         effort: the solver's settings.
     """
 
-    def __init__(self, result: Result, lines: Sequence[Timeline], effort: Effort) -> None:
+    def __init__(self, result: Result, lines: Sequence[GoalTimeline], effort: Effort) -> None:
         self.result = result
         self.lines = lines
         self.effort = effort
@@ -57,7 +57,7 @@ class GoalsProof:
         for name in others:
             yield Claim(name, verdict, wording.like(first, reason), example, 0.0, bound, *spent)
 
-    def _best(self, together: Together, idle: Rank) -> tuple[ClaimVerdict, str, Better | None]:
+    def _best(self, together: AllGoals, idle: Rank) -> tuple[ClaimVerdict, str, Better | None]:
         """Whether robots could do better than the answer says they can."""
         limit = self._limit(idle)
         if together.floor() >= limit:
@@ -83,13 +83,13 @@ class GoalsProof:
         cost = mean(self.lines, [line.case.cost for line in self.lines])
         return cost + window * mean(self.lines, [Fraction(line.epochs) for line in self.lines]), cost
 
-    def _together(self) -> Together:
+    def _together(self) -> AllGoals:
         options = self.result.options.but(horizon=self.result.horizon, time_limit=None)
         calls = []
         for line in self.lines:
             plans = OptimalPlans(line.task, line.case.alone)
-            calls.append(Call(line.task, options, line.case.pi_h, plans, self.effort))
-        return Together(calls, [line.weight for line in self.lines])
+            calls.append(ExaminedCall(line.task, options, line.case.pi_h, plans, self.effort))
+        return AllGoals(calls, [line.weight for line in self.lines])
 
     def _idle_fault(self, idle: Fraction) -> str | None:
         """What the human gains alone, where observations make their plans dearer than need be."""

@@ -40,7 +40,7 @@ _BY_CLAIM: Final = {
 
 
 @dataclass(frozen=True, slots=True)
-class Timeline:
+class GoalTimeline:
     """One considered goal: its probability, and its own task and answer under examination."""
 
     name: str
@@ -67,7 +67,7 @@ class Timeline:
 
 def timelines(
     task: Task, result: Result, goals: Sequence[Condition], served: Sequence[GoalAnswer], deadline: Deadline
-) -> list[Timeline]:
+) -> list[GoalTimeline]:
     """The timelines of an answer, with weights that add up to 1.
 
     Args:
@@ -93,11 +93,13 @@ def timelines(
             ties=None,
             malformed={},
         )
-        found.append(Timeline(entry.name, share / total, Case(own, answer, IndividualOptimum(own, deadline))))
+        found.append(
+            GoalTimeline(entry.name, share / total, Case(own, answer, IndividualOptimum(own, deadline)))
+        )
     return found
 
 
-def rule_fault(claim: str, lines: Sequence[Timeline]) -> str | None:
+def rule_fault(claim: str, lines: Sequence[GoalTimeline]) -> str | None:
     """The first rule that a timeline breaks, among those of one claim."""
     for line in lines:
         for rule in RULES:
@@ -111,7 +113,7 @@ def rule_fault(claim: str, lines: Sequence[Timeline]) -> str | None:
     return None
 
 
-def together_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
+def together_fault(result: Result, lines: Sequence[GoalTimeline]) -> str | None:
     """Robots do the same whatever the goal is, and no considered plan is broken (semantics 8)."""
     human = result.human
     for step in result.plan or ():
@@ -128,7 +130,7 @@ def _as_key(step: PlanStep) -> tuple[int, str, tuple[str, ...], float]:
     return step.epoch, step.action, tuple(sorted(step.agents)), step.cost
 
 
-def _deviations(lines: Sequence[Timeline]) -> Iterator[str]:
+def _deviations(lines: Sequence[GoalTimeline]) -> Iterator[str]:
     """Where a plan is said to be left alone, the human executes it."""
     for line in lines:
         case = line.case
@@ -136,7 +138,7 @@ def _deviations(lines: Sequence[Timeline]) -> Iterator[str]:
             yield f"goal '{line.name}': the plan is left alone, but the human does something else"
 
 
-def figures_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
+def figures_fault(result: Result, lines: Sequence[GoalTimeline]) -> str | None:
     """Expectations are sums over the goals; without an opportunity robots idle (semantics 8)."""
     cost = mean(lines, [line.case.cost for line in lines])
     alone = mean(lines, [line.alone for line in lines])
@@ -179,6 +181,6 @@ def close(said: float, value: Fraction) -> bool:
     return math.isclose(said, value, rel_tol=1e-12, abs_tol=1e-12)
 
 
-def mean(lines: Sequence[Timeline], values: Sequence[Fraction]) -> Fraction:
+def mean(lines: Sequence[GoalTimeline], values: Sequence[Fraction]) -> Fraction:
     """The expectation of a figure over the goals."""
     return sum((line.weight * value for line, value in zip(lines, values, strict=True)), Fraction(0))

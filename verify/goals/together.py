@@ -17,11 +17,10 @@ from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE, least
 from verify.base.undecided import UndecidedError
 from verify.calls.answer import best_plan
-from verify.calls.call import Call, Score
+from verify.calls.call import ExaminedCall, Score
 from verify.exhaustive.uniform_cost import LeastLeft
 from verify.limits import limits
 from verify.programs.effort import Attempt
-from verify.programs.mending import replans
 
 Label = tuple[int, State]
 """First epoch of the window (0: not open yet), and the state."""
@@ -79,7 +78,7 @@ class _Incumbent:
             self.best, self.than = Better(rank, robots), rank
 
 
-class Together:
+class AllGoals:
     """All considered goals of one answer.
 
     Args:
@@ -87,7 +86,7 @@ class Together:
         weights: their probabilities; they add up to 1.
     """
 
-    def __init__(self, calls: Sequence[Call], weights: Sequence[Fraction]) -> None:
+    def __init__(self, calls: Sequence[ExaminedCall], weights: Sequence[Fraction]) -> None:
         self._calls = calls
         self._weights = weights
         self._units = calls[0].prices
@@ -122,7 +121,7 @@ class Together:
         """
         if self.floor() >= than:
             return None
-        if not all(replans(call.question) for call in self._calls):
+        if not all(call.question.replans for call in self._calls):
             raise UndecidedError(
                 "several goals are examined under suffix replan and preservation kernel only"
             )
@@ -138,7 +137,7 @@ class Together:
             layer = list(self._following(layer, epoch, incumbent))
         for node in self._following(layer, self._horizon, incumbent):
             incumbent.offer(self._rank(node.lines), node.steps)
-        played = Attempt("exhaustive", decided=True, states=incumbent.looked_at)
+        played = Attempt("played", decided=True, states=incumbent.looked_at)
         self._calls[0].effort.attempts.append(played)
         return incumbent.best
 
@@ -215,7 +214,7 @@ class Together:
                 labels[label] = min(score, labels.get(label, score))
         return _Line(labels, ended)
 
-    def _parts(self, call: Call, start: int, epoch: int) -> Iterator[tuple[int | None, int]]:
+    def _parts(self, call: ExaminedCall, start: int, epoch: int) -> Iterator[tuple[int | None, int]]:
         """What the human may do in an epoch, and the window's start then (rules 1 and 2)."""
         plan = call.human_plan or ()
         if not start:
@@ -236,7 +235,7 @@ class Together:
             return None
         return after(state, *chosen)
 
-    def _closed(self, call: Call, state: State, epoch: int, score: Score) -> Score | None:
+    def _closed(self, call: ExaminedCall, state: State, epoch: int, score: Score) -> Score | None:
         """Rule 3: the window ends after the epoch, and the human goes on with an optimal plan that fits."""
         worth = call.plans.worth(state)
         if worth is None or worth[1] > self._horizon - epoch:
@@ -274,26 +273,26 @@ class Together:
         return objective / self._units.scale, cost / self._units.scale
 
 
-def _left_alone(call: Call) -> Score:
+def _left_alone(call: ExaminedCall) -> Score:
     """The human's plan and idle robots; that counts as one epoch of window, whatever the plan's length."""
     assert call.baseline is not None, "only goals with a plan are considered"
     return call.baseline + call.prices.epoch, call.baseline
 
 
-def _floor(call: Call) -> Score:
+def _floor(call: ExaminedCall) -> Score:
     """What the goal by itself allows."""
     best = best_plan(call) if call.human_plan else None
     return _left_alone(call) if best is None else (best.objective, best.cost)
 
 
-def _idle(call: Call) -> Score:
+def _idle(call: ExaminedCall) -> Score:
     if call.is_optimal:
         return _left_alone(call)
     best = call.best(call.question.but(robots=False), _left_alone(call))
     return _left_alone(call) if best is None else (best.objective, best.cost)
 
 
-def _left(call: Call) -> LeastLeft:
+def _left(call: ExaminedCall) -> LeastLeft:
     question = call.question.but(rule=FREE)
     part = relevant_part(question)
     assert part is not None, "only goals that he can reach are considered"

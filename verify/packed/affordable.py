@@ -11,11 +11,11 @@ from collections.abc import Sequence
 
 from serendipity.model import Deadline
 from verify.packed.landmark_cuts import LandmarkCuts
-from verify.packed.operators import Operator
+from verify.packed.operators import PackedOperator
 
 
 def affordable(
-    operators: Sequence[Operator],
+    operators: Sequence[PackedOperator],
     facts: frozenset[int],
     goal: Sequence[int],
     start: frozenset[int],
@@ -55,7 +55,7 @@ def affordable(
 
 
 def _reachable(
-    operators: Sequence[Operator],
+    operators: Sequence[PackedOperator],
     kept: list[int],
     facts: frozenset[int],
     start: frozenset[int],

@@ -12,6 +12,7 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import Deadline
+from verify.limits import limits
 from verify.packed.layout import Words
 from verify.packed.operators import Ints, OperatorTable
 from verify.packed.pattern import FAR, Pattern, TooManyMovesError
@@ -48,11 +49,17 @@ class Care:
     share: float
 
 
-LITTLE: Final = Care((2_000,), 0.5, 0.1)
-MUCH: Final = Care((2_000, 100_000), 5.0, 0.25)
+def little() -> Care:
+    """As long as few states may be enough."""
+    return Care((2_000,), limits().quick_seconds, limits().quick_share)
 
 
-class Bounds:
+def much() -> Care:
+    """Where bounds are to spare many states."""
+    return Care((2_000, 100_000), limits().careful_seconds, limits().careful_share)
+
+
+class PatternBounds:
     """Bounds for one goal.
 
     Args:

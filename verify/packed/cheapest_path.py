@@ -1,33 +1,27 @@
 """Cheapest paths over packed states, all states of one estimate at once (A* in layers)."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from heapq import heappop, heappush
-from typing import Final
 
 import numpy as np
 
 from serendipity.model import Deadline
 from verify.limits import limits
-from verify.packed.landmark_cuts import Cuts, LandmarkCuts
 from verify.packed.layout import Words
 from verify.packed.operators import Ints, OperatorTable, Test
 from verify.packed.pattern import FAR
 from verify.packed.state_table import Numbers, StateTable
-from verify.packed.stubborn import StubbornSets
-
-_CUT_AT_ONCE: Final = 8
-"""The same where landmarks are looked for, state by state."""
 
 
-class TooManyStatesError(Exception):
+class TooManyPackedStatesError(Exception):
     """More states than the caller allows."""
 
 
-class SumTooLargeError(TooManyStatesError):
+class SumTooLargeError(TooManyPackedStatesError):
     """What is asked may depend on sums of weights that a machine word does not hold."""
 
 
-class PathSearch:
+class PackedSearch:
     """A search from several states, each with what was paid on the way there.
 
     Args:
@@ -37,8 +31,6 @@ class PathSearch:
         deadline: polled.
         below: paths of this weight or more are left out; with a path's last operator it fits into a word.
         most_states: to be kept at most.
-        cuts: what looks for landmarks in each state before it is expanded.
-        stubborn: which operators are enough there; None: all are looked at.
 
     Attributes:
         least: no path that is still open weighs less.
@@ -52,8 +44,6 @@ class PathSearch:
         deadline: Deadline,
         below: int,
         most_states: int = 50_000_000,
-        cuts: Sequence[LandmarkCuts] = (),
-        stubborn: StubbornSets | None = None,
     ) -> None:
         self._table = table
         self._goal = goal
@@ -61,10 +51,7 @@ class PathSearch:
         self._deadline = deadline
         self._below = below
         self._most_states = most_states
-        self._cuts = cuts
         self._at_once = limits().states_at_once
-        self._stubborn = stubborn
-        self._cut_before: dict[int, Cuts] = {}
         self._states = StateTable(table.layout.words, deadline)
         self._paid = np.zeros(0, np.int64)
         self._left = np.zeros(0, np.int64)
@@ -96,7 +83,7 @@ class PathSearch:
 
         Raises:
             LimitReachedError: the deadline came first.
-            TooManyStatesError: there were too many states.
+            TooManyPackedStatesError: there were too many states.
         """
         while self._queue:
             total = self._queue[0]
@@ -111,10 +98,6 @@ class PathSearch:
             if reached.any():
                 self._open[total] = [numbers]
                 return int(numbers[reached][0])
-            if self._cuts:  # one after the other: those that are nearest to a goal may end it
-                order = np.argsort(self._left[numbers], kind="stable")
-                self._push(numbers[order[_CUT_AT_ONCE:]])
-                numbers = numbers[order[:_CUT_AT_ONCE]]
             for first in range(0, len(numbers), self._at_once):
                 self._expand(numbers[first : first + self._at_once])
         return None
@@ -138,89 +121,24 @@ class PathSearch:
 
     def _expand(self, numbers: Ints) -> None:
         self._deadline.check()
-        shares = None
-        if self._cuts:
-            numbers, shares = self._cut(numbers)
         states = self._states.rows[numbers]
         rows, chosen = self._table.applicable(states)
-        if self._stubborn is not None:
-            rows, chosen = self._enough(numbers, rows, chosen, self._stubborn)
         after = self._table.after(states[rows], chosen)
         paid = self._paid[numbers[rows]] + self._table.weight[chosen]
-        at_least = None if shares is None else self._left[numbers[rows]] - shares[rows, chosen]
-        self._enter(after, paid, numbers[rows].astype(np.int32), chosen.astype(np.int32), at_least)
+        self._enter(after, paid, numbers[rows].astype(np.int32), chosen.astype(np.int32))
 
-    def _cut(self, numbers: Ints) -> tuple[Ints, Ints]:
-        """The states that are as cheap as they seemed, with what landmarks weigh by operator.
-
-        The others wait until their turn comes.
-        """
-        kept: list[int] = []
-        later: list[int] = []
-        shares = np.zeros((len(numbers), len(self._table.weight)), np.int64)
-        for number in numbers.tolist():
-            self._deadline.check()
-            found = self._cut_before.pop(number, None) or self._best_cuts(number)
-            bound = found.bound
-            seemed = int(self._left[number])
-            if bound > seemed:
-                self._left[number] = bound
-                if self._paid[number] + bound < self._below:
-                    self._cut_before[number] = found
-                    later.append(number)
-            else:
-                share = shares[len(kept)]
-                share[found.operators] = found.shares
-                np.minimum(share + (seemed - bound), self._table.weight, out=share)
-                kept.append(number)
-        self._push(np.array(later, np.int64))
-        return np.array(kept, np.int64), shares[: len(kept)]
-
-    def _enough(self, numbers: Ints, rows: Ints, chosen: Ints, stubborn: StubbornSets) -> tuple[Ints, Ints]:
-        """Of the operators that are applicable in some states, those that are enough."""
-        kept = [np.zeros((0, 2), np.int64)]
-        for row in range(len(numbers)):
-            self._deadline.check()
-            few = stubborn(self._facts(int(numbers[row])), chosen[rows == row].tolist())
-            kept.append(np.array([(row, operator) for operator in few], np.int64).reshape(-1, 2))
-        pairs = np.concatenate(kept)
-        return pairs[:, 0], pairs[:, 1]
-
-    def _facts(self, number: int) -> frozenset[int]:
-        return self._table.layout.facts_of(self._states.rows[number])
-
-    def _best_cuts(self, number: int) -> Cuts:
-        """Landmarks of a state: the heaviest of those that are found one way or the other."""
-        facts = self._facts(number)
-        best = self._cuts[0](facts)
-        for cuts in self._cuts[1:]:
-            if self._paid[number] + best.bound >= self._below:
-                break
-            found = cuts(facts)
-            if found.bound > best.bound:
-                best = found
-        return best
-
-    def _enter(
-        self, states: Words, paid: Ints, parent: Numbers, by: Numbers, at_least: Ints | None = None
-    ) -> None:
-        """Keep the cheapest way to each state that may lead on, and open it where it is a better one.
-
-        What is left from a state is at least what was left before the operator that led there, less that
-        operator's share of the landmarks.
-        """
+    def _enter(self, states: Words, paid: Ints, parent: Numbers, by: Numbers) -> None:
+        """Keep the cheapest way to each state that may lead on, and open it where it is a better one."""
         order = np.argsort(-paid, kind="stable")  # the cheapest last: it stays
         states, paid, parent, by = states[order], paid[order], parent[order], by[order]
         numbers, new = self._states.numbers(states)
         if self._states.count > self._most_states:
-            raise TooManyStatesError
+            raise TooManyPackedStatesError
         self._grow()
         if len(new):
             self._paid[new] = FAR
             self._left[new] = self._bound(self._states.rows[new])
         better = paid < self._paid[numbers]
-        if at_least is not None:  # only where they are opened again: who waits is found by what is left
-            np.maximum.at(self._left, numbers[better], at_least[order][better])
         better &= paid + self._left[numbers] < self._below
         numbers, paid = numbers[better], paid[better]
         self._paid[numbers] = paid

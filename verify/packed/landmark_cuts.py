@@ -18,7 +18,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from verify.packed.operators import Ints, Operator
+from verify.packed.operators import Ints, PackedOperator
 from verify.packed.pattern import FAR
 
 _NEVER: Final = int(FAR)
@@ -52,7 +52,7 @@ class LandmarkCuts:
     """
 
     def __init__(
-        self, operators: Sequence[Operator], facts: frozenset[int], goal: Sequence[int], *, rarest: bool
+        self, operators: Sequence[PackedOperator], facts: frozenset[int], goal: Sequence[int], *, rarest: bool
     ) -> None:
         number = {fact: k for k, fact in enumerate(sorted(facts), start=1)}
         self._number = number

@@ -30,7 +30,7 @@ class Effects(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Field:
+class WordField:
     """A part of a word: 0 where none of its facts is true, else the number of the one that is, from 1."""
 
     word: int
@@ -49,7 +49,7 @@ class Field:
         return len(self.facts) + 1
 
 
-class Place(NamedTuple):
+class FieldPlace(NamedTuple):
     """A fact's field, by number, and the value there that means it."""
 
     field: int
@@ -60,7 +60,7 @@ class NotPackedError(Exception):
     """A state in which facts are true that exclude each other where actions alone lead."""
 
 
-class Layout:
+class PackedLayout:
     """Fields of facts.
 
     Args:
@@ -80,16 +80,16 @@ class Layout:
                 parts.append(tuple(sorted(kept)))
                 left -= kept
         parts += [(fact,) for fact in sorted(left)]
-        self.fields: list[Field] = []
-        self.place: dict[int, Place] = {}
+        self.fields: list[WordField] = []
+        self.place: dict[int, FieldPlace] = {}
         word, used = 0, 0
         for part in sorted(parts, key=lambda part: (-len(part), part)):
             bits = len(part).bit_length()
             if used + bits > _BITS:
                 word, used = word + 1, 0
             for value, fact in enumerate(part, start=1):
-                self.place[fact] = Place(len(self.fields), value)
-            self.fields.append(Field(word, used, bits, part))
+                self.place[fact] = FieldPlace(len(self.fields), value)
+            self.fields.append(WordField(word, used, bits, part))
             used += bits
         self.words = word + 1
 
@@ -112,7 +112,7 @@ class Layout:
             rows[row] = filled
         return rows
 
-    def differs(self, other: "Layout") -> bool:
+    def differs(self, other: "PackedLayout") -> bool:
         """Whether another layout has other fields."""
         return {field.facts for field in self.fields} != {field.facts for field in other.fields}
 

@@ -12,7 +12,7 @@ from serendipity.model import Deadline
 from verify.packed.layout import Effects
 
 
-class Pairs:
+class ReachablePairs:
     """The pairs of facts that may be true together.
 
     Args:
@@ -72,7 +72,7 @@ class Pairs:
                     self._stale.add(other)
 
 
-def exclusive_groups(pairs: Pairs, facts: Iterable[int], deadline: Deadline) -> list[frozenset[int]]:
+def exclusive_groups(pairs: ReachablePairs, facts: Iterable[int], deadline: Deadline) -> list[frozenset[int]]:
     """Disjoint groups of facts of which no two are ever true together, the largest first.
 
     Args:

@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from verify.packed.layout import Layout, Words
+from verify.packed.layout import PackedLayout, Words
 
 Ints = NDArray[np.int64]
 
@@ -15,7 +15,7 @@ _AT_ONCE: Final = 1 << 16
 """Operators that are looked at in one go, for several states together: each takes some hundred bytes."""
 
 
-class Operator(NamedTuple):
+class PackedOperator(NamedTuple):
     """What is done at once: facts that it needs, forbids, adds and deletes, and its weight."""
 
     pre: tuple[int, ...]
@@ -36,7 +36,7 @@ class OperatorTable:
         weight: of each operator.
     """
 
-    def __init__(self, layout: Layout, operators: Sequence[Operator]) -> None:
+    def __init__(self, layout: PackedLayout, operators: Sequence[PackedOperator]) -> None:
         self.layout = layout
         self.operators = operators
         shape = len(operators), layout.words
@@ -56,7 +56,7 @@ class OperatorTable:
         self._has_forbidden[self._forbidden[:, 0]] = True
         self._index()
 
-    def _read(self, number: int, operator: Operator) -> Iterator[tuple[int, int, int]]:
+    def _read(self, number: int, operator: PackedOperator) -> Iterator[tuple[int, int, int]]:
         """Enter an operator; the values that it forbids where none is needed."""
         fields = self.layout.fields
         needed = self._needed(number, operator)
@@ -78,7 +78,7 @@ class OperatorTable:
         self.conditions.append(needed)
         self.effects.append({f: v for f, v in gets.items() if needed.get(f) != v})
 
-    def _needed(self, number: int, operator: Operator) -> dict[int, int]:
+    def _needed(self, number: int, operator: PackedOperator) -> dict[int, int]:
         """The values that an operator's true facts are."""
         needed: dict[int, int] = {}
         for at in (self.layout.place[fact] for fact in operator.pre if fact in self.layout.place):
@@ -86,7 +86,7 @@ class OperatorTable:
                 self.impossible[number] = True
         return needed
 
-    def _gets(self, operator: Operator, needed: dict[int, int]) -> dict[int, int]:
+    def _gets(self, operator: PackedOperator, needed: dict[int, int]) -> dict[int, int]:
         """The values that fields get."""
         place, fields = self.layout.place, self.layout.fields
         gets = {place[fact].field: 0 for fact in operator.delete if fact in place}
@@ -176,8 +176,8 @@ class OperatorTable:
 class Test:
     """Whether some facts are true and others false, in each of many states."""
 
-    def __init__(self, layout: Layout, positive: Sequence[int], negative: Sequence[int]) -> None:
-        self._table = OperatorTable(layout, [Operator(tuple(positive), tuple(negative), (), (), 0)])
+    def __init__(self, layout: PackedLayout, positive: Sequence[int], negative: Sequence[int]) -> None:
+        self._table = OperatorTable(layout, [PackedOperator(tuple(positive), tuple(negative), (), (), 0)])
         self.conditions = self._table.conditions[0]
 
     def __call__(self, states: Words) -> NDArray[np.bool_]:

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import Deadline
-from verify.packed.layout import Field, Layout, Words
+from verify.packed.layout import PackedLayout, WordField, Words
 from verify.packed.operators import Ints, OperatorTable, Test
 
 FAR: Final = np.int64(2**61)
@@ -37,14 +37,14 @@ class Pattern:
     def __init__(
         self, table: OperatorTable, fields: Sequence[int], most_moves: int, deadline: Deadline
     ) -> None:
-        self._layout: Layout = table.layout
+        self._layout: PackedLayout = table.layout
         self._deadline = deadline
         self.fields = tuple(fields)
         self._sizes = [self._layout.fields[f].size for f in fields]
         self._strides = list(np.cumprod([1, *self._sizes])[:-1].tolist())
         self.size = int(np.prod(self._sizes, dtype=np.int64))
         self._index = {field: k for k, field in enumerate(fields)}
-        self._read_as: list[tuple[Field, Ints]] | None = None
+        self._read_as: list[tuple[WordField, Ints]] | None = None
         self._write(table, most_moves)
 
     def _write(self, table: OperatorTable, most_moves: int) -> None:
@@ -133,7 +133,7 @@ class Pattern:
         np.maximum.at(found, self.label[reached], drops)
         return found
 
-    def index(self, states: Words, layout: Layout) -> Ints:
+    def index(self, states: Words, layout: PackedLayout) -> Ints:
         """The pattern's state that each state looks like.
 
         Args:
@@ -146,7 +146,7 @@ class Pattern:
             found += table[value.astype(np.int64)]
         return found
 
-    def _reading(self, layout: Layout) -> list[tuple[Field, Ints]]:
+    def _reading(self, layout: PackedLayout) -> list[tuple[WordField, Ints]]:
         """For each field of a layout that matters, what its values add to the pattern's state."""
         if self._read_as is None:
             tables: dict[int, Ints] = {}

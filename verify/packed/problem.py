@@ -1,22 +1,16 @@
 """One goal, many questions: layout, operators and bounds that all of them share."""
 
-from collections.abc import Callable, Iterable, Sequence
-from typing import Final
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from serendipity.model import Deadline, LimitReachedError
+from serendipity.model import Deadline
 from verify.limits import limits
-from verify.packed.bounds import LITTLE, MUCH, Bounds, Care
-from verify.packed.cheapest_path import PathSearch, SumTooLargeError, TooManyStatesError
-from verify.packed.landmark_cuts import LandmarkCuts
-from verify.packed.layout import Effects, Layout, Words
-from verify.packed.mutexes import Pairs, exclusive_groups
-from verify.packed.operators import Ints, Operator, OperatorTable
-from verify.packed.stubborn import StubbornSets
-
-_SHARE: Final = 0.4
-"""What of the time that is left goes into a search with landmarks."""
+from verify.packed.bounds import Care, PatternBounds, little, much
+from verify.packed.cheapest_path import PackedSearch, SumTooLargeError, TooManyPackedStatesError
+from verify.packed.layout import Effects, PackedLayout, Words
+from verify.packed.mutexes import ReachablePairs, exclusive_groups
+from verify.packed.operators import Ints, OperatorTable, PackedOperator
 
 
 class TooLargeError(Exception):
@@ -49,18 +43,18 @@ class StateSpace:
             raise TooLargeError
         self._deadline = deadline
         self._groups = tuple(groups)
-        self.pairs = Pairs(facts, init, actions, deadline)
+        self.pairs = ReachablePairs(facts, init, actions, deadline)
         self.actions = [action for action in deadline.each(actions) if self.pairs.possible(action.pre)]
 
-    def layout(self, facts: Iterable[int]) -> Layout:
+    def layout(self, facts: Iterable[int]) -> PackedLayout:
         """Fields for some facts: the largest groups of which no two are true together."""
         facts = tuple(facts)
-        return Layout(facts, exclusive_groups(self.pairs, facts, self._deadline), self.actions)
+        return PackedLayout(facts, exclusive_groups(self.pairs, facts, self._deadline), self.actions)
 
-    def other_layout(self, facts: Iterable[int]) -> Layout:
+    def other_layout(self, facts: Iterable[int]) -> PackedLayout:
         """The same by the groups that were given."""
         alone = [group for group in self._groups if self._exclusive(group)]
-        return Layout(facts, alone, self.actions)
+        return PackedLayout(facts, alone, self.actions)
 
     def _exclusive(self, group: frozenset[int]) -> bool:
         beside = self.pairs.beside
@@ -68,7 +62,7 @@ class StateSpace:
         return all(not beside[fact] & members & ~(1 << fact) for fact in group)
 
 
-class Problem:
+class PackedProblem:
     """Cheapest ways to a goal, from any states that can be reached.
 
     Args:
@@ -87,7 +81,7 @@ class Problem:
         self,
         space: StateSpace,
         facts: Iterable[int],
-        operators: Sequence[Operator],
+        operators: Sequence[PackedOperator],
         goal: tuple[Sequence[int], Sequence[int]],
         deadline: Deadline,
         *,
@@ -102,7 +96,7 @@ class Problem:
         self.table = OperatorTable(self.layout, operators)
         self._wanted = tuple(goal[0])
         self.goal = self.table.test(*goal)
-        self._bounds: Bounds | None = None
+        self._bounds: PatternBounds | None = None
         self._bounded, self._careful = bounded, not bounded
 
     def pack(self, states: Sequence[frozenset[int]]) -> Words | None:
@@ -116,30 +110,28 @@ class Problem:
         starts: Words,
         paid: Ints,
         below: int | None = None,
-        hopeless: Callable[[], bool] | None = None,
-    ) -> tuple[PathSearch, int | None]:
+    ) -> tuple[PackedSearch, int | None]:
         """A search from some states with what was paid so far, and the goal state that it ends in.
 
         Args:
             starts: the states.
             paid: for each of them.
             below: paths of this weight or more don't count; None: all do.
-            hopeless: asked once few states have not been enough: whether there is known to be no such path.
 
         Returns:
             The search, and the state's number in it; None: there is no way for less than ``below``.
 
         Raises:
-            TooManyStatesError: there are more than memory should hold, or weights too large to tell.
+            TooManyPackedStatesError: there are more than memory should hold, or weights too large to tell.
             LimitReachedError: the deadline came first.
         """
         most = limits().weight
-        search, found = self._searched(starts, paid, most if below is None else min(below, most), hopeless)
+        search, found = self._searched(starts, paid, most if below is None else min(below, most))
         if found is None and (below is None or below > most) and self._may_pass(most, search):
             raise SumTooLargeError("costs are too large to be added up in machine words")
         return search, found
 
-    def _may_pass(self, most: int, search: PathSearch) -> bool:
+    def _may_pass(self, most: int, search: PackedSearch) -> bool:
         """Whether anything may have been left out because it weighs more than a word should hold.
 
         A cheapest path goes through no state twice, neither here nor in the pattern of a bound.
@@ -147,40 +139,19 @@ class Problem:
         states = search.states + (0 if self._bounds is None else self._bounds.states)
         return int(self.table.weight.max(initial=0)) * states > most
 
-    def _searched(
-        self, starts: Words, paid: Ints, below: int, hopeless: Callable[[], bool] | None
-    ) -> tuple[PathSearch, int | None]:
+    def _searched(self, starts: Words, paid: Ints, below: int) -> tuple[PackedSearch, int | None]:
         if self._bounds is None and self._bounded:
-            self._bounds = self._made(starts, LITTLE)
+            self._bounds = self._made(starts, little())
         if not self._careful:
-            quick = self._search(below, limits().few_states)
+            search = self._search(below, limits().few_states)
             try:
-                quick.add(starts, paid)
-                return quick, quick.run()
-            except TooManyStatesError:
-                if hopeless is not None and hopeless():
-                    return quick, None
-                found = self._with_cuts(starts, paid, below)
-                if found is not None:
-                    return found
-                self._bounds, self._careful = self._made(starts, MUCH), True
+                search.add(starts, paid)
+                return search, search.run()
+            except TooManyPackedStatesError:
+                self._bounds, self._careful = self._made(starts, much()), True
         search = self._search(below, limits().packed_states)
         search.add(starts, paid)
         return search, search.run()
-
-    def _with_cuts(self, starts: Words, paid: Ints, below: int) -> tuple[PathSearch, int | None] | None:
-        """The search with landmarks of each state: few states, much work for each; None: too much work."""
-        asked = self.table.operators, self._facts, self._wanted
-        cuts = [LandmarkCuts(*asked, rarest=rarest) for rarest in (True, False)]
-        sets = StubbornSets(*asked) if len(self.table.operators) <= limits().stubborn_actions else None
-        part = self._deadline.part(_SHARE)
-        search = PathSearch(self.table, self.goal, self.bounds, part, below, limits().cut_states, cuts, sets)
-        try:
-            search.add(starts, paid)
-            return search, search.run()
-        except (LimitReachedError, TooManyStatesError):
-            self._deadline.check()
-            return None
 
     def least(self, start: Words, below: int | None = None) -> int | None:
         """The least weight from one state to the goal; None if there is no way for less than ``below``."""
@@ -192,13 +163,13 @@ class Problem:
         if not self._bounded:
             return np.zeros(len(states), np.int64)
         if self._bounds is None:
-            self._bounds = self._made(states, LITTLE)
+            self._bounds = self._made(states, little())
         return self._bounds(states)
 
-    def _search(self, below: int, most_states: int) -> PathSearch:
-        return PathSearch(self.table, self.goal, self.bounds, self._deadline, below, most_states)
+    def _search(self, below: int, most_states: int) -> PackedSearch:
+        return PackedSearch(self.table, self.goal, self.bounds, self._deadline, below, most_states)
 
-    def _made(self, start: Words, care: Care) -> Bounds:
+    def _made(self, start: Words, care: Care) -> PatternBounds:
         other = self._space.other_layout(self._facts)
         views = [OperatorTable(other, self.table.operators)] if other.differs(self.layout) else []
-        return Bounds(self.table, views, self._wanted, start, care, self._deadline)
+        return PatternBounds(self.table, views, self._wanted, start, care, self._deadline)

@@ -1,15 +1,15 @@
 """The game of semantics 7 for the checker: states are bit sets of the facts that matter to the goal."""
 
 from collections.abc import Iterable
-from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
 from typing import NamedTuple
 
 from serendipity.model import Condition, Deadline, GroundAction, StateDelta, Task
+from verify.base.bit_distances import BitDistances, reaches_below
+from verify.base.fact_bits import BitCondition, BitOperator, BitOperators
 from verify.base.undecided import UndecidedError
-from verify.policy.distances import Edge, GameDistances, Moves, PackedCondition, reaches_below
 
 Costs = tuple[Fraction, Fraction]
 NOTHING: Costs = (Fraction(0), Fraction(0))
@@ -61,20 +61,20 @@ class Board:
         self._relevant = _relevant(task, [*humans, *robots], deadline)
         self._human = [e for i in deadline.each(humans) if (e := self._edge(i, self._unit, 1)) is not None]
         self._robot = [e for i in deadline.each(robots) if (e := self._edge(i, 1, 0)) is not None]
-        self.goal = PackedCondition(_bits(task.goal.positive), _bits(task.goal.negative))
+        self.goal = BitCondition(_bits(task.goal.positive), _bits(task.goal.negative))
         self.start = _bits(task.init) & self._relevant
         self._replies: dict[int, tuple[Reply, ...]] = {}
         mentioned = self.goal.pre | self.goal.neg
         for edge in deadline.each(self._human):
             mentioned |= edge.pre | edge.neg | edge.add | edge.delete
         self._his = mentioned
-        self._alone = GameDistances(self._human, self.goal, _MOST_ALONE, deadline)
+        self._alone = BitDistances(self._human, self.goal, _MOST_ALONE, deadline)
         together = [
-            replace(edge, weight=edge.weight // self._unit * self._unit)
+            edge._replace(weight=edge.weight // self._unit * self._unit)
             for edge in deadline.each(self._human)
         ]
-        self._joint_moves = Moves([*together, *self._robot], deadline)
-        self._together: GameDistances | None = GameDistances(
+        self._joint_moves = BitOperators([*together, *self._robot], deadline)
+        self._together: BitDistances | None = BitDistances(
             [*together, *self._robot], self.goal, _MOST_TOGETHER, deadline
         )
         changed = 0
@@ -86,8 +86,8 @@ class Board:
             his_changes |= edge.add | edge.delete
         self.replies_are_dear = bool(changed & mentioned & ~his_changes)
         private = [_within(edge, self._his_only) for edge in deadline.each(together)]
-        goal = PackedCondition(self.goal.pre & self._his_only, self.goal.neg & self._his_only)
-        self._private: GameDistances | None = GameDistances(private, goal, _MOST_PRIVATE, deadline)
+        goal = BitCondition(self.goal.pre & self._his_only, self.goal.neg & self._his_only)
+        self._private: BitDistances | None = BitDistances(private, goal, _MOST_PRIVATE, deadline)
         self._ids = {name: i for i, name in enumerate(task.facts)}
 
     def _of(self, agent: int) -> list[int]:
@@ -181,7 +181,7 @@ class Board:
         found = [(Fraction(0), state, "noop")]
         for edge in self.deadline.each(self._robot):
             if edge.applicable(state):
-                action = self.task.actions[edge.action]
+                action = self.task.actions[edge.label]
                 found.append((action.cost, edge.after(state), action.name))
         return found
 
@@ -217,7 +217,7 @@ class Board:
             if edge.applicable(state):
                 after = edge.after(state)
                 rest = self._key(after)
-                action = self.task.actions[edge.action]
+                action = self.task.actions[edge.label]
                 if rest is not None and rest + edge.weight == key and (action.name, after) not in seen:
                     seen.add((action.name, after))
                     found.append(Reply(action.cost, after, action.name))
@@ -231,20 +231,20 @@ class Board:
         prime, supporter = divmod(together, self._unit)
         return Fraction(prime, self._scale), Fraction(supporter, self._scale)
 
-    def _edge(self, i: int, unit: int, length: int) -> Edge | None:
+    def _edge(self, i: int, unit: int, length: int) -> BitOperator | None:
         """An action as an edge; None where it changes nothing that matters."""
         action: GroundAction = self.task.actions[i]
         add, delete = _bits(action.add) & self._relevant, _bits(action.delete) & self._relevant
         if not add and not delete:
             return None
         weight = int(action.cost * self._scale) * unit + length
-        return Edge(_bits(action.pre), _bits(action.neg), add, delete, weight, i)
+        return BitOperator(_bits(action.pre), _bits(action.neg), add, delete, weight, i)
 
 
-def _within(edge: Edge, facts: int) -> Edge:
+def _within(edge: BitOperator, facts: int) -> BitOperator:
     """An edge as seen through some of the facts."""
     pre, neg, add, delete = (mask & facts for mask in (edge.pre, edge.neg, edge.add, edge.delete))
-    return Edge(pre, neg, add, delete, edge.weight, edge.action)
+    return BitOperator(pre, neg, add, delete, edge.weight, edge.label)
 
 
 def _bits(facts: Iterable[int]) -> int:

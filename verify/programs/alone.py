@@ -29,7 +29,7 @@ def least_alone(task: Task, options: Options, effort: Effort) -> Fraction | None
         UndecidedError: neither was proved, or the proof is of something else.
         LimitReachedError: the deadline came first.
     """
-    effort.attempts.append(Attempt("program", decided=True))
+    effort.attempts.append(Attempt("programs", decided=True))
     with during("writing a program for what the human can do alone"):
         program = _Alone(task, options, effort)
     units = program.read(effort.proof) if isinstance(effort.proof, ProofReader) else program.solve()

@@ -6,7 +6,7 @@ from typing import Final, NamedTuple, Protocol
 
 from serendipity.model import Deadline, Step, UsageError, Window
 from verify.base.execution import State
-from verify.base.subproblem import Solution, Subproblem
+from verify.base.subproblem import PricedPlan, Subproblem
 from verify.base.undecided import UndecidedError
 from verify.programs.automata import AutomataEncoding
 from verify.programs.paper import PaperEncoding
@@ -69,20 +69,23 @@ class Attempt:
     """What one method made of a question.
 
     Attributes:
-        method: ``program`` or ``exhaustive``.
+        name: of the method (``verify.calls.methods``).
         decided: whether that was the answer.
         states: how many an exhaustive search looked at.
         paths: joint states in the search of what pruning leaves of a program, where that decided.
-        landmarks: rows of them, where numbers of actions decided.
-        apart: whether robots were looked at one by one.
+        seconds: what it took.
     """
 
-    method: str
+    name: str
     decided: bool
     states: int = 0
     paths: int = 0
-    landmarks: int = 0
-    apart: bool = False
+    seconds: float = 0.0
+
+    @property
+    def method(self) -> str:
+        """``program`` or ``exhaustive``: what a claim says of it."""
+        return "program" if self.name == "programs" else "exhaustive"
 
 
 class NoProgramError(UsageError):
@@ -181,16 +184,18 @@ class Minimum:
         found: the best plan, or for ``undecided`` some plan, if any.
         bound: proved lower bound on the objective in units, or None.
         reason: why it is undecided.
-        states: how many were looked at, where that is not noted as an :class:`Attempt`.
+        states: how many an exhaustive search looked at.
+        paths: as :class:`Attempt` has them.
     """
 
     status: str
-    found: Solution | None = None
+    found: PricedPlan | None = None
     bound: int | None = None
     reason: str = ""
     states: int = 0
+    paths: int = 0
 
-    def settled(self) -> Solution | None:
+    def settled(self) -> PricedPlan | None:
         """Some plan, best or not; None: there is provably none.
 
         Raises:

@@ -3,7 +3,7 @@
 from serendipity.model import Step, Window
 from verify.base.execution import State, by_epoch, states_along
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import WINDOW, Solution, Subproblem
+from verify.base.subproblem import PricedPlan, Subproblem
 
 
 def replay(question: Subproblem, steps: tuple[Step, ...]) -> list[State] | None:
@@ -20,28 +20,22 @@ def goals_hold(question: Subproblem, state: State) -> bool:
     return task.goal.holds(state) and (not question.robots_goal or task.robot_goal.holds(state))
 
 
-def replans(question: Subproblem) -> bool:
-    """Whether suffixes have to be optimal plans of the human's own (Def. 2.0a)."""
-    options = question.options
-    return question.rule == WINDOW and options.suffix == "replan" and options.preservation == "kernel"
-
-
 def mended(
     question: Subproblem,
     steps: tuple[Step, ...],
     window: Window | None,
     states: list[State],
     plans: OptimalPlans,
-) -> Solution | None:
+) -> PricedPlan | None:
     """The plan with an optimal suffix: its own, or another one; None if no optimal suffix fits."""
-    if not replans(question) or window is None or window.end > question.horizon:
-        return Solution(steps, window, *question.measure(steps, window))
+    if not question.replans or window is None or window.end > question.horizon:
+        return PricedPlan(steps, window, *question.measure(steps, window))
     suffix = best_suffix(question, states[window.end - 1], window.end, plans)
     if suffix is None:
         return None
     head = tuple(step for step in steps if step.epoch < window.end)
     tail = tuple(Step(window.end + k, i) for k, i in enumerate(suffix))
-    found = Solution(head + tail, window, *question.measure(head + tail, window))
+    found = PricedPlan(head + tail, window, *question.measure(head + tail, window))
     return found if question.most is None or found.objective <= question.most else None
 
 

@@ -6,22 +6,19 @@ learns what suffixes from that state cost (or that there is none) and is solved 
 """
 
 from dataclasses import replace
-from typing import Final
 
 from serendipity.model import LimitReachedError
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import WINDOW, Solution, Subproblem
+from verify.base.subproblem import WINDOW, PricedPlan, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
+from verify.limits import limits, uses
 from verify.programs import recorded
 from verify.programs.automata import AutomataEncoding
-from verify.programs.effort import Attempt, Effort, Minimum, ProgramEncoding
+from verify.programs.effort import Effort, Minimum, ProgramEncoding
 from verify.programs.joint import JointLayers, JointPathsError
 from verify.programs.mending import goals_hold, mended, replay, suffix_least
 from verify.proofs.book import ProofReader, ProofWriter
 from verify.solvers.mip import SolverOutcome
-
-_SHARE: Final = 0.5
-"""What of the time that is left the search of joint paths may take before a program is written."""
 
 
 def minimise(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
@@ -35,7 +32,6 @@ def minimise(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minim
     if question.horizon == 0:
         return _without_epochs(question, effort)
     if isinstance(effort.proof, ProofReader):
-        effort.attempts.append(Attempt("program", decided=True))
         return recorded.read(effort.proof, question, effort.encode, plans)
     asked = question.but(most=None) if effort.method == "program" else question
     rounds = _Rounds(asked, effort, plans)
@@ -45,9 +41,7 @@ def minimise(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minim
             rounds.write(effort.proof, question, minimum)
     except UNDECIDED as error:
         minimum = _within(question.most, Minimum("undecided", rounds.best, rounds.bound, why(error)))
-    decided = minimum.status != "undecided"
-    effort.attempts.append(Attempt("program", decided, paths=rounds.paths if decided else 0))
-    return minimum
+    return replace(minimum, paths=0 if minimum.status == "undecided" else rounds.paths)
 
 
 def _without_epochs(question: Subproblem, effort: Effort) -> Minimum:
@@ -83,7 +77,7 @@ class _Rounds:
         self._cuts: dict[recorded.Cut, None] = {}
         self._encoding: ProgramEncoding | None = None
         self._values: tuple[int, ...] = ()
-        self.best: Solution | None = None
+        self.best: PricedPlan | None = None
         self.bound: int | None = None
         self.paths = 0
 
@@ -101,6 +95,8 @@ class _Rounds:
         if minimum is not None:
             return minimum
         while encoding.model is not None:
+            if self._effort.method == "auto" and not uses("solver"):
+                raise UndecidedError("the solver is left out")
             outcome = self._effort.solve(encoding.model)
             self._values = outcome.values or ()
             if outcome.status == "infeasible" or self._is_best(encoding, outcome):
@@ -114,11 +110,10 @@ class _Rounds:
         all, there is no plan either, and a path counts if it is a plan.
         """
         setting = encoding.setting if isinstance(encoding, AutomataEncoding) else None
-        if self._effort.method != "auto" or setting is None:
+        if self._effort.method != "auto" or setting is None or not uses("joint-paths"):
             return None
         question, deadline = self._question, self._effort.deadline
-        left = deadline.left()
-        share = deadline if left is None else deadline.within(left * _SHARE)
+        share = deadline.part(limits().joint_share)
         try:
             with during("searching joint paths through the agents' automata"):
                 layers = JointLayers(question, setting, share)
@@ -191,7 +186,7 @@ def _whole(bound: float | None, known: int | None) -> int | None:
     return up if known is None else max(up, known)
 
 
-def _better(a: Solution | None, b: Solution | None) -> Solution | None:
+def _better(a: PricedPlan | None, b: PricedPlan | None) -> PricedPlan | None:
     if a is None or b is None:
         return a or b
     return min(a, b, key=lambda found: (found.objective, found.cost))
@@ -202,4 +197,4 @@ def _nothing_to_do(question: Subproblem) -> Minimum:
     goals = goals_hold(question, question.task.init)
     if not goals or question.rule == WINDOW or (question.most or 0) < 0 or (question.most_cost or 0) < 0:
         return Minimum("none")
-    return Minimum("found", Solution((), None, 0, 0), 0)
+    return Minimum("found", PricedPlan((), None, 0, 0), 0)

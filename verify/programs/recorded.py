@@ -6,7 +6,7 @@ from typing import Any, Final
 from serendipity.model import Deadline
 from verify.base.execution import State
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import ALONE, EXACT, FREE, WINDOW, Solution, Subproblem
+from verify.base.subproblem import ALONE, EXACT, FREE, WINDOW, PricedPlan, Subproblem
 from verify.base.undecided import UndecidedError, during
 from verify.programs.effort import Minimum, ProgramEncoding
 from verify.programs.mending import goals_hold, mended, replay, suffix_least
@@ -146,7 +146,7 @@ def without_epochs(question: Subproblem) -> Model:
     return model
 
 
-def _answered(entry: Entry, question: Subproblem, found: Solution | None) -> Minimum:
+def _answered(entry: Entry, question: Subproblem, found: PricedPlan | None) -> Minimum:
     """What is proved where an entry's limit is refuted."""
     name, limit = entry["name"], entry["limit"]
     if found is not None:
@@ -160,7 +160,7 @@ def _answered(entry: Entry, question: Subproblem, found: Solution | None) -> Min
 
 def _found(
     entry: Entry, question: Subproblem, encoding: ProgramEncoding, plans: OptimalPlans
-) -> Solution | None:
+) -> PricedPlan | None:
     """The plan that an entry's solution stands for."""
     assert encoding.model is not None
     values = [0] * len(encoding.model.upper)

@@ -12,7 +12,7 @@ from verify.base.individual import IndividualOptimum
 from verify.rules.replay import Replay, replay, replay_human
 
 
-class Found(NamedTuple):
+class RuleFault(NamedTuple):
     """What a rule found wrong; the registry adds the rule's name, claim and section."""
 
     message: str

@@ -3,37 +3,37 @@
 from fractions import Fraction
 
 from serendipity.model.numbers import agrees, as_written, excess
-from verify.rules.case import Case, Found
+from verify.rules.case import Case, RuleFault
 
 
-def human_cost(case: Case) -> Found | None:
+def human_cost(case: Case) -> RuleFault | None:
     """The reported cost of ``pi_H`` is the sum of its actions' costs."""
     return _differs("human_cost", case.result.human_cost, case.human_cost)
 
 
-def step_cost(case: Case) -> Found | None:
+def step_cost(case: Case) -> RuleFault | None:
     """Each step costs what its action costs the team: discounted without the human."""
     steps = sorted(case.result.plan or (), key=lambda step: step.epoch)
     for step, (_, i) in zip(steps, case.steps(), strict=True):
         if not agrees(step.cost, case.price(i)):
             message = f"costs {float(case.price(i)):g}, the result says {step.cost:g}"
-            return Found(message, step.epoch, step.action)
+            return RuleFault(message, step.epoch, step.action)
     return None
 
 
-def total_cost(case: Case) -> Found | None:
+def total_cost(case: Case) -> RuleFault | None:
     """The cost is the sum of the actions' costs; a joint action counts once."""
     return None if case.result.plan is None else _differs("cost", case.result.cost, case.cost)
 
 
-def agent_costs(case: Case) -> Found | None:
+def agent_costs(case: Case) -> RuleFault | None:
     """A joint action's cost is shared equally among its participants."""
     if case.result.plan is None:
         return None
     paid = case.shares
     for name in case.result.agent_costs:
         if name not in paid:
-            return Found(f"agent_costs: there is no agent {name:.50}")
+            return RuleFault(f"agent_costs: there is no agent {name:.50}")
     for name, share in paid.items():
         found = _differs(f"agent_costs of {name}", case.result.agent_costs.get(name), share)
         if found is not None:
@@ -41,7 +41,7 @@ def agent_costs(case: Case) -> Found | None:
     return None
 
 
-def objective(case: Case) -> Found | None:
+def objective(case: Case) -> RuleFault | None:
     """Cost plus ``K`` for each epoch of the window plus communication."""
     if case.result.plan is None:
         return None
@@ -52,7 +52,7 @@ def objective(case: Case) -> Found | None:
     return _differs("objective", case.result.objective, expected)
 
 
-def most_cost(case: Case) -> Found | None:
+def most_cost(case: Case) -> RuleFault | None:
     """No plan but ``pi_H`` costs more than ``max_cost`` (eq. 11)."""
     limit = case.result.options.max_cost
     if (
@@ -65,14 +65,14 @@ def most_cost(case: Case) -> Found | None:
         limit = _baseline(case)
     if limit is None or case.cost <= Fraction(limit):
         return None
-    return Found(f"the plan costs {float(case.cost):g}, max_cost is {float(limit):g}")
+    return RuleFault(f"the plan costs {float(case.cost):g}, max_cost is {float(limit):g}")
 
 
-def saving(case: Case) -> Found | None:
+def saving(case: Case) -> RuleFault | None:
     """What the answer costs less than doing nothing; none without ``pi_H``."""
     result = case.result
     if case.human_plan is None:
-        return None if result.saving is None else Found("a saving without pi_H")
+        return None if result.saving is None else RuleFault("a saving without pi_H")
     if result.plan is None:
         return None
     if not result.opportunity:
@@ -83,50 +83,52 @@ def saving(case: Case) -> Found | None:
     return _differs("saving", result.saving, _sure(case.human_cost) - case.cost)
 
 
-def saving_alone(case: Case) -> Found | None:
+def saving_alone(case: Case) -> RuleFault | None:
     """What the human gains without robots: nothing if ``pi_H`` is optimal, never more than it is off."""
     said = case.result.saving_alone
     if not said:
         return None  # nothing is claimed; ``None`` and 0 are the same
     if case.human_plan is None or case.robots_goal:
-        return Found("a saving alone, though there is nothing to compare it with")
+        return RuleFault("a saving alone, though there is nothing to compare it with")
     optimum = case.alone.optimum(case.task.init)
     most = _sure(case.human_cost) - (optimum[0] if optimum else Fraction(0))
     if said > 0 and excess(said, most) <= 0:
         return None
-    return Found(f"saving_alone is {said:g}, pi_H costs only {float(most):g} more than an optimal plan")
+    return RuleFault(f"saving_alone is {said:g}, pi_H costs only {float(most):g} more than an optimal plan")
 
 
-def opportunity(case: Case) -> Found | None:
+def opportunity(case: Case) -> RuleFault | None:
     """An opportunity costs less than doing without robots; one acts if ``pi_H`` is not optimal."""
     result = case.result
     if result.plan is None:
         return None
     if case.human_plan is None:
-        return Found("an opportunity, though there is no pi_H to improve") if result.opportunity else None
+        return RuleFault("an opportunity, though there is no pi_H to improve") if result.opportunity else None
     baseline = _baseline(case)
     without = None if baseline is None else baseline - as_written(result.saving_alone or 0)
     if result.opportunity:
         helped = any(not case.own(i) for _, i in case.steps())
         if not helped and case.improvable:
-            return Found("an opportunity in which no robot acts")
+            return RuleFault("an opportunity in which no robot acts")
         if without is not None and case.cost >= without:
-            return Found(f"an opportunity that costs {float(case.cost):g}; without robots {float(without):g}")
+            return RuleFault(
+                f"an opportunity that costs {float(case.cost):g}; without robots {float(without):g}"
+            )
     elif without is not None and result.saving_alone is not None and case.cost < without:
-        return Found(
+        return RuleFault(
             f"the answer costs {float(case.cost):g}, without robots {float(without):g}: an opportunity"
         )
     return None
 
 
-def _saving_with_robots_goal(case: Case) -> Found | None:
+def _saving_with_robots_goal(case: Case) -> RuleFault | None:
     """The baseline is unknown here, but it costs no less than ``pi_H``; None: there is none."""
     said = case.result.saving
     if said is None:
         return None
     least = _sure(case.human_cost) - case.cost
     if said <= 0 or excess(said, least) < 0:
-        return Found(
+        return RuleFault(
             f"saving is {said:g}, but doing nothing costs at least {float(_sure(case.human_cost)):g}"
         )
     return None
@@ -144,8 +146,8 @@ def _sure(cost: Fraction | None) -> Fraction:
     return cost
 
 
-def _differs(name: str, said: float | None, expected: Fraction | None) -> Found | None:
+def _differs(name: str, said: float | None, expected: Fraction | None) -> RuleFault | None:
     if agrees(said, expected):
         return None
     right = "absent" if expected is None else f"{float(expected):.12g}"
-    return Found(f"{name} is {right}, the result says {'nothing' if said is None else f'{said:.12g}'}")
+    return RuleFault(f"{name} is {right}, the result says {'nothing' if said is None else f'{said:.12g}'}")

@@ -2,52 +2,52 @@
 
 from collections.abc import Callable
 
-from verify.rules.case import Case, Found
+from verify.rules.case import Case, RuleFault
 
-Rule = Callable[[Case], Found | None]
+Rule = Callable[[Case], RuleFault | None]
 
 
 def faultless(rule: str) -> Rule:
     """The rule that the replay met no fault of a kind."""
 
-    def check(case: Case) -> Found | None:
+    def check(case: Case) -> RuleFault | None:
         fault = case.replay.fault
         if fault is None or fault.rule != rule:
             return None
-        return Found(fault.message, fault.epoch, fault.action)
+        return RuleFault(fault.message, fault.epoch, fault.action)
 
     check.__doc__ = f"No step of the plan breaks '{rule}'."
     return check
 
 
-def epoch_range(case: Case) -> Found | None:
+def epoch_range(case: Case) -> RuleFault | None:
     """Epochs run from 1 to ``T``."""
     for step in case.result.plan or ():
         if step.epoch < 1 or (case.epochs is not None and step.epoch > case.epochs):
-            return Found(f"epochs run from 1 to {case.result.horizon}", step.epoch, step.action)
+            return RuleFault(f"epochs run from 1 to {case.result.horizon}", step.epoch, step.action)
     return None
 
 
-def human_goal(case: Case) -> Found | None:
+def human_goal(case: Case) -> RuleFault | None:
     """``G_H`` holds in the last state."""
     if case.result.plan is None or case.task.goal.holds(case.replay.last):
         return None
-    return Found(f"the human's goal does not hold at the end: {_unmet(case, robots=False)}")
+    return RuleFault(f"the human's goal does not hold at the end: {_unmet(case, robots=False)}")
 
 
-def robots_goal(case: Case) -> Found | None:
+def robots_goal(case: Case) -> RuleFault | None:
     """``G_R`` holds in the last state; since robots then rest, they are done before ``xi2``."""
     if case.result.plan is None or not case.robots_goal or case.task.robot_goal.holds(case.replay.last):
         return None
-    return Found(f"the robots' goal does not hold at the end: {_unmet(case, robots=True)}")
+    return RuleFault(f"the robots' goal does not hold at the end: {_unmet(case, robots=True)}")
 
 
-def individual(case: Case) -> Found | None:
+def individual(case: Case) -> RuleFault | None:
     """In mode ``individual`` nobody but the human acts."""
     if case.result.mode == "individual":
         for epoch, i in case.steps():
             if not case.own(i):
-                return Found("not an action of the human alone", epoch, case.name(i))
+                return RuleFault("not an action of the human alone", epoch, case.name(i))
     return None
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from verify.rules import bound, cost, execution, header, tied, window
-from verify.rules.case import Case, Found
+from verify.rules.case import Case, RuleFault
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +15,7 @@ class NamedRule:
     name: str
     claim: str
     section: str
-    check: Callable[[Case], Found | None]
+    check: Callable[[Case], RuleFault | None]
 
 
 RULES: Final[tuple[NamedRule, ...]] = (

@@ -3,22 +3,22 @@
 from collections.abc import Iterable
 
 from verify.base.execution import facts_of_his, states_of_pi_h
-from verify.rules.case import Case, Found
+from verify.rules.case import Case, RuleFault
 
 
-def window_presence(case: Case) -> Found | None:
+def window_presence(case: Case) -> RuleFault | None:
     """Only windowed modes have windows; an opportunity there needs one, no opportunity has none."""
     result = case.result
     if not result.options.windowed:
-        return None if result.window is None else Found(f"mode {result.mode} has no windows")
+        return None if result.window is None else RuleFault(f"mode {result.mode} has no windows")
     if result.opportunity and result.window is None and result.plan is not None:
-        return Found("an opportunity without a window")
+        return RuleFault("an opportunity without a window")
     if not result.opportunity and result.window is not None:
-        return Found("a window without an opportunity")
+        return RuleFault("a window without an opportunity")
     return None
 
 
-def idle_answer(case: Case) -> Found | None:
+def idle_answer(case: Case) -> RuleFault | None:
     """Without an opportunity the human executes ``pi_H``; robots idle, or pursue ``G_R`` without the human.
 
     Modes without windows answer with their optimum, whether it is an opportunity or not.
@@ -29,31 +29,31 @@ def idle_answer(case: Case) -> Found | None:
     if not case.robots_goal:
         for epoch, i in case.steps():
             if not case.own(i):
-                return Found("robots idle where there is no opportunity", epoch, case.name(i))
+                return RuleFault("robots idle where there is no opportunity", epoch, case.name(i))
     return _follows(case, last=max((*case.replay.sets, len(case.pi_h))))
 
 
-def window_range(case: Case) -> Found | None:
+def window_range(case: Case) -> RuleFault | None:
     """``1 <= xi1 <= |pi_H|`` and ``xi1 < xi2 <= T + 1``."""
     window = case.result.window
     if window is None:
         return None
     if window.start > len(case.pi_h):
-        return Found(f"the window starts at {window.start}, after pi_H with its {len(case.pi_h)} actions")
+        return RuleFault(f"the window starts at {window.start}, after pi_H with its {len(case.pi_h)} actions")
     if case.epochs is not None and window.end > case.epochs + 1:
-        return Found(f"the window ends at {window.end}, later than T + 1 = {case.epochs + 1}")
+        return RuleFault(f"the window ends at {window.end}, later than T + 1 = {case.epochs + 1}")
     return None
 
 
-def window_length(case: Case) -> Found | None:
+def window_length(case: Case) -> RuleFault | None:
     """No window is longer than ``max_window``."""
     window, most = case.result.window, case.result.options.max_window
     if window is None or most is None or len(window) <= most:
         return None
-    return Found(f"the window has {len(window)} epochs, max_window is {most}")
+    return RuleFault(f"the window has {len(window)} epochs, max_window is {most}")
 
 
-def prefix(case: Case) -> Found | None:
+def prefix(case: Case) -> RuleFault | None:
     """Before ``xi1`` the human follows ``pi_H`` (Def. 3.0), or does its actions (second 7b)."""
     window = case.result.window
     if window is None:
@@ -62,33 +62,35 @@ def prefix(case: Case) -> Found | None:
         return _follows(case, last=window.start - 1)
     for epoch, i in _between(case, 1, window.start):
         if case.own(i) and not case.planned(i):
-            return Found("before the window the human does actions of pi_H only", epoch, case.name(i))
+            return RuleFault("before the window the human does actions of pi_H only", epoch, case.name(i))
     return None
 
 
-def joint_in_prefix(case: Case) -> Found | None:
+def joint_in_prefix(case: Case) -> RuleFault | None:
     """Before ``xi1`` there is no joint action with the human."""
     window = case.result.window
     if window is None:
         return None
     for epoch, i in _between(case, 1, window.start):
         if case.his(i) and not case.own(i):
-            return Found(f"a joint action with the human before xi1 = {window.start}", epoch, case.name(i))
+            return RuleFault(
+                f"a joint action with the human before xi1 = {window.start}", epoch, case.name(i)
+            )
     return None
 
 
-def robot_in_suffix(case: Case) -> Found | None:
+def robot_in_suffix(case: Case) -> RuleFault | None:
     """From ``xi2`` on no robot takes part in any action (eq. 8)."""
     window = case.result.window
     if window is None:
         return None
     for epoch, i in _between(case, window.end, None):
         if not case.own(i):
-            return Found(f"a robot acts although the window ended at {window.end}", epoch, case.name(i))
+            return RuleFault(f"a robot acts although the window ended at {window.end}", epoch, case.name(i))
     return None
 
 
-def suffix_replan(case: Case) -> Found | None:
+def suffix_replan(case: Case) -> RuleFault | None:
     """Def. 2.0a: the human goes on with an optimal plan of their own, and waits only after its end."""
     window, options = case.result.window, case.result.options
     if window is None or options.suffix != "replan" or options.preservation != "kernel":
@@ -96,19 +98,19 @@ def suffix_replan(case: Case) -> Found | None:
     rest = list(_between(case, window.end, None))
     for expected, (epoch, i) in enumerate(rest, start=window.end):
         if epoch != expected:
-            return Found(f"the human waits in epoch {expected} before all is done", epoch, case.name(i))
+            return RuleFault(f"the human waits in epoch {expected} before all is done", epoch, case.name(i))
     optimum = case.alone.optimum(case.replay.state_after(window.end - 1))
     done = (sum(case.task.actions[i].cost for _, i in rest), len(rest))
     if optimum is None or done <= optimum:
         return None
-    return Found(
+    return RuleFault(
         f"from epoch {window.end} the human spends {float(done[0]):g} in {done[1]} actions; "
         f"alone it takes {float(optimum[0]):g} in {optimum[1]}",
         window.end,
     )
 
 
-def suffix_subplan(case: Case) -> Found | None:
+def suffix_subplan(case: Case) -> RuleFault | None:
     """Def. 2.0, eq. 9: the suffix is a subsequence of ``pi_H``."""
     window, options = case.result.window, case.result.options
     if window is None or options.suffix != "subplan" or options.preservation != "kernel":
@@ -116,11 +118,11 @@ def suffix_subplan(case: Case) -> Found | None:
     planned = iter(case.pi_h)
     for epoch, i in _between(case, window.end, None):
         if i not in planned:  # consumes the iterator: order and repetition count
-            return Found("not a subsequence of pi_H", epoch, case.name(i))
+            return RuleFault("not a subsequence of pi_H", epoch, case.name(i))
     return None
 
 
-def preserved_state(case: Case) -> Found | None:
+def preserved_state(case: Case) -> RuleFault | None:
     """Def. 3.1 read literally: the state entails ``delta(I, pi_H[1..j])``, then ``pi_H[j+1..]``."""
     window, options = case.result.window, case.result.options
     if window is None or options.preservation != "state":
@@ -129,17 +131,19 @@ def preserved_state(case: Case) -> Found | None:
     j = len(case.pi_h) - len(rest)
     names = [case.task.actions[i].name for i in (*case.pi_h[max(j, 0) :], *rest)]  # in whichever variant
     if j < window.start - 1 or names[: len(rest)] != names[len(rest) :]:
-        return Found(f"from epoch {window.end} the human does not do an end of pi_H", window.end)
+        return RuleFault(f"from epoch {window.end} the human does not do an end of pi_H", window.end)
     deadline = case.alone.deadline
     expected = states_of_pi_h(case.task, case.pi_h[:j], deadline)[-1] & facts_of_his(case.task, deadline)
     missing = expected - case.replay.state_after(window.end - 1)
     if not missing:
         return None
     fact = case.task.facts[min(missing)]
-    return Found(f"the state before epoch {window.end} lacks '{fact}', true after pi_H[1..{j}]", window.end)
+    return RuleFault(
+        f"the state before epoch {window.end} lacks '{fact}', true after pi_H[1..{j}]", window.end
+    )
 
 
-def _follows(case: Case, *, last: int) -> Found | None:
+def _follows(case: Case, *, last: int) -> RuleFault | None:
     """Whether the human executes exactly ``pi_H[t]`` in each epoch up to ``last``."""
     does = case.human_does()
     for epoch in case.alone.deadline.each(range(1, last + 1)):
@@ -149,7 +153,7 @@ def _follows(case: Case, *, last: int) -> Found | None:
             continue  # the rule on joint actions names it
         if done != planned:
             expected = "nothing" if planned is None else f"'{case.name(planned)}'"
-            return Found(
+            return RuleFault(
                 f"the human should do {expected}", epoch, "noop" if done is None else case.name(done)
             )
     return None

@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import Final
 
 from serendipity.model import Deadline
-from verify.solvers.model import Answer, Model
+from verify.solvers.model import Model, SolverAnswer
 from verify.solvers.process import run, seconds_for
 
 _SENSES: Final = {"<=": "L", ">=": "G", "==": "E"}
@@ -23,7 +23,7 @@ _OPTIONS: Final = ("-timeMode", "elapsed", "-ratio", "0", "-allow", "0.5", "-thr
 """The objective is integral, so that a gap below one half is none; the seed is fixed unless one is given."""
 
 
-def minimise(model: Model, deadline: Deadline) -> Answer:
+def minimise(model: Model, deadline: Deadline) -> SolverAnswer:
     """Minimise with one thread.
 
     Raises:
@@ -38,7 +38,7 @@ def minimise(model: Model, deadline: Deadline) -> Answer:
         command = [_binary(), str(program), *limit, *_OPTIONS, "-printingOptions", "all", "-solution"]
         code = run([*command, str(solution)], deadline)
         if code or not solution.exists():
-            return Answer(f"CBC ended with exit status {code}")
+            return SolverAnswer(f"CBC ended with exit status {code}")
         with solution.open(encoding="ascii") as lines:
             return _read(deadline.each(lines), len(model.upper))
 
@@ -76,16 +76,16 @@ def _mps(model: Model, deadline: Deadline) -> Iterator[str]:
     yield "ENDATA\n"
 
 
-def _read(lines: Iterable[str], columns: int) -> Answer:
+def _read(lines: Iterable[str], columns: int) -> SolverAnswer:
     """A limit that leaves a solution says its objective at once: ``Stopped on time - objective value 5``."""
     rows = iter(lines)
     said = next(rows, "").split()
     status = next((s for words, s in _STATUS.items() if tuple(said[: len(words)]) == words), "CBC: no answer")
     if status == "infeasible" or (status != "optimal" and said[3:5] != ["-", "objective"]):
-        return Answer(status)
+        return SolverAnswer(status)
     values = [0.0] * columns
     for row in rows:
         name, value = row.replace("**", "").split()[1:3]
         if name.startswith("X"):
             values[int(name[1:])] = float(value)
-    return Answer(status, values)
+    return SolverAnswer(status, values)

@@ -14,40 +14,34 @@ from time import time
 from typing import Final
 
 from serendipity.model import Deadline, LimitReachedError
+from verify.limits import limits
 from verify.solvers import worker
-from verify.solvers.model import Answer, Model
+from verify.solvers.model import Model, SolverAnswer
 from verify.solvers.process import run, seconds_for
-
-_SMALL: Final = 15_000
-"""Coefficients up to which HiGHS overruns its limit by some 20 ms at most."""
-
-_MOMENT: Final = 0.25
-"""Seconds for which it may work here, and about what it takes to start a process."""
-
-_SHORT: Final = 4 * _MOMENT
-"""Seconds of a limit that is too short for trying both."""
 
 _UNENDING: Final = 1e9
 
 
-def minimise(model: Model, deadline: Deadline) -> Answer:
+def minimise(model: Model, deadline: Deadline) -> SolverAnswer:
     """Minimise with one thread and a fixed seed.
 
     Raises:
         LimitReachedError: the deadline came before HiGHS was asked.
     """
     program = tables(model, deadline)
-    if len(model.index) <= _SMALL:
-        left = deadline.left()
-        short = left is not None and left < _SHORT
-        end = _end(deadline) if short else time() + _MOMENT
-        answer = Answer(**worker.minimise(program, end, presolve=False))  # nothing to trust but the solver
+    if len(model.index) <= limits().solved_here:
+        left, seconds = deadline.left(), limits().solver_seconds
+        short = left is not None and left < 4 * seconds  # too short for trying both
+        end = _end(deadline) if short else time() + seconds
+        answer = SolverAnswer(
+            **worker.minimise(program, end, presolve=False)
+        )  # nothing to trust but the solver
         if short or answer.status != "time-limit":
             return answer
     return _apart(program, deadline, presolve=model.presolve)
 
 
-def _apart(program: worker.Tables, deadline: Deadline, *, presolve: bool) -> Answer:
+def _apart(program: worker.Tables, deadline: Deadline, *, presolve: bool) -> SolverAnswer:
     """HiGHS in a process; where it is killed, the last bound that it has told is known."""
     with TemporaryFile() as question, TemporaryFile() as said:
         for table in program:
@@ -57,9 +51,9 @@ def _apart(program: worker.Tables, deadline: Deadline, *, presolve: bool) -> Ans
         command = [sys.executable, "-P", worker.__file__, repr(_end(deadline)), str(presolve)]
         try:
             code = run(command, deadline, stdin=question, stdout=said)
-            answer = Answer(f"HiGHS ended with exit status {code}")
+            answer = SolverAnswer(f"HiGHS ended with exit status {code}")
         except LimitReachedError as limit:
-            answer = Answer(limit.reason)
+            answer = SolverAnswer(limit.reason)
         said.seek(0)
         for line in said:
             if line.endswith(b"\n"):

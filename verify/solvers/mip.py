@@ -27,7 +27,7 @@ from serendipity.model import Deadline, LimitReachedError, UsageError
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.limits import limits
 from verify.solvers import cbc, highs
-from verify.solvers.model import Answer, Model, Row, Terms, largest
+from verify.solvers.model import Model, ModelRow, SolverAnswer, Terms, largest
 
 SOLVERS: Final = ("highs", "cbc")
 """Names of the solvers; the first is the default, the other the cross-check."""
@@ -116,7 +116,7 @@ def _true(head: tuple[str, int]) -> bool:
     return {"<=": right >= 0, ">=": right <= 0, "==": right == 0}[sense]
 
 
-def _outcome(answer: Answer, model: Model, deadline: Deadline) -> SolverOutcome:
+def _outcome(answer: SolverAnswer, model: Model, deadline: Deadline) -> SolverOutcome:
     if answer.status == "infeasible":
         return SolverOutcome("infeasible")
     try:
@@ -149,7 +149,7 @@ def _rounded(values: Sequence[float], integral: Sequence[bool], deadline: Deadli
 __all__ = [
     "SOLVERS",
     "Model",
-    "Row",
+    "ModelRow",
     "SolverOutcome",
     "Terms",
     "optimise",

@@ -17,7 +17,7 @@ Terms = Mapping[int, int]
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class ModelRow:
     """One linear constraint ``terms sense right``."""
 
     terms: Terms
@@ -93,12 +93,12 @@ class Model:
         self.families.append(self.family)
 
     @property
-    def rows(self) -> Iterator[Row]:
+    def rows(self) -> Iterator[ModelRow]:
         """The rows, one by one."""
         start = 0
         for end, (sense, right) in zip(self.ends, self.heads, strict=True):
             terms = dict(zip(self.index[start:end], self.coefficients[start:end], strict=True))
-            yield Row(terms, sense, right)
+            yield ModelRow(terms, sense, right)
             start = end
 
     @property
@@ -113,7 +113,7 @@ def largest(model: Model, deadline: Deadline) -> int:
     return max(map(abs, deadline.each(chain(*numbers))), default=0)
 
 
-class Answer(NamedTuple):
+class SolverAnswer(NamedTuple):
     """What a solver says, in its own figures.
 
     Attributes:

@@ -15,8 +15,9 @@ from serendipity.facade.proofs import check_proof
 from serendipity.model import InputError, SerendipityError, UsageError
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
+from verify.calls.methods import NAMES
 from verify.certificate.certify import certify
-from verify.limits import Limits, limited
+from verify.limits import VerifierLimits, limited
 
 FALSE_CERTIFICATES: Final = "false-certificates"
 """What this judge is called."""
@@ -45,7 +46,7 @@ class Way:
     Attributes:
         method: of ``verify``; or ``proof``: the proof of what it was made from is checked against it.
         encoding: of ``verify``.
-        sizes: what is large for the verifier; defaults are left out.
+        sizes: what is large or long for the verifier, and what it leaves out; defaults are not told.
     """
 
     method: str
@@ -60,14 +61,16 @@ class Way:
 def drawn_way(dice: Random) -> Way:
     """A method, an encoding, and sizes from which on the verifier takes its ways for large tasks."""
     share = dice.choice((0, 0.1, 0.5))
-    sizes = {each.name: _size(dice, each.name) for each in fields(Limits) if dice.random() < share}
+    sizes = {each.name: _size(dice, each.name) for each in fields(VerifierLimits) if dice.random() < share}
     method, encoding = dice.choice(_WAYS)
     return Way(_PROOF, "automata", sizes) if dice.random() < _PROOFS else Way(method, encoding, sizes)
 
 
-def _size(dice: Random, name: str) -> int | bool:
-    if name == "programs":
-        return False
+def _size(dice: Random, name: str) -> int | float | tuple[str, ...]:
+    if name == "methods":
+        return tuple(f"-{each}" for each in NAMES if dice.random() < 0.3)
+    if name.endswith(("_share", "_seconds")):
+        return dice.choice((0.001, 0.01, 0.5))
     if name == "weight":
         return 2 ** dice.choice((4, 10, 20, 40))
     return max(dice.choice(_SIZES), name == "states_at_once")

@@ -11,6 +11,7 @@ from tests.verify.edits.edits import Edit
 NO_CLAIM: Final = (
     "options.time_limit",
     "options.memory_limit",
+    "options.strategies",
     "options.max_ties",
     "options.strategies",
     "policy.floors",

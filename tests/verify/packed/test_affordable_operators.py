@@ -7,16 +7,15 @@ from hypothesis import given
 from serendipity.model import Deadline, Options, Task
 from serendipity.testing.generator.families import family_task
 from serendipity.testing.strategies import tasks
-from tests.verify.packed.test_landmarks_and_stubborn_sets import operators
+from tests.verify.packed.test_landmark_cuts import operators
 from tests.verify.packed.test_packed_search_equals_brute_force import FAMILY, distances, reached
 from verify.base.execution import State, after, applicable
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE, Subproblem, prices
 from verify.exhaustive.team_problem import cheapest_without_epochs, team_problem
 from verify.packed.affordable import affordable
-from verify.packed.operators import Operator
+from verify.packed.operators import PackedOperator
 from verify.packed.pattern import FAR
-from verify.programs.effort import Effort
 
 
 def paid(task: Task, states: list[State]) -> dict[State, int]:
@@ -74,8 +73,8 @@ def test_some_are_left_out() -> None:
 
 def test_a_detour_is_left_out_and_the_way_is_not() -> None:
     """From 0 by 1 to 2, or at a higher price by 3."""
-    short = [Operator((0,), (), (1,), (0,), 1), Operator((1,), (), (2,), (1,), 1)]
-    long = [Operator((0,), (), (3,), (0,), 2), Operator((3,), (), (2,), (3,), 2)]
+    short = [PackedOperator((0,), (), (1,), (0,), 1), PackedOperator((1,), (), (2,), (1,), 1)]
+    long = [PackedOperator((0,), (), (3,), (0,), 2), PackedOperator((3,), (), (2,), (3,), 2)]
     asked = [*short, *long], frozenset(range(4)), (2,), frozenset({0})
     assert affordable(*asked, 5, Deadline()) == [0, 1, 2, 3]
     assert affordable(*asked, 4, Deadline()) == [0, 1]
@@ -89,12 +88,12 @@ def the_same_optimum(task: Task) -> None:
     part = relevant_part(question)
     if part is None:
         return
-    whole = cheapest_without_epochs(question, team_problem(question, part, bounded=False))
+    whole = cheapest_without_epochs(question, team_problem(question, part, bounded=False), bounded=False)
     if whole.bound is None:
         return
     for most in (whole.bound - 1, whole.bound, whole.bound + question.prices.scale):
         asked = question.below(most)
-        found = cheapest_without_epochs(asked, team_problem(asked, part, bounded=True), Effort())
+        found = cheapest_without_epochs(asked, team_problem(asked, part, bounded=True), bounded=True)
         assert found.status == ("none" if most < whole.bound else "found")
         assert most < whole.bound or found.bound == whole.bound
 
@@ -117,7 +116,7 @@ def test_facts_that_are_as_at_first_are_not_packed() -> None:
     part = relevant_part(question)
     assert part is not None
     team = team_problem(question, part, bounded=True)
-    least = cheapest_without_epochs(question, team).bound
+    least = cheapest_without_epochs(question, team, bounded=False).bound
     assert least is not None
     within = team.below(least + 1, task.init, Deadline())
     assert within is not None

@@ -17,11 +17,11 @@ from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
 from verify.limits import limited
 from verify.packed import operators as packed
-from verify.packed.bounds import LITTLE
-from verify.packed.mutexes import Pairs
-from verify.packed.operators import Operator
+from verify.packed.bounds import little
+from verify.packed.mutexes import ReachablePairs
+from verify.packed.operators import PackedOperator
 from verify.packed.pattern import FAR
-from verify.packed.problem import Problem, StateSpace
+from verify.packed.problem import PackedProblem, StateSpace
 
 FAMILY = [
     *((name, seed, size) for name, size in (("blocks", 3), ("logistics", 2)) for seed in range(4)),
@@ -44,7 +44,7 @@ def reached(task: Task) -> list[State]:
     return list(found)
 
 
-def team_problem(task: Task) -> Problem:
+def team_problem(task: Task) -> PackedProblem:
     """Everybody's actions, one after the other, by their costs in units."""
     space = StateSpace(
         len(task.facts),
@@ -53,9 +53,9 @@ def team_problem(task: Task) -> Problem:
         [frozenset(variable.facts) for variable in task.variables],
         Deadline(),
     )
-    operators = [Operator(a.pre, a.neg, a.add, a.delete, int(a.cost * 1000) + 1) for a in task.actions]
+    operators = [PackedOperator(a.pre, a.neg, a.add, a.delete, int(a.cost * 1000) + 1) for a in task.actions]
     goal = task.goal.positive, task.goal.negative
-    return Problem(space, range(len(task.facts)), operators, goal, Deadline())
+    return PackedProblem(space, range(len(task.facts)), operators, goal, Deadline())
 
 
 def distances(task: Task, states: list[State]) -> dict[State, int]:
@@ -81,7 +81,7 @@ def agree(task: Task) -> None:
     """Bounds never exceed the distances, and cheapest paths are as cheap, from every state."""
     states = reached(task)
     expected = distances(task, states)
-    pairs = Pairs(len(task.facts), task.init, task.actions, Deadline())
+    pairs = ReachablePairs(len(task.facts), task.init, task.actions, Deadline())
     assert all(pairs.covers(state) for state in states)
     problem = team_problem(task)
     rows = problem.pack(states)
@@ -168,7 +168,7 @@ def test_several_starts_share_a_search() -> None:
     search, found = problem.search(rows, paid)
     assert found is not None
     assert search.paid(found) == min(int(p) + expected[state] for p, state in zip(paid, starts, strict=True))
-    assert LITTLE.sizes
+    assert little().sizes
 
 
 @pytest.mark.parametrize(("name", "seed", "size"), FAMILY)

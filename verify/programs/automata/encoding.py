@@ -8,7 +8,7 @@ from serendipity.model import Deadline, GroundAction, Step, Task, Window
 from verify.base.relevance import Relevant, relevant_part, whole_task
 from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
-from verify.limits import limits
+from verify.limits import limits, uses
 from verify.programs.agents.product import Automaton, SmallAutomata, automata, private_facts
 from verify.programs.automata.control import HumanControl, expected_states
 from verify.programs.automata.network import (
@@ -18,12 +18,12 @@ from verify.programs.automata.network import (
     distances,
     goal_states,
 )
-from verify.programs.automata.program import BYTES_AN_ARC, Program
+from verify.programs.automata.program import BYTES_AN_ARC, NetworkProgram
 from verify.programs.automata.pruning import prune, unroll
-from verify.programs.automata.setting import Setting, outer_needs
+from verify.programs.automata.setting import NetworkSetting, outer_needs
 from verify.programs.automata.suffixes import bound_suffix
 from verify.programs.automata.windows import keep_within_windows
-from verify.programs.promising import OfState, Team, keep_promising
+from verify.programs.promising import TeamMoves, keep_promising
 from verify.solvers.mip import Model
 
 _WORTH: Final = 0.9
@@ -50,9 +50,7 @@ class AutomataEncoding:
         """
         self.question = question
         self.deadline = question.deadline
-        self.setting: Setting | None = None
-        self._spare: OfState | None = None
-        self._latest: OfState | None = None
+        self.setting: NetworkSetting | None = None
         literal = question.rule == WINDOW and question.options.preservation == "state"
         expected = expected_states(question) if literal else ()
         part = relevant_part(question, frozenset().union(*expected))
@@ -78,14 +76,14 @@ class AutomataEncoding:
         with during(
             f"{'pruning' if pruned else 'unrolling'} the agents' automata over {question.horizon} epochs"
         ):
-            if prune(setting) if pruned else unroll(setting):
+            if prune(setting) if pruned and uses("arc-pruning") else unroll(setting):
                 self.setting = setting
 
     def _with_few_facts(
         self, part: Relevant, owner: Mapping[int, int], expected: tuple[frozenset[int], ...]
     ) -> Relevant | None:
         """What small automata leave of many actions; None if there is no plan within the limits."""
-        if len(part.actions) <= limits().many_actions:
+        if len(part.actions) <= limits().many_actions or not uses("few-facts"):
             return part
         task, idle = self.question.task, 0
         small = SmallAutomata(task, self._groups, self.deadline, owner)
@@ -104,14 +102,14 @@ class AutomataEncoding:
         return part
 
     @cached_property
-    def program(self) -> Program:
+    def program(self) -> NetworkProgram:
         """The program of the networks that pruning leaves."""
         setting = self.setting
         assert setting is not None, "there is something left"
         arcs = sum(len(layer) for network in setting.networks for layer in network.layers)
         with during(f"writing a program for {arcs:,} arcs of the agents' automata"):
             self.deadline.require(arcs * BYTES_AN_ARC)
-            return Program(self.question, setting, self._groups, complete=self._whole)
+            return NetworkProgram(self.question, setting, self._groups, complete=self._whole)
 
     @property
     def model(self) -> Model | None:
@@ -133,11 +131,7 @@ class AutomataEncoding:
         that what the program finds cheapest is optimal and fits (semantics 3.1, rule 3).
         """
         question = self.question
-        if (
-            question.rule != WINDOW
-            or question.options.suffix != "replan"
-            or question.options.preservation == "state"
-        ):
+        if not question.replans:
             return False
         task = question.task
         his = (task.actions[i] for i in self.deadline.each(part.actions))
@@ -147,7 +141,7 @@ class AutomataEncoding:
 
     def _setting(
         self, part: Relevant, machines: tuple[Automaton, ...], expected: tuple[frozenset[int], ...]
-    ) -> Setting:
+    ) -> NetworkSetting:
         question = self.question
         task = question.task
         wanted_true, wanted_false = self._wanted(part, expected)
@@ -162,7 +156,7 @@ class AutomataEncoding:
                 open_end = self._goes_on(part, machine, wanted_true | wanted_false)
                 networks.append(RobotNetwork(machine, weights[agent], open_end=open_end))
         finals = [goal_states(question, machine) for machine in machines]
-        return Setting(
+        return NetworkSetting(
             task=task,
             part=part,
             networks=networks,
@@ -172,8 +166,6 @@ class AutomataEncoding:
             wanted_true=wanted_true,
             wanted_false=wanted_false,
             finals=finals,
-            spare=self._spare,
-            latest=self._latest,
             deadline=self.deadline,
             bounds=distances(machines[task.human], weights[task.human], finals[task.human], self.deadline),
         )
@@ -201,7 +193,7 @@ class AutomataEncoding:
         with during("looking for moves of the agents that may pay"):
             windows = keep_within_windows(question, machines[question.task.human])
             pre, neg = outer_needs(question.task, part, machines, self.deadline)
-            team = Team(
+            team = TeamMoves(
                 task=question.task,
                 machines=machines,
                 pre=pre,
@@ -216,8 +208,7 @@ class AutomataEncoding:
                 deadline=self.deadline,
                 windows=windows,
             )
-            promising = keep_promising(team)
-            self._spare, self._latest = team.spare, team.latest
+            promising = not uses("relevance-pruning") or keep_promising(team)
         for machine, moves in zip(machines, team.moves, strict=True):
             machine.moves = moves
         return promising

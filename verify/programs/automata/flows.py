@@ -7,7 +7,7 @@ from collections import defaultdict
 
 from verify.programs.automata.linear import Sum
 from verify.programs.automata.network import WAIT
-from verify.programs.automata.setting import Setting
+from verify.programs.automata.setting import NetworkSetting
 from verify.solvers.mip import Model
 
 
@@ -21,7 +21,7 @@ class Flows:
         owner: the agent whose arcs stand for an action.
     """
 
-    def __init__(self, model: Model, setting: Setting) -> None:
+    def __init__(self, model: Model, setting: NetworkSetting) -> None:
         """Add the columns, and their rows.
 
         Args:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Final
 
 from verify.programs.automata.network import ACTION, WAIT, Arc, actions_of
-from verify.programs.automata.setting import Setting
+from verify.programs.automata.setting import NetworkSetting
 
 _MANY: Final = 50_000
 """Arcs of an epoch from which on there may be no memory for those of the next one."""
@@ -21,7 +21,7 @@ class Forward:
         reach: by network and epoch, the reachable nodes with their least weight so far.
     """
 
-    def __init__(self, setting: Setting) -> None:
+    def __init__(self, setting: NetworkSetting) -> None:
         self.setting = setting
         self.deadline = setting.deadline
         self.reach: list[list[dict[int, int]]] = []

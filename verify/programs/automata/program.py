@@ -10,7 +10,7 @@ from verify.programs.automata.control import INSIDE
 from verify.programs.automata.flows import Flows
 from verify.programs.automata.linear import Linear, Sum, plus
 from verify.programs.automata.network import WAIT
-from verify.programs.automata.setting import Setting
+from verify.programs.automata.setting import NetworkSetting
 from verify.programs.automata.shared_facts import SharedFacts
 from verify.solvers.mip import BYTES_A_TERM, Model, Terms
 
@@ -18,11 +18,16 @@ BYTES_AN_ARC: Final = 350 + 6 * BYTES_A_TERM
 """Memory for each arc of a program, from its column to its solution."""
 
 
-class Program:
+class NetworkProgram:
     """The integer program of a pruned setting."""
 
     def __init__(
-        self, question: Subproblem, setting: Setting, groups: Iterable[frozenset[int]], *, complete: bool
+        self,
+        question: Subproblem,
+        setting: NetworkSetting,
+        groups: Iterable[frozenset[int]],
+        *,
+        complete: bool,
     ) -> None:
         """With ``complete`` every relevant fact is represented, as ``suffixes.bound_suffix`` needs."""
         self.question = question

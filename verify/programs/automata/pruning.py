@@ -15,12 +15,12 @@ from collections.abc import Container, Mapping, Sequence
 
 from verify.programs.automata.forward import Forward
 from verify.programs.automata.network import SOURCE, TARGET, WAIT, Arc, actions_of
-from verify.programs.automata.setting import Setting
+from verify.programs.automata.setting import NetworkSetting
 
 MOST_ROUNDS = 6
 
 
-def unroll(setting: Setting) -> bool:
+def unroll(setting: NetworkSetting) -> bool:
     """Keep the arcs on paths from an agent's start to an end that may be possible, whatever they cost.
 
     A unit of flow in layers of arcs is made of such paths, so the rows say the same of what is dropped;
@@ -41,7 +41,7 @@ def unroll(setting: Setting) -> bool:
     return True
 
 
-def _drop_dead_ends(setting: Setting, forward: Forward, k: int) -> None:
+def _drop_dead_ends(setting: NetworkSetting, forward: Forward, k: int) -> None:
     """Drop the arcs from which no way leads to an end."""
     network, after = setting.networks[k], set(ends(setting, forward, k))
     for epoch in range(setting.horizon, 0, -1):
@@ -51,11 +51,11 @@ def _drop_dead_ends(setting: Setting, forward: Forward, k: int) -> None:
         after = {arc[SOURCE] for arc in kept}
 
 
-def _arcs(setting: Setting) -> int:
+def _arcs(setting: NetworkSetting) -> int:
     return sum(len(layer) for network in setting.networks for layer in network.layers)
 
 
-def prune(setting: Setting) -> bool:
+def prune(setting: NetworkSetting) -> bool:
     """Drop arcs from the networks' layers; False if no plan within the limit is left."""
     forward = Forward(setting)
     forward.unroll()
@@ -71,7 +71,7 @@ def prune(setting: Setting) -> bool:
     return _least_weights(setting, forward)
 
 
-def _least_weights(setting: Setting, forward: Forward) -> bool:
+def _least_weights(setting: NetworkSetting, forward: Forward) -> bool:
     """One round of backward passes; False if the human has no path left."""
     human = setting.task.human
     robots = [k for k in range(len(setting.networks)) if k != human]
@@ -91,7 +91,7 @@ def _least_weights(setting: Setting, forward: Forward) -> bool:
 class _Providers:
     """What help costs at least: robots' cheapest way to provide a fact or half of a joint action."""
 
-    def __init__(self, setting: Setting, forward: Forward, robots: list[int]) -> None:
+    def __init__(self, setting: NetworkSetting, forward: Forward, robots: list[int]) -> None:
         self.setting = setting
         task = setting.task
         self.inside = frozenset().union(*(network.automaton.facts for network in setting.networks))
@@ -149,7 +149,7 @@ def _cheapest_before(providers: list[tuple[int, int]], epoch: int, far: int) -> 
 class _Through:
     """Least weight of the human's paths, by what their arcs use."""
 
-    def __init__(self, setting: Setting) -> None:
+    def __init__(self, setting: NetworkSetting) -> None:
         self.setting = setting
         self.cheapest = self.far = setting.far
         self.true: dict[int, list[tuple[int, int]]] = defaultdict(list)
@@ -189,7 +189,7 @@ class _Through:
             self.joint[key] = min(total, self.joint.get(key, self.far))
 
 
-def _human_backward(setting: Setting, forward: Forward, provided: _Providers) -> _Through:
+def _human_backward(setting: NetworkSetting, forward: Forward, provided: _Providers) -> _Through:
     """The human's network, where robots add what they must have spent for an arc to be possible."""
     network, human = setting.human, setting.task.human
     through = _Through(setting)
@@ -218,7 +218,9 @@ def _human_backward(setting: Setting, forward: Forward, provided: _Providers) ->
     return through
 
 
-def _open_backward(setting: Setting, forward: Forward, k: int, others: int, active: Container[int]) -> bool:
+def _open_backward(
+    setting: NetworkSetting, forward: Forward, k: int, others: int, active: Container[int]
+) -> bool:
     """A network whose flow goes on to the end; False if it can't."""
     network = setting.networks[k]
     after = ends(setting, forward, k)
@@ -236,7 +238,7 @@ def _open_backward(setting: Setting, forward: Forward, k: int, others: int, acti
     return bool(after)
 
 
-def ends(setting: Setting, forward: Forward, k: int) -> dict[int, int]:
+def ends(setting: NetworkSetting, forward: Forward, k: int) -> dict[int, int]:
     """Nodes in which a network's flow may end, with nothing left to pay."""
     network, finals = setting.networks[k], setting.finals[k]
     last = forward.reach[k][-1]
@@ -252,7 +254,7 @@ def _before(kept: Sequence[Arc], after: Mapping[int, int]) -> dict[int, int]:
     return before
 
 
-def _useful_backward(setting: Setting, forward: Forward, k: int, through: _Through) -> None:
+def _useful_backward(setting: NetworkSetting, forward: Forward, k: int, through: _Through) -> None:
     """A robot that may stop anywhere: it does so after an arc of which somebody makes use."""
     network, use, far = setting.networks[k], _Use(setting, k, through), setting.far
     after: dict[int, int] = {}
@@ -277,7 +279,7 @@ def _useful_backward(setting: Setting, forward: Forward, k: int, through: _Throu
 class _Use:
     """What it is worth that a robot acts: the human's least weight where somebody makes use of it."""
 
-    def __init__(self, setting: Setting, k: int, through: _Through) -> None:
+    def __init__(self, setting: NetworkSetting, k: int, through: _Through) -> None:
         self.setting = setting
         self.through = through
         self.true = _uses(setting, k, setting.wanted_true, setting.outer_pre)
@@ -295,7 +297,9 @@ class _Use:
         )
 
 
-def _uses(setting: Setting, k: int, wanted: frozenset[int], outer: dict[int, tuple[int, ...]]) -> set[int]:
+def _uses(
+    setting: NetworkSetting, k: int, wanted: frozenset[int], outer: dict[int, tuple[int, ...]]
+) -> set[int]:
     """Facts that a goal or another robot's surviving arcs look at: worth the human's least weight."""
     used = set(wanted)
     for other, network in enumerate(setting.networks):

@@ -7,11 +7,10 @@ from serendipity.model import Deadline, Task
 from verify.base.relevance import Relevant
 from verify.programs.agents.product import Automaton
 from verify.programs.automata.network import HumanNetwork, Network
-from verify.programs.promising.team import OfState
 
 
 @dataclass(slots=True)
-class Setting:
+class NetworkSetting:
     """Networks, limits and goals of one question.
 
     Attributes:
@@ -25,8 +24,6 @@ class Setting:
         finals: end nodes' automaton states that the goals allow, by agent.
         deadline: polled by the pruning and the program.
         bounds: for the human's automaton states, least weight and actions to a goal state; None: no way.
-        spare: what robots may have spent, at most, when one of them is in an automaton state and goes on.
-        latest: the epoch after which that is too late.
         last: the human's nodes in which a plan may end; None where pruning has left no other.
         far: more than a plan within the limit weighs, and than there are epochs: as good as no way.
         outer_pre: facts outside the participants' automata that each action needs true.
@@ -44,8 +41,6 @@ class Setting:
     finals: list[set[int]]
     deadline: Deadline
     bounds: tuple[list[int | None], list[int | None]]
-    spare: OfState | None = None
-    latest: OfState | None = None
     last: frozenset[int] | None = None
     far: int = field(init=False)
     outer_pre: dict[int, tuple[int, ...]] = field(default_factory=dict)

@@ -2,10 +2,10 @@
 
 from verify.programs.automata.control import INSIDE, SUFFIX
 from verify.programs.automata.linear import plus
-from verify.programs.automata.program import Program
+from verify.programs.automata.program import NetworkProgram
 
 
-def bound_suffix(program: Program, xi2: int, state: frozenset[int], least: int | None) -> None:
+def bound_suffix(program: NetworkProgram, xi2: int, state: frozenset[int], least: int | None) -> None:
     """A suffix from ``state`` at ``xi2`` weighs at least ``least``; with None there is none.
 
     The condition is a sum of literals that is 0 exactly in that case and at most -1 else.
@@ -32,7 +32,7 @@ def bound_suffix(program: Program, xi2: int, state: frozenset[int], least: int |
         program.model.add(plus(scaled, _suffix_weights(program)), ">=", least * (constant + 1))
 
 
-def _suffix_starts(program: Program, xi2: int, state: frozenset[int]) -> tuple[dict[int, int], int]:
+def _suffix_starts(program: NetworkProgram, xi2: int, state: frozenset[int]) -> tuple[dict[int, int], int]:
     """Minus 1 unless the suffix starts at ``xi2`` with the human's private facts as in ``state``."""
     network = program.setting.human
     layer, columns = network.layers[xi2 - 1], program.flows.columns[program.task.human][xi2 - 1]
@@ -44,7 +44,7 @@ def _suffix_starts(program: Program, xi2: int, state: frozenset[int]) -> tuple[d
     return starts, -1
 
 
-def _suffix_weights(program: Program) -> dict[int, int]:
+def _suffix_weights(program: NetworkProgram) -> dict[int, int]:
     weights: dict[int, int] = {}
     for layer, columns in zip(
         program.setting.human.layers, program.flows.columns[program.task.human], strict=True

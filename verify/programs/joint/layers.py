@@ -3,7 +3,7 @@
 A joint state is a node of each agent's network and the shared facts that somebody still looks at.  Each is
 kept at its least cost, and left out if that and what is left at least pass the limit: the human's least
 weight to an end, and for each robot that goes on what it takes until it does something that others can
-notice; or if robots have spent more than allows it to be of use to anybody (``verify.programs.promising``).
+notice.
 A robot that does nothing more is nowhere: since nobody looks at its own facts again, that is one state for
 all places.
 
@@ -22,15 +22,15 @@ from verify.base.subproblem import FREE, WINDOW, Subproblem
 from verify.limits import limits
 from verify.programs.automata.control import INSIDE
 from verify.programs.automata.network import WAIT, Arc
-from verify.programs.automata.setting import Setting
+from verify.programs.automata.setting import NetworkSetting
 from verify.programs.joint.shared import STOPPED, SharedFacts
 
 _Joint = tuple[int, ...]
 """Nodes of all agents by id, those who have waited as bits, and the shared facts as bits."""
 
 
-_Layer = dict[_Joint, tuple[int, int]]
-"""What was paid for each joint state, and what robots paid of that."""
+_Layer = dict[_Joint, int]
+"""What was paid for each joint state."""
 
 
 class JointPathsError(Exception):
@@ -75,7 +75,7 @@ class JointLayers:
         states: how many were kept.
     """
 
-    def __init__(self, question: Subproblem, setting: Setting, deadline: Deadline) -> None:
+    def __init__(self, question: Subproblem, setting: NetworkSetting, deadline: Deadline) -> None:
         self._question, self._setting = question, setting
         self._task, self._human = setting.task, setting.task.human
         self._deadline = deadline
@@ -101,21 +101,19 @@ class JointLayers:
         for epoch in range(1, self._setting.horizon + 1):
             following: _Layer = {}
             parents: dict[_Joint, tuple[_Joint, tuple[int, ...]]] = {}
-            for joint, (paid, robots) in layer.items():
+            for joint, paid in layer.items():
                 self._deadline.tick()
-                for after, weight, his, actions in self._successors(epoch, joint):
-                    total, by_robots = paid + weight, robots + weight - his
-                    known = following.get(after)
-                    better = known is None or total < known[0]
-                    if better and self._hopeful(epoch, after, total, by_robots):
-                        following[after] = total, by_robots
+                for after, weight, actions in self._successors(epoch, joint):
+                    total = paid + weight
+                    if total < following.get(after, total + 1) and self._hopeful(epoch, after, total):
+                        following[after] = total
                         parents[after] = joint, actions
                 if self.states + len(following) > limits().joint_paths:
                     raise JointPathsError
             layer = self._improved(following, best)
             self.states += len(layer)
             self._parents.append(parents)
-        ends = {joint: paid for joint, (paid, _) in layer.items() if self._may_end(joint)}
+        ends = {joint: paid for joint, paid in layer.items() if self._may_end(joint)}
         if not ends:
             return None
         last = min(ends, key=lambda joint: (ends[joint], joint))
@@ -130,19 +128,18 @@ class JointLayers:
             choices = (network.start,) if network.open_end else (network.start, STOPPED)
             layer = [(*nodes, node) for nodes in layer for node in choices]
         joints = ((*nodes, 0, facts) for nodes in layer)
-        return {joint: (0, 0) for joint in joints if self._hopeful(0, joint, 0, 0)}
+        return {joint: 0 for joint in joints if self._hopeful(0, joint, 0)}
 
     def _improved(self, layer: _Layer, best: dict[_Joint, int]) -> _Layer:
         """The joint states of a layer that no earlier epoch had at no higher cost."""
         kept: _Layer = {}
-        for joint, both in layer.items():
-            paid = both[0]
+        for joint, paid in layer.items():
             if self._may_wait(joint):
                 known = (best[other] for other in _less_waited(joint) if other in best)
                 if paid >= min(known, default=paid + 1) and not self._may_end(joint):
                     continue
                 best[joint] = min(paid, best.get(joint, paid))
-            kept[joint] = both
+            kept[joint] = paid
         return kept
 
     def _may_wait(self, joint: _Joint) -> bool:
@@ -159,24 +156,20 @@ class JointLayers:
         literal = self._question.options.preservation == "state"
         return self._question.rule == WINDOW and inside and free and not literal
 
-    def _hopeful(self, epoch: int, joint: _Joint, paid: int, robots: int) -> bool:
-        """Whether a joint state may be on a path within the limit, by what was paid, and what robots paid."""
-        spare, latest = self._setting.spare, self._setting.latest
-        assert spare is not None and latest is not None, "pruned"
+    def _hopeful(self, epoch: int, joint: _Joint, paid: int) -> bool:
+        """Whether a joint state may be on a path within the limit, by what was paid."""
         for k, node in enumerate(joint[:-2]):
             if node != STOPPED:
                 left = self._left[k][epoch].get(node)
                 if left is None:
-                    return False
-                if k != self._human and (robots > spare(k, node) or epoch > latest(k, node)):
                     return False
                 paid += left
         return paid <= self._setting.most
 
     # -- one epoch
 
-    def _successors(self, epoch: int, joint: _Joint) -> Iterator[tuple[_Joint, int, int, tuple[int, ...]]]:
-        """The joint states after an epoch, what it weighs, the human's part of that, and its actions."""
+    def _successors(self, epoch: int, joint: _Joint) -> Iterator[tuple[_Joint, int, tuple[int, ...]]]:
+        """The joint states after an epoch, what it weighs, and its actions."""
         facts, waited = joint[-1], joint[-2]
         human = self._setting.human
         for arc in self._arcs[self._human][epoch - 1].get(joint[self._human], ()):
@@ -198,7 +191,7 @@ class JointLayers:
             for all_chosen in self._robots(epoch, joint, 0, chosen, idle=human.in_suffix(target)):
                 state = self._shared.after(epoch, facts, all_chosen.actions)
                 together = (*all_chosen.nodes, all_chosen.waited, state)
-                yield together, all_chosen.weight, weight, all_chosen.actions
+                yield together, all_chosen.weight, all_chosen.actions
 
     def _waits(self, k: int, action: int, waited: int) -> int:
         """Who has waited, after an agent has done an action or waits; -1: it could have been done before."""

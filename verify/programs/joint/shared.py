@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from serendipity.model import Deadline
 from verify.base.execution import clash
 from verify.programs.automata.network import WAIT
-from verify.programs.automata.setting import Setting
+from verify.programs.automata.setting import NetworkSetting
 
 STOPPED = -1
 """In the place of a robot's node: it does nothing any more."""
@@ -38,7 +38,7 @@ class SharedFacts:
         live: by epoch, the facts at which somebody looks after it, or a goal does, as bits.
     """
 
-    def __init__(self, setting: Setting, deadline: Deadline, *, strict: bool) -> None:
+    def __init__(self, setting: NetworkSetting, deadline: Deadline, *, strict: bool) -> None:
         self._setting, self._task, self._deadline = setting, setting.task, deadline
         self._strict = strict
         self._inside = {f: k for k, net in enumerate(setting.networks) for f in net.automaton.facts}

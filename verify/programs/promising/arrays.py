@@ -1,4 +1,4 @@
-"""Teams with many moves as arrays: what :mod:`.moves` computes move by move, thousands at once.
+"""A team's moves as arrays, and ways over them.
 
 Moves of all agents are numbered through, ordered by agent and state; states are numbered through, too.
 Literals are numbers: ``f`` says that a fact is true, ``f`` plus the number of facts that it is false.
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from serendipity.model import Deadline
 from verify.programs.agents.product import Move
-from verify.programs.promising.team import Team
+from verify.programs.promising.team import TeamMoves
 
 Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
@@ -88,7 +88,7 @@ class Actions:
         needed: whether some action needs a literal of its fact.
     """
 
-    def __init__(self, team: Team) -> None:
+    def __init__(self, team: TeamMoves) -> None:
         task, each = team.task, team.deadline.each
         self._count, self.facts = len(task.actions), len(task.facts)
         self._ids = np.fromiter(team.pre, np.int64, len(team.pre))
@@ -134,7 +134,7 @@ class Arcs:
         self.source, self.action, self.target = source, action, target
 
     @classmethod
-    def of(cls, team: Team) -> "Arcs":
+    def of(cls, team: TeamMoves) -> "Arcs":
         """All moves of a team."""
         first = np.concatenate(([0], np.cumsum([len(moves) for moves in team.moves])))
         sources, actions, targets, agents = [], [], [], []

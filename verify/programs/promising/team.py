@@ -1,13 +1,10 @@
 """What the bounds on moves work on: automata, the needs of their actions, prices and limits."""
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from serendipity.model import Deadline, Task
 from verify.programs.agents.product import Automaton, Move
-
-OfState = Callable[[int, int], int]
-"""Of an agent and a state of their automaton."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +31,7 @@ class Windows:
 
 
 @dataclass(slots=True)
-class Team:
+class TeamMoves:
     """The automata of all agents, with the moves that are still on some plan.
 
     Attributes:
@@ -52,8 +49,6 @@ class Team:
         deadline: polled.
         windows: where windows may be, if they are short.
         moves: by agent and state, the moves that are left.
-        spare: what robots may have spent, at most, when one of them is in a state and goes on.
-        latest: the epoch after which that is too late.
         far: more than a plan within the limit costs, and than there are epochs: as good as no way.
         needed: the facts that some action needs outside its participants' automata.
     """
@@ -73,8 +68,6 @@ class Team:
     windows: Windows | None = None
     moves: list[list[list[Move]]] = field(default_factory=list)
     needed: frozenset[int] = frozenset()
-    spare: OfState | None = None
-    latest: OfState | None = None
     far: int = field(init=False)
 
     def __post_init__(self) -> None:
@@ -88,23 +81,14 @@ class Team:
         """Ids of all agents but the human."""
         return [k for k in range(len(self.machines)) if k != self.task.human]
 
-    def actions(self, agent: int) -> set[int]:
-        """The actions in which an agent still may take part."""
-        return {action for moves in self.deadline.each(self.moves[agent]) for action, _ in moves}
-
-    def backward(self, agent: int) -> list[list[Move]]:
-        """For each state of an agent's, the actions that lead there and the states they come from."""
-        found: list[list[Move]] = [[] for _ in self.moves[agent]]
-        for state, moves in enumerate(self.deadline.each(self.moves[agent])):
-            for action, target in moves:
-                found[target].append((action, state))
-        return found
-
-    def last(self, state: int, action: int) -> int:
-        """The last epoch in which the human may do an action from a state, as far as windows tell."""
-        if self.windows is None or len(self.task.actions[action].participants) == 1:
-            return self.horizon
-        return self.windows.last.get(state, 0)
+    def divided(self, by: int) -> "TeamMoves":
+        """The same with prices that are divided by a number, and rounded down."""
+        windows = self.windows
+        if windows is not None:
+            paid = [{state: cost // by for state, cost in states.items()} for states in windows.paid]
+            windows = replace(windows, paid=paid)
+        price = [price // by for price in self.price]
+        return replace(self, price=price, most=self.most // by, windows=windows)
 
     def count(self) -> int:
         """How many moves are left."""

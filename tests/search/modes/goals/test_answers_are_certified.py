@@ -21,7 +21,7 @@ from tests.search.modes.goals.strategies import literals, rivals
 from tests.search.modes.goals.test_expected_equals_brute_force import _MOST_PLANS, _OPTIONS
 from tests.search.modes.goals.test_worked_cases import helped, workshop
 from verify.base.optimal_plans import OptimalPlans
-from verify.calls.call import Call
+from verify.calls.call import ExaminedCall
 from verify.goals import together
 from verify.goals.beliefs import compiled
 from verify.limits import limited
@@ -73,8 +73,8 @@ def test_what_is_played_is_what_brute_force_finds(
             candidate.goal,
             task.actions,
         )
-        calls.append(Call(own, options.but(horizon=horizon), candidate.plan, OptimalPlans(own)))
-    everything = together.Together(calls, [candidate.weight for candidate in candidates])
+        calls.append(ExaminedCall(own, options.but(horizon=horizon), candidate.plan, OptimalPlans(own)))
+    everything = together.AllGoals(calls, [candidate.weight for candidate in candidates])
     best = best_expected(task, options, candidates, horizon)
     assert everything.floor() <= best
     found = everything.better(_FAR)

@@ -20,7 +20,7 @@ from serendipity.testing.oracle.goals import best_expected, robots_sets
 from serendipity.testing.strategies import Call, calls
 from tests.search.modes.goals.strategies import literals, rivals
 from verify.base.individual import IndividualOptimum
-from verify.goals.timelines import Timeline, rule_fault
+from verify.goals.timelines import GoalTimeline, rule_fault
 from verify.rules.case import Case
 
 _MOST_PLANS = 300
@@ -70,7 +70,7 @@ def test_each_goal_is_served_by_the_rules(rivalry: tuple[Task, list[Candidate]],
         own = replace(task, goal=candidate.goal)
         robots = {s for s in served.steps if task.human not in task.actions[s.action].participants}
         assert robots == set(answer.steps or ())
-        line = Timeline(
+        line = GoalTimeline(
             "it",
             Fraction(1),
             Case(own, _as_result(own, options, candidate, served, answer), IndividualOptimum(own)),
@@ -96,7 +96,7 @@ def _assert_needed(
         task.team_cost(task.actions[step.action], options.discount) for step in answer.steps or ()
     )
     alone = replace(served, steps=beside, window=None, cost=cost)
-    line = Timeline(
+    line = GoalTimeline(
         "it",
         Fraction(1),
         Case(task, _as_result(task, options, candidate, alone, answer), IndividualOptimum(task)),

@@ -15,7 +15,7 @@ from serendipity.testing.cases import case_1, case_2, case_4
 from serendipity.testing.oracle.reactions import best_reaction
 from tests.search.modes.simulation.strategies import Reaction, reactions
 from verify.base.optimal_plans import OptimalPlans
-from verify.calls.call import Call
+from verify.calls.call import ExaminedCall
 from verify.certificate.reactions import cheapest_reaction
 from verify.limits import limited
 
@@ -52,7 +52,7 @@ def test_what_is_played_is_what_brute_force_finds(human_model: str) -> None:
     @settings(max_examples=60)
     def law(case: Reaction) -> None:
         task, options = case.task, case.options
-        call = Call(task, options, case.human_plan, OptimalPlans(task))
+        call = ExaminedCall(task, options, case.human_plan, OptimalPlans(task))
         found = cheapest_reaction(call, None).found
         cost = None if found is None else call.prices.cost(found.cost)
         assert cost == best_reaction(task, options, case.human_plan, surroundings(task).visible).cost

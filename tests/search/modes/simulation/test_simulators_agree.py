@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from search import PreparedTask
 from search.modes.simulation import simulate
 from tests.search.modes.simulation.strategies import Played, played
-from verify.simulator import play
+from verify.certificate.simulator import play
 
 EXAMPLES = 10_000 if settings().max_examples >= 1000 else 300
 """More than other tests take: the stories differ in many ways, and each is quick to tell."""

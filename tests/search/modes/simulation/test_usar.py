@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from verify.simulator import realised_claim
+from verify.certificate.simulator import realised_claim
 
 EVERY = 8
 """Each eighth problem; all of them take half a minute."""

@@ -9,7 +9,7 @@ import pytest
 import serendipity
 from serendipity import Task
 from serendipity.testing.cases import case_1, case_2, case_4, case_8
-from verify.simulator import realised_claim
+from verify.certificate.simulator import realised_claim
 
 HELPED = [
     # case, discount, promised, realised by an observant human

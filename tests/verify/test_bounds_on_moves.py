@@ -1,6 +1,5 @@
-"""Bounds on moves drop the same ones move by move and on arrays; windows drop joint moves out of reach."""
+"""Bounds on moves drop no plan, and those out of reach of windows, of robots or of what may be paid."""
 
-from copy import copy
 from fractions import Fraction
 
 import pytest
@@ -16,38 +15,20 @@ from verify.limits import limited
 from verify.programs.agents.product import Automaton, automata, private_facts
 from verify.programs.automata import encoding
 from verify.programs.automata.windows import keep_within_windows, longest_window
-from verify.programs.promising import Team, keep_promising
+from verify.programs.promising import TeamMoves, keep_promising
 
 
-def _both(team: Team) -> bool:
-    """The bounds, held to what arrays say."""
-    other = copy(team)
-    other.moves = [list(each) for each in team.moves]
+@settings(max_examples=30)
+@given(calls())
+def test_bounds_on_moves_drop_no_plan(call: Call) -> None:
     with limited(many_moves=0):
-        at_once = keep_promising(other)
-    one_by_one = keep_promising(team)
-    assert at_once == one_by_one
-    assert other.moves == team.moves
-    for bound, known in ((other.spare, team.spare), (other.latest, team.latest)):
-        assert (bound is None) == (known is None)
-        if bound is not None and known is not None:
-            states = [(k, state) for k in team.robots for state in range(len(team.moves[k]))]
-            assert [bound(*each) for each in states] == [known(*each) for each in states]
-    return one_by_one
+        _check(call)
 
 
 @settings(max_examples=20)
 @given(calls())
-def test_arrays_leave_the_same_moves(call: Call) -> None:
-    with limited(many_actions=0), pytest.MonkeyPatch.context() as patch:
-        patch.setattr(encoding, "keep_promising", _both)
-        _check(call)
-
-
-@settings(max_examples=15)
-@given(calls(modes=("serendipity",)))
-def test_arrays_and_turns_of_small_automata_drop_no_plan(call: Call) -> None:
-    with limited(many_actions=0, many_moves=0):
+def test_prices_divided_for_small_words_drop_no_plan(call: Call) -> None:
+    with limited(many_moves=0, weight=10_000, methods=("programs",)):
         _check(call)
 
 
@@ -120,8 +101,9 @@ def _is_promising(way: Task, names: tuple[str, ...], most: int, longest: int) ->
     question = Subproblem(way, options, WINDOW, plan, len(plan), prices(way, options, plan), most=most)
     said = []
 
-    def listen(team: Team) -> bool:
-        said.append(_both(team))
+    def listen(team: TeamMoves) -> bool:
+        with limited(many_moves=0):
+            said.append(keep_promising(team))
         return said[-1]
 
     with pytest.MonkeyPatch.context() as patch:

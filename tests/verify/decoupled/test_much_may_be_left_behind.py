@@ -7,23 +7,23 @@ import pytest
 
 from serendipity.model import LimitReachedError
 from serendipity.testing.countdown import Countdown
-from verify.beside import leavings, rows
-from verify.beside.leavings import differences, together
-from verify.beside.rows import Collected, Layer, cheapest
+from verify.exhaustive.decoupled import leavings, rows
+from verify.exhaustive.decoupled.leavings import differences, together
+from verify.exhaustive.decoupled.rows import Collected, RowLayer, cheapest
 from verify.limits import limited
-from verify.packed.cheapest_path import TooManyStatesError
+from verify.packed.cheapest_path import TooManyPackedStatesError
 
 MANY = 10**9
 
 
-def drawn(seed: int, number: int = 60) -> Layer:
+def drawn(seed: int, number: int = 60) -> RowLayer:
     """Rows of three words, some of them alike."""
     dice = np.random.default_rng(seed)
     words = dice.integers(0, 3, (number, 3)).astype(np.uint64)
-    return Layer(words, dice.integers(0, 4, number), dice.integers(0, 2, number).astype(bool))
+    return RowLayer(words, dice.integers(0, 4, number), dice.integers(0, 2, number).astype(bool))
 
 
-def by_hand(layer: Layer) -> list[tuple[tuple[int, ...], int, bool]]:
+def by_hand(layer: RowLayer) -> list[tuple[tuple[int, ...], int, bool]]:
     """Each row once, at its least cost, not fresh where that is possible."""
     found: dict[tuple[int, ...], tuple[int, bool]] = {}
     for row, paid, fresh in entries(layer):
@@ -31,7 +31,7 @@ def by_hand(layer: Layer) -> list[tuple[tuple[int, ...], int, bool]]:
     return sorted((row, *rest) for row, rest in found.items())
 
 
-def entries(layer: Layer) -> Iterator[tuple[tuple[int, ...], int, bool]]:
+def entries(layer: RowLayer) -> Iterator[tuple[tuple[int, ...], int, bool]]:
     """Its rows as Python's own."""
     for row, paid, fresh in zip(*layer, strict=True):
         yield tuple(map(int, row)), int(paid), bool(fresh)
@@ -49,7 +49,7 @@ def test_each_row_is_there_once(seed: int, monkeypatch: pytest.MonkeyPatch) -> N
     assert sorted(entries(cheapest(*layer, Countdown(MANY)))) == by_hand(layer)
     collected = Collected(layer.only(np.zeros(60, bool)), 60, Countdown(MANY))
     for first in range(0, 60, 7):
-        collected.add(Layer(*(part[first : first + 7] for part in layer)))
+        collected.add(RowLayer(*(part[first : first + 7] for part in layer)))
     assert sorted(entries(collected.layer())) == by_hand(layer)
 
 
@@ -65,7 +65,7 @@ def test_too_many_together_are_given_up_as_soon_as_they_are_too_many(monkeypatch
     low = np.arange(1, 101, dtype=np.uint64).reshape(-1, 1)
     free = np.zeros(100, np.int64)
     deadline = Countdown(MANY)
-    with limited(left_behind=100), pytest.raises(TooManyStatesError):
+    with limited(left_behind=100), pytest.raises(TooManyPackedStatesError):
         together([(low, free), (low << np.uint64(10), free)], 0, deadline)
     assert looks_of(deadline) < 100  # there are 10,000 pairs of them, which would be 100 looks and more
 

@@ -11,9 +11,9 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import Deadline
-from verify.beside.rows import Collected, Layer, cheapest
+from verify.exhaustive.decoupled.rows import Collected, RowLayer, cheapest
 from verify.limits import limits
-from verify.packed.cheapest_path import TooManyStatesError
+from verify.packed.cheapest_path import TooManyPackedStatesError
 from verify.packed.layout import Words
 from verify.packed.operators import Ints
 
@@ -34,7 +34,7 @@ def differences(
         deadline: polled.
 
     Raises:
-        TooManyStatesError: there are too many.
+        TooManyPackedStatesError: there are too many.
         LimitReachedError: the deadline came first.
     """
     found = cheapest(*_layer((rows ^ base) & changed, paid), deadline)
@@ -52,7 +52,7 @@ def together(apart: Sequence[tuple[Words, Ints]], most: int, deadline: Deadline)
     """What several robots leave behind, for no more than ``most``.
 
     Raises:
-        TooManyStatesError: there are too many.
+        TooManyPackedStatesError: there are too many.
         LimitReachedError: the deadline came first.
     """
     found, cost = apart[0]
@@ -61,7 +61,7 @@ def together(apart: Sequence[tuple[Words, Ints]], most: int, deadline: Deadline)
     for others, costs in apart[1:]:
         rows, paid = layer.rows, layer.paid
         if len(paid) * len(costs) > limits().left_pairs:
-            raise TooManyStatesError
+            raise TooManyPackedStatesError
         joined = Collected(_layer(rows[:0], paid[:0]), limits().left_behind, deadline)
         step = max(1, _AT_ONCE // max(1, len(costs)))
         for first in range(0, len(paid), step):
@@ -74,5 +74,5 @@ def together(apart: Sequence[tuple[Words, Ints]], most: int, deadline: Deadline)
     return layer.rows, layer.paid
 
 
-def _layer(rows: Words, paid: Ints) -> Layer:
-    return Layer(rows, paid, np.zeros(len(paid), bool))
+def _layer(rows: Words, paid: Ints) -> RowLayer:
+    return RowLayer(rows, paid, np.zeros(len(paid), bool))

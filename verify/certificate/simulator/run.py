@@ -8,7 +8,7 @@ from typing import NamedTuple
 from serendipity.model import Options, Step, Task, Visible, surroundings
 from verify.base.execution import State, after, applicable, fits, price
 from verify.base.optimal_plans import OptimalPlans
-from verify.simulator.person import Person
+from verify.certificate.simulator.person import ReplanningPerson
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class PlayedEpoch:
     blocks: bool
 
 
-class Moment(NamedTuple):
+class MomentOfPlay(NamedTuple):
     """Between two epochs: the true state, the human's belief, and ``rho``, what remains of their plan."""
 
     state: State
@@ -37,12 +37,12 @@ class Moment(NamedTuple):
 class Look(NamedTuple):
     """The moment after step 1, with ``h`` (None: infinite)."""
 
-    now: Moment
+    now: MomentOfPlay
     best: Fraction | None
 
 
 @dataclass(frozen=True, slots=True)
-class Played:
+class PlayedOut:
     """A plan as it turned out.
 
     Attributes:
@@ -79,8 +79,8 @@ def play(
     human_model: str,
     horizon: int | None,
     visible: Visible | None = None,
-    person: Person | None = None,
-) -> Played:
+    person: ReplanningPerson | None = None,
+) -> PlayedOut:
     """Play the robots' part of a plan against the human.
 
     Args:
@@ -101,7 +101,7 @@ def play(
     for step in steps:
         if task.actions[step.action].participants != (task.human,):
             orders.setdefault(step.epoch, []).append(step.action)
-    person = person or Person(task, OptimalPlans(task))
+    person = person or ReplanningPerson(task, OptimalPlans(task))
     deadline = person.deadline
     if human_model != "local":
         visible = None
@@ -121,7 +121,7 @@ def play(
     cost = sum(
         (price(task, task.actions[i], options.discount) for d in deeds for i in d.executed), Fraction(0)
     )
-    return Played(tuple(deeds), game.done(now.state), cost)
+    return PlayedOut(tuple(deeds), game.done(now.state), cost)
 
 
 class Play:
@@ -134,25 +134,25 @@ class Play:
         sees: what they see of a state; None for everything.
     """
 
-    def __init__(self, task: Task, options: Options, person: Person, sees: Visible | None) -> None:
+    def __init__(self, task: Task, options: Options, person: ReplanningPerson, sees: Visible | None) -> None:
         self.task = task
         self.strict = options.strict
         self.person = person
         self.sees = sees
 
-    def start(self, human_plan: Sequence[int]) -> Moment:
+    def start(self, human_plan: Sequence[int]) -> MomentOfPlay:
         """Before the first epoch, with ``pi_H`` in the human's mind."""
-        return Moment(self.task.init, self.task.init, tuple(human_plan))
+        return MomentOfPlay(self.task.init, self.task.init, tuple(human_plan))
 
     def done(self, state: State) -> bool:
         """Whether the goals hold."""
         return self.task.goal.holds(state) and self.task.robot_goal.holds(state)
 
-    def epoch(self, now: Moment, offers: Sequence[int]) -> tuple[PlayedEpoch, Moment]:
+    def epoch(self, now: MomentOfPlay, offers: Sequence[int]) -> tuple[PlayedEpoch, MomentOfPlay]:
         """One epoch in which robots try the actions ``offers``, joint ones included."""
         return self.act(self.look(now), offers)
 
-    def looked(self, now: Moment) -> State:
+    def looked(self, now: MomentOfPlay) -> State:
         """The human's belief after a look: all of the state, or what is visible of it."""
         if self.sees is None:
             return now.state
@@ -160,15 +160,15 @@ class Play:
         human = self.task.human
         return now.belief ^ frozenset(f for f in doubtful if self.sees(human, f, now.state))
 
-    def look(self, now: Moment) -> Look:
+    def look(self, now: MomentOfPlay) -> Look:
         """Step 1: ``rho`` is kept or replaced."""
         belief, rho = self.looked(now), now.rho
         kept, best = self.person.cost_of(rho, belief), self.person.cost(belief)
         if best is not None and (kept is None or best < kept):
             rho = tuple(self.person.plan(belief))
-        return Look(Moment(now.state, belief, rho), best)
+        return Look(MomentOfPlay(now.state, belief, rho), best)
 
-    def act(self, look: Look, offers: Sequence[int]) -> tuple[PlayedEpoch, Moment]:
+    def act(self, look: Look, offers: Sequence[int]) -> tuple[PlayedEpoch, MomentOfPlay]:
         """Steps 2 to 4."""
         now = look.now
         offers = [self._as_possible(i, now.state) for i in sorted(offers)]
@@ -189,7 +189,7 @@ class Play:
         blocks = self._stuck(state) and not self._stuck(now.state) and not self._stuck(alone)
         rho = now.rho[1:] if his is not None and joint is None else now.rho
         deed = PlayedEpoch(tuple(sorted(executed)), tuple(sorted(skipped)), blocks)
-        return deed, Moment(state, belief, rho)
+        return deed, MomentOfPlay(state, belief, rho)
 
     def with_him(self, i: int) -> bool:
         """Whether the human takes part in an action."""
@@ -199,7 +199,7 @@ class Play:
         """Step 2: the joint action that the human takes part in."""
         return next((i for i in self._joint_offers(offers, look.now) if self._worth_it(i, look)), None)
 
-    def _joint_offers(self, offers: Sequence[int], now: Moment) -> Iterator[int]:
+    def _joint_offers(self, offers: Sequence[int], now: MomentOfPlay) -> Iterator[int]:
         for i in offers:
             action = self.task.actions[i]
             if self.with_him(i) and applicable(action, now.state) and applicable(action, now.belief):

@@ -9,9 +9,9 @@ from verify.base import wording
 from verify.base.execution import meant_by, price
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
+from verify.certificate.simulator.person import ReplanningPerson
+from verify.certificate.simulator.run import PlayedOut, play
 from verify.rules.replay import replay_human
-from verify.simulator.person import Person
-from verify.simulator.run import Played, play
 
 _MODELS = ("observant", "local")
 
@@ -49,7 +49,7 @@ class _Examination:
     def __init__(self, task: Task, result: Result, plans: OptimalPlans) -> None:
         self.task = task
         self.result = result
-        self.person = Person(task, plans)
+        self.person = ReplanningPerson(task, plans)
         self.human_plan = (
             () if result.human_plan is None else replay_human(task, result.human_plan, plans.deadline)
         )
@@ -68,7 +68,7 @@ class _Examination:
         elif model in _MODELS:  # then they are left alone
             yield from self._differences(Step(t, i) for t, i in enumerate(self.human_plan, start=1))
 
-    def _reaction(self, played: Played) -> Iterator[str]:
+    def _reaction(self, played: PlayedOut) -> Iterator[str]:
         """An answer under a human model is what happens under it."""
         if not played.realised(self._promised()):
             yield "the plan does not work out with the human that it was made for"
@@ -83,7 +83,7 @@ class _Examination:
             says = "does not say" if (epoch, name) in names else "says wrongly"
             yield f"epoch {epoch}: the plan {says} '{name}'"
 
-    def _play(self, model: str) -> Played:
+    def _play(self, model: str) -> PlayedOut:
         horizon = self.result.horizon
         return play(
             self.task,

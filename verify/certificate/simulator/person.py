@@ -8,7 +8,7 @@ from verify.base.execution import State, after, applicable
 from verify.base.optimal_plans import OptimalPlans
 
 
-class Person:
+class ReplanningPerson:
     """What the human would do and pay alone; kept between questions about one task.
 
     Every method but :meth:`cost_of` raises :class:`verify.base.undecided.TooManyStatesError` where

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from serendipity.model import Deadline
-from verify.packed.cheapest_path import TooManyStatesError
+from verify.packed.cheapest_path import TooManyPackedStatesError
 from verify.packed.layout import Words
 from verify.packed.operators import Ints
 
@@ -17,7 +17,7 @@ _AT_ONCE: Final = 250_000
 """Rows that are told apart together, or as many as were found before."""
 
 
-class Layer(NamedTuple):
+class RowLayer(NamedTuple):
     """Different states after some epochs, each at its least cost.
 
     Attributes:
@@ -30,12 +30,12 @@ class Layer(NamedTuple):
     paid: Ints
     fresh: Bools
 
-    def only(self, chosen: Bools) -> "Layer":
+    def only(self, chosen: Bools) -> "RowLayer":
         """Some of its states."""
-        return Layer(self.rows[chosen], self.paid[chosen], self.fresh[chosen])
+        return RowLayer(self.rows[chosen], self.paid[chosen], self.fresh[chosen])
 
 
-def cheapest(rows: Words, paid: Ints, fresh: Bools, deadline: Deadline) -> Layer:
+def cheapest(rows: Words, paid: Ints, fresh: Bools, deadline: Deadline) -> RowLayer:
     """Each different row once, at its least cost; of equal costs one that is not fresh, if there is one.
 
     Raises:
@@ -46,7 +46,7 @@ def cheapest(rows: Words, paid: Ints, fresh: Bools, deadline: Deadline) -> Layer
     first = np.ones(len(order), bool)
     first[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
     kept = order[first]
-    return Layer(rows[kept], paid[kept], fresh[kept])
+    return RowLayer(rows[kept], paid[kept], fresh[kept])
 
 
 def _sorted(keys: Sequence[NDArray[Any]], deadline: Deadline) -> NDArray[np.int64]:
@@ -68,15 +68,15 @@ class Collected:
         deadline: polled; asked for memory.
     """
 
-    def __init__(self, layer: Layer, most: int, deadline: Deadline) -> None:
+    def __init__(self, layer: RowLayer, most: int, deadline: Deadline) -> None:
         self._layers, self._known, self._new = [layer], len(layer.paid), 0
         self._most, self._deadline = most, deadline
 
-    def add(self, layer: Layer) -> None:
+    def add(self, layer: RowLayer) -> None:
         """More of them.
 
         Raises:
-            TooManyStatesError: there are too many.
+            TooManyPackedStatesError: there are too many.
             LimitReachedError: the deadline came first.
         """
         self._layers.append(layer)
@@ -84,17 +84,17 @@ class Collected:
         if self._new > max(_AT_ONCE, self._known):
             self.layer()
 
-    def layer(self) -> Layer:
+    def layer(self) -> RowLayer:
         """All of them.
 
         Raises:
-            TooManyStatesError: there are too many.
+            TooManyPackedStatesError: there are too many.
             LimitReachedError: the deadline came first.
         """
         self._deadline.require(4 * sum(layer.rows.nbytes + layer.paid.nbytes for layer in self._layers))
         rows, paid, fresh = (np.concatenate(part) for part in zip(*self._layers, strict=True))
         merged = cheapest(rows, paid, fresh, self._deadline)
         if len(merged.paid) > self._most:
-            raise TooManyStatesError
+            raise TooManyPackedStatesError
         self._layers, self._known, self._new = [merged], len(merged.paid), 0
         return merged

@@ -1,91 +1,27 @@
-"""Exact distances in a small transition system over bit sets of facts."""
+"""Exact distances in a small transition system over sets of facts."""
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from itertools import chain
+from collections.abc import Callable, Iterable
 
 from serendipity.model import Deadline
+from verify.base.fact_bits import BitCondition, BitOperator, BitOperators
 from verify.base.shortest_paths import PathSearch, dijkstra
 from verify.base.undecided import UndecidedError
 
 
-@dataclass(frozen=True, slots=True)
-class Edge:
-    """An action over bit sets of facts: needs ``pre``, excludes ``neg``, sets and unsets."""
-
-    pre: int
-    neg: int
-    add: int
-    delete: int
-    weight: int
-    action: int
-    """Its id in the task."""
-
-    def applicable(self, state: int) -> bool:
-        """Whether it can be done in a state."""
-        return state & self.pre == self.pre and not state & self.neg
-
-    def after(self, state: int) -> int:
-        """The state that it leads to."""
-        return state & ~self.delete | self.add
-
-
-@dataclass(frozen=True, slots=True)
-class PackedCondition:
-    """Facts that must hold, and that must not."""
-
-    pre: int
-    neg: int
-
-    def holds(self, state: int) -> bool:
-        """Whether they do."""
-        return state & self.pre == self.pre and not state & self.neg
-
-
-class Moves:
-    """Applicable edges of a state, looked up under one fact that each of them needs."""
-
-    def __init__(self, edges: Sequence[Edge], deadline: Deadline) -> None:
-        count: dict[int, int] = {}
-        for edge in deadline.each(edges):
-            for bit in bits_of(edge.pre):
-                count[bit] = count.get(bit, 0) + 1
-        self._under: dict[int, list[Edge]] = {}
-        self._always: list[Edge] = []
-        self._watched = 0
-        for edge in deadline.each(edges):
-            bit = min(bits_of(edge.pre), key=lambda bit: count[bit], default=0)
-            self._under.setdefault(bit, []).append(edge) if bit else self._always.append(edge)
-            self._watched |= bit
-
-    def __call__(self, state: int) -> Iterator[tuple[int, int, int]]:
-        """For each edge that is applicable the state after it, its weight and its action."""
-        under = self._under
-        for edge in chain(self._always, *(under[bit] for bit in bits_of(state & self._watched))):
-            if state & edge.pre == edge.pre and not state & edge.neg:
-                yield state & ~edge.delete | edge.add, edge.weight, edge.action
-
-
-def bits_of(mask: int) -> Iterator[int]:
-    """The single bits of a mask, ascending."""
-    while mask:
-        bit = mask & -mask
-        yield bit
-        mask ^= bit
-
-
-class GameDistances:
+class BitDistances:
     """Least weights to the goal, for everything reachable from the states asked about.
 
     Args:
-        edges: the actions.
+        operators: the actions.
         goal: where the distance is 0.
         most: states looked at before a question is given up.
         deadline: polled.
     """
 
-    def __init__(self, edges: Sequence[Edge], goal: PackedCondition, most: int, deadline: Deadline) -> None:
-        self._moves = Moves(edges, deadline)
+    def __init__(
+        self, operators: Iterable[BitOperator], goal: BitCondition, most: int, deadline: Deadline
+    ) -> None:
+        self._moves = BitOperators(operators, deadline)
         self._goal = goal
         self._most = most
         self._deadline = deadline
@@ -106,7 +42,7 @@ class GameDistances:
         before: dict[int, list[tuple[int, int]]] = {start: []}
         pending, ends = [start], []
         while pending:
-            self._deadline.check()
+            self._deadline.tick()
             state = pending.pop()
             if state in self._known:
                 known = self._known[state]
@@ -127,8 +63,8 @@ class GameDistances:
 
 
 def reaches_below(
-    moves: Moves,
-    goal: PackedCondition,
+    moves: BitOperators,
+    goal: BitCondition,
     start: int,
     limit: int,
     least: Callable[[int], int],

@@ -1,14 +1,31 @@
-"""The bounds of :mod:`.spending` and :mod:`.use` on arrays: all that comes at the same value at once."""
+"""Bounds on what robots must have spent before something happens, and may have spent for it to be of use.
+
+The first bound is computed as Knuth generalised Dijkstra's algorithm: what an action needs (a state of each
+participant, and facts outside their automata) is there once the dearest of its parts is, and the action's own
+price comes on top, since it is paid later than any of them.  Nothing is ever deleted, and facts of agents who
+are not looked at are there from the start.
+
+The second one goes the other way round: from the human's actions, each with what robots may have spent when
+it takes place, back along robots' paths and the facts that they change.  A robot's move after which nothing
+that it did is of use to anybody is on no plan worth looking at: without it the others can do the same.
+
+With prices of 1 the bounds are the earliest and the latest epoch.  All that comes at the same value is looked
+at together.
+"""
+
+from typing import Final
 
 import numpy as np
 
 from serendipity.model import Deadline
 from verify.programs.promising.arrays import Actions, Arcs, Ints, Mask, Rows
-from verify.programs.promising.use import NEVER
+
+NEVER: Final = -1
+"""Of no use, however little was spent."""
 
 
-class SpendingAtOnce:
-    """What :class:`.spending.Spending` says.
+class Spending:
+    """Least spending of some agents before each state, literal and action.
 
     Args:
         actions: what they need and change.
@@ -118,8 +135,8 @@ class SpendingAtOnce:
         np.minimum.at(self.literals, made[wanted], value + self._price[makers[wanted]])
 
 
-class UseAtOnce:
-    """What :class:`.use.Use` says.
+class Use:
+    """Most that may have been spent when a robot is in a state, or has done an action, and is of use.
 
     Args:
         actions: what they need and change.
@@ -167,10 +184,6 @@ class UseAtOnce:
         arcs = self._arcs
         use = np.maximum(self._used[arcs.action], self.states[arcs.target])
         return np.where(self._watched[arcs.agent], self._end, use)
-
-    def state(self, agent: int, state: int) -> int:
-        """What may have been spent when an agent is in a state and goes on; :data:`NEVER`: it needn't."""
-        return self._end if self._watched[agent] else int(self.states[self._arcs.first[agent] + state])
 
     def _run(self, deadline: Deadline) -> None:
         kinds = self.states, self._literals, self._used

@@ -1,12 +1,12 @@
 """That no window of one epoch helps: robots one by one, and then the human alone.
 
 Where one more epoch of the window costs more than is asked about, windows have one epoch.  Before it the
-human follows ``pi_H``, after it they are alone; so robots can only leave something behind.  What each of them
-can have made of the world by then, at what cost, its own :class:`.timeline.Timeline` says; put together, this
-is all that robots can leave behind, and more.  What the human does in the window they can as well do after
-it, once robots have done what they do in it: none of that takes away what the human's action needs, which is
-looked at first.  So the human pays from there on at least what they have to pay alone, without epochs.  If
-that and what was paid before is never within the limit, there is no such plan.
+human follows ``pi_H``, after it they are alone; so robots can only leave something behind.  What each of
+them can have made of the world by then, at what cost, its own :class:`.timeline.RobotTimeline` says; put
+together, this is all that robots can leave behind, and more.  What the human does in the window they can as
+well do after it, once robots have done what they do in it: none of that takes away what the human's action
+needs, which is looked at first.  So the human pays from there on at least what they have to pay alone,
+without epochs.  If that and what was paid before is never within the limit, there is no such plan.
 """
 
 from collections.abc import Iterator
@@ -18,40 +18,35 @@ from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.execution import conflicting, states_along
 from verify.base.relevance import Relevant, closure, relevant_part
-from verify.base.subproblem import WINDOW, Subproblem
+from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
-from verify.beside.leavings import differences, together
-from verify.beside.timeline import Timeline, parts
 from verify.exhaustive.circles import circles
+from verify.exhaustive.decoupled.leavings import differences, together
+from verify.exhaustive.decoupled.timeline import RobotTimeline, parts
 from verify.exhaustive.team_problem import as_operator
 from verify.limits import limits
-from verify.packed.cheapest_path import TooManyStatesError
-from verify.packed.layout import Layout, Words
+from verify.packed.cheapest_path import TooManyPackedStatesError
+from verify.packed.layout import PackedLayout, Words
 from verify.packed.operators import Ints
-from verify.packed.problem import Problem, StateSpace, TooLargeError
+from verify.packed.problem import PackedProblem, StateSpace, TooLargeError
 from verify.programs.effort import Minimum
 
 
 def is_short(question: Subproblem) -> bool:
     """Whether plans within the limits have a window of one epoch, after which the human replans."""
-    options, most = question.options, question.most
+    most = question.most
     return (
-        question.rule == WINDOW
+        question.has_plain_windows
         and question.robots
         and most is not None
         and most < 2 * question.prices.epoch
-        and bool(question.human_plan)
-        and options.suffix == "replan"
-        and options.preservation == "kernel"
-        and not options.keep_prefix
-        and not (question.robots_goal and question.task.robot_goal)
         and not any(question.prices.talk)
         and all(len(action.participants) == 1 for action in question.deadline.each(question.task.actions))
     )
 
 
-def no_short_window(question: Subproblem) -> tuple[Minimum, int]:
-    """Whether no plan is within the question's limits, and how many states were looked at.
+def no_short_window(question: Subproblem) -> Minimum:
+    """Whether no plan is within the question's limits.
 
     Args:
         question: one of :func:`is_short`.
@@ -66,17 +61,17 @@ def no_short_window(question: Subproblem) -> tuple[Minimum, int]:
     except LIMITS as limit:
         doing = limit.doing if isinstance(limit, LimitReachedError) else None
         reason = str(LimitReachedError(limit_reason(limit), doing))
-    except (TooManyStatesError, TooLargeError):
+    except (TooManyPackedStatesError, TooLargeError):
         reason = "robots one by one have too many states, or costs too large to be added up in machine words"
-    return Minimum("undecided", reason=reason) if reason else Minimum("none"), search.states
+    return Minimum("undecided" if reason else "none", reason=reason, states=search.states)
 
 
 @dataclass(frozen=True, slots=True)
 class _Alone:
     """The human's own problem, and how to pack for it what stands in another layout."""
 
-    problem: Problem
-    layout: Layout
+    problem: PackedProblem
+    layout: PackedLayout
 
     def packed(self, rows: Words, deadline: Deadline) -> tuple[Words, Ints]:
         """States of the other layout in this one's, and their rows; none where facts exclude each other."""
@@ -123,11 +118,11 @@ class _Search:
         if not robots:
             return "there are no robots"
         followed = frozenset(matters).union(*(part.facts for part in robots))
-        layout = Layout(followed, (), ())
+        layout = PackedLayout(followed, (), ())
         operators = [as_operator((task.actions[i],), question.prices.team[i]) for i in sorted(kept)]
         wanted = list(task.goal.positive), list(task.goal.negative)
-        alone = _Alone(Problem(space, matters, operators, wanted, self._deadline), layout)
-        return self._ends(alone, [Timeline(question, relevant, part, layout) for part in robots])
+        alone = _Alone(PackedProblem(space, matters, operators, wanted, self._deadline), layout)
+        return self._ends(alone, [RobotTimeline(question, relevant, part, layout) for part in robots])
 
     def _space(self, relevant: Relevant) -> StateSpace:
         """What may be true, also where actions that only work together are done at once."""
@@ -164,7 +159,7 @@ class _Search:
                         return True
         return False
 
-    def _ends(self, alone: _Alone, timelines: list[Timeline]) -> str:
+    def _ends(self, alone: _Alone, timelines: list[RobotTimeline]) -> str:
         ends = list(self._windows(alone, timelines))
         if not ends:
             return ""
@@ -181,7 +176,7 @@ class _Search:
         most = question.most - question.prices.epoch
         return most if question.most_cost is None else min(most, question.most_cost)
 
-    def _windows(self, alone: _Alone, timelines: list[Timeline]) -> Iterator[tuple[Words, Ints]]:
+    def _windows(self, alone: _Alone, timelines: list[RobotTimeline]) -> Iterator[tuple[Words, Ints]]:
         """By window, the states that it may end with and that are worth looking at, with what was paid."""
         question, task, layout = self._question, self._question.task, alone.layout
         states = states_along(task, ((i,) for i in question.human_plan), strict=question.options.strict)
@@ -203,7 +198,7 @@ class _Search:
                 timeline.follow(step)
             spent += question.prices.team[step]
 
-    def _left_by(self, timeline: Timeline, base: Words, state: frozenset[int]) -> tuple[Words, Ints]:
+    def _left_by(self, timeline: RobotTimeline, base: Words, state: frozenset[int]) -> tuple[Words, Ints]:
         """What a robot may leave behind after the next epoch."""
         part, layout = timeline.part, timeline.layout
         layer = timeline.ends()

@@ -15,8 +15,8 @@ from serendipity.testing.strategies import family_tasks, tasks
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import Subproblem
-from verify.beside.short_windows import is_short, no_short_window
-from verify.calls.call import Call
+from verify.calls.call import ExaminedCall
+from verify.exhaustive.decoupled.short_windows import is_short, no_short_window
 
 
 def without_joint_actions(task: Task) -> Task:
@@ -30,7 +30,7 @@ def asked(task: Task, options: Options) -> tuple[Subproblem, int] | None:
     plan = optimal_human_plan(task)
     if not plan:
         return None
-    call = Call(task, options, plan, OptimalPlans(task, IndividualOptimum(task)))
+    call = ExaminedCall(task, options, plan, OptimalPlans(task, IndividualOptimum(task)))
     optimum = best(task, options)
     assert call.do_nothing is not None
     least = call.do_nothing[0]
@@ -47,8 +47,8 @@ def closed(task: Task, options: Options) -> bool | None:
         return None
     question, least = found
     assert is_short(question.below(least)) == (least < 2 * question.prices.epoch)
-    assert no_short_window(question.below(least))[0].status == "undecided"
-    return no_short_window(question.below(least - 1))[0].status == "none"
+    assert no_short_window(question.below(least)).status == "undecided"
+    return no_short_window(question.below(least - 1)).status == "none"
 
 
 @given(

@@ -17,16 +17,16 @@ from serendipity.model import GroundAction
 from verify.base.execution import conflicting
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Subproblem
-from verify.beside.rows import Bools, Collected, Layer, cheapest
+from verify.exhaustive.decoupled.rows import Bools, Collected, RowLayer, cheapest
 from verify.limits import limits
-from verify.packed.layout import Layout, Words
-from verify.packed.operators import Operator, OperatorTable
+from verify.packed.layout import PackedLayout, Words
+from verify.packed.operators import OperatorTable, PackedOperator
 
 _AT_ONCE: Final = 4_096
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class RobotPart:
     """What a robot has to do with the world.
 
     Attributes:
@@ -44,7 +44,7 @@ class Part:
     facts: frozenset[int]
 
 
-def parts(question: Subproblem, relevant: Relevant, matters: frozenset[int]) -> list[Part]:
+def parts(question: Subproblem, relevant: Relevant, matters: frozenset[int]) -> list[RobotPart]:
     """The robots' parts.
 
     Args:
@@ -68,7 +68,7 @@ def parts(question: Subproblem, relevant: Relevant, matters: frozenset[int]) -> 
         asked = _union(relevant.pre[i] for i in own) - added | _union(relevant.neg[i] for i in own) - deleted
         changed = (adds[who] | deletes[who]) & relevant.facts
         followed = asked | changed & (matters | planned)
-        found.append(Part(tuple(own), added, deleted, changed & matters, followed))
+        found.append(RobotPart(tuple(own), added, deleted, changed & matters, followed))
     return found
 
 
@@ -76,7 +76,7 @@ def _union(sets: Iterable[Iterable[int]]) -> frozenset[int]:
     return frozenset(fact for facts in sets for fact in facts)
 
 
-class Timeline:
+class RobotTimeline:
     """A robot's states, epoch by epoch.
 
     Args:
@@ -91,7 +91,9 @@ class Timeline:
         layer: its states after the epochs that were followed.
     """
 
-    def __init__(self, question: Subproblem, relevant: Relevant, part: Part, layout: Layout) -> None:
+    def __init__(
+        self, question: Subproblem, relevant: Relevant, part: RobotPart, layout: PackedLayout
+    ) -> None:
         self.part = part
         self._question, self._relevant, self.layout = question, relevant, layout
         self._deadline = question.deadline
@@ -102,12 +104,12 @@ class Timeline:
             for fact in {*action.pre, *action.neg, *action.add, *action.delete}:
                 self._mentioning.setdefault(fact, []).append(number)
         start = layout.pack([question.task.init & part.facts])
-        self.layer = Layer(start, np.zeros(1, np.int64), np.ones(1, bool))
-        self._free: Layer | None = None
+        self.layer = RowLayer(start, np.zeros(1, np.int64), np.ones(1, bool))
+        self._free: RowLayer | None = None
 
-    def _operator(self, i: int) -> Operator:
+    def _operator(self, i: int) -> PackedOperator:
         action, facts = self._question.task.actions[i], self.part.facts
-        return Operator(
+        return PackedOperator(
             tuple(f for f in self._relevant.pre[i] if f not in self.part.added),
             tuple(f for f in self._relevant.neg[i] if f not in self.part.deleted),
             tuple(f for f in action.add if f in facts),
@@ -115,7 +117,7 @@ class Timeline:
             self._question.prices.team[i],
         )
 
-    def ends(self) -> Layer:
+    def ends(self) -> RowLayer:
         """The states after one more epoch, beside nothing.
 
         Raises:
@@ -172,7 +174,7 @@ class Timeline:
             )
         return in_the_way, apart
 
-    def _moved(self, layer: Layer, allowed: Bools | None) -> Layer:
+    def _moved(self, layer: RowLayer, allowed: Bools | None) -> RowLayer:
         """The states after the robot's part of an epoch."""
         begin = np.flatnonzero(layer.fresh)
         found = Collected(

@@ -1,7 +1,0 @@
-"""A small simulator of the human who replans (semantics 6), independent of ``search``."""
-
-from verify.simulator.check import realised_claim
-from verify.simulator.person import Person
-from verify.simulator.run import Moment, Play, Played, play
-
-__all__ = ["Moment", "Person", "Play", "Played", "play", "realised_claim"]
