@@ -170,7 +170,9 @@ def _cheapest(context: SearchContext, plans: Iterable[HumanPlan | None]) -> Huma
 
 def _cheaper(context: SearchContext, plan: HumanPlan) -> FoundPlan:
     """The best plan that the human's searches came across, where one was interrupted; or else this one."""
-    best = context.alone.best_plan(context.packed.init)
+    best = None
+    with suppress(*LIMITS):  # the limit may have come before the human's searches were prepared
+        best = context.alone.best_plan(context.packed.init)
     if best is None:
         return FoundPlan(plan, 0, 0)
     cheaper = context.task.cost_of(best.actions) < context.task.cost_of(plan)

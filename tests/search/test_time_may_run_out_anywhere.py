@@ -7,10 +7,12 @@ from typing import Any, TypeVar
 import pytest
 
 import serendipity
+from search import PreparedTask, solve
 from search.engine import best_first
 from serendipity import LimitReachedError, Task
 from serendipity.facade.interruptibility import Interruption, InterruptionReport
 from serendipity.model import Result
+from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_2, case_4
@@ -311,3 +313,16 @@ def test_no_plan_is_not_said_to_be_feasible(
     assert "unknown" in {answer.status for answer in early}
     for answer in early:
         assert (answer.status == "feasible") == (answer.plan is not None)
+
+
+def test_a_given_plan_is_answered_where_nothing_was_prepared() -> None:
+    """The limit may come before the human's own searches are there to be asked for a better plan."""
+    walks = {f"walk{i} hum": f"at{i} -> at{i + 1} !at{i}" for i in range(3)}
+    stroll = build(agents="hum", human="hum", init="at0 home", goal="home", actions=walks)
+    plan = ["walk0 hum", "walk1 hum", "walk2 hum"]
+    prepared = [PreparedTask(replace(stroll)) for _ in range(100)]
+    given = stroll.plan_from_names(plan)
+    for looks, one in enumerate(prepared):
+        answers = list(solve(one, Options(mode="individual"), human_plan=given, deadline=Countdown(looks)))
+        assert answers[-1].status in ("optimal", "feasible", "unknown")
+    assert answers[-1].status == "optimal"
