@@ -144,3 +144,8 @@ def test_a_window_that_is_none_is_no_window() -> None:
     task = serendipity.example("room2")
     answer = serendipity.plan(task, discount="0.6")
     assert serendipity.verify(task, replace(answer, window=Window(5, 7))).verdict == "refuted"
+
+
+def test_a_billionth_of_the_window_weight_is_no_rounding(goods: list[Good]) -> None:
+    good = next(good for good in goods if good.name == "goals")
+    assert _verdict(good, Edit(("options", "window_weight"), 1000.000000001)) == "refuted"

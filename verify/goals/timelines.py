@@ -178,7 +178,7 @@ def bound_fault(result: Result) -> str | None:
 
 def close(said: float, value: Fraction) -> bool:
     """Whether a float stands for a value that was summed from rounded probabilities."""
-    return math.isclose(said, value, rel_tol=1e-12, abs_tol=1e-12)
+    return math.isclose(said, value, rel_tol=1e-14, abs_tol=1e-14)
 
 
 def mean(lines: Sequence[GoalTimeline], values: Sequence[Fraction]) -> Fraction:
