@@ -4,8 +4,7 @@ Every bound leaves out costs, conditions or agents, and adds none: it never is a
 costs.  The documentation shows this table; a bound that is asked anywhere stands in it.
 """
 
-from importlib import import_module
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 
 class LowerBound(NamedTuple):
@@ -26,15 +25,6 @@ class LowerBound(NamedTuple):
     holds_for: str
     needs: str
     asked_by: str
-
-    def load(self) -> Any:
-        """What works it out.
-
-        Raises:
-            ImportError, AttributeError: it has moved.
-        """
-        module, _, name = self.home.partition(":")
-        return getattr(import_module(module), name)
 
 
 BOUNDS: Final = (

@@ -48,6 +48,25 @@ _STEPS: Final = 16
 RUNNING, FOUND, _NOT_BELOW, _HOPELESS, MEMORY, _UNFIT = range(6)
 
 
+def with_memory(call: Callable[[int], int], wanted: Callable[[], int], deadline: Deadline) -> int:
+    """What a call of the kernel ends with, given as much memory as it wants.
+
+    Args:
+        call: the call, by how many bytes may be allocated.
+        wanted: the bytes that were missing.
+        deadline: asked for them.
+
+    Raises:
+        LimitReachedError: there is not that much.
+    """
+    outcome = call(ROOM)
+    while outcome == MEMORY:
+        missing = wanted()
+        deadline.require(missing)
+        outcome = call(missing)
+    return outcome
+
+
 class ClassicalPlanner:
     """What the kernel knows of one problem.
 
@@ -301,13 +320,7 @@ class ClassicalPlanner:
         return numbers[:length].tolist()
 
     def _allowed(self, call: Callable[[int], int], deadline: Deadline) -> int:
-        """Call the kernel, with as much memory as it wants if there is that much."""
-        outcome = call(ROOM)
-        while outcome == MEMORY:
-            wanted = self._kernel.planner_wanted(self._planner)
-            deadline.require(wanted)
-            outcome = call(wanted)
-        return outcome
+        return with_memory(call, lambda: self._kernel.planner_wanted(self._planner), deadline)
 
     # -- tables
 

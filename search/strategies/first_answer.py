@@ -3,13 +3,13 @@
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from fractions import Fraction
+from typing import Final
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.paths import plan_steps
 from search.human.individual_planner import FoundPlan
 from search.human.plan_graph import PlanGraph
-from search.strategies.limits import FIRST_BOUND
 from search.strategies.warm_start import WarmStart, warm_plan
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS
@@ -17,6 +17,9 @@ from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.task import HumanPlan
+
+_FIRST_BOUND: Final = 0.1
+"""The share of the time that is left for what the team pays at least, beside a human who replans."""
 
 
 def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None) -> PlanGraph | None:
@@ -126,7 +129,7 @@ class FirstAnswer:
         """
         call = self._context
         with suppress(*LIMITS):
-            context = SearchContext(call.prepared, call.options, call.deadline.part(FIRST_BOUND))
+            context = SearchContext(call.prepared, call.options, call.deadline.part(_FIRST_BOUND))
             if context.team is not None:
                 amount = context.team.planner.bound(context.packed.init, context.deadline)
                 self.least = max(self.least, context.keys.objective(context.amount_key(amount)))

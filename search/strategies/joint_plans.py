@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from search.engine.best_first import Incumbent, Node, Progress, Ties, best_first
 from search.engine.paths import path_steps
@@ -11,12 +11,14 @@ from search.packed.parallelise import schedule
 from search.spaces.factory import joint_space
 from search.spaces.from_composite import Suggestions
 from search.strategies.call import Allowance, Call
-from search.strategies.limits import SUGGESTIONS
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.plans import Step
 
 if TYPE_CHECKING:  # loaded by the calls that it serves
     from search.classical.team import Sets, Team
+
+_SUGGESTIONS: Final = 0.05
+"""The share of the time that is left for what one composite plan suggests in a mode with other rules."""
 
 
 def team_optimum(call: Call, part: Allowance) -> Iterator[None]:
@@ -125,7 +127,7 @@ def _suggest(call: Call, steps: Sequence[Step]) -> bool:
     in_order = options.preservation == "kernel" and not options.keep_prefix
     if call.epochs is None or context.weights.announces or not in_order:
         return False
-    part = context.under(context.deadline.part(SUGGESTIONS))
+    part = context.under(context.deadline.part(_SUGGESTIONS))
     suggestions = Suggestions(part, call.plan or (), call.epochs, call.most_cost, call.best.key)
     is_better = False
     try:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from search.classical.encoded_problem import EncodedProblem, memory_for
-from search.classical.planner import FOUND, MEMORY, ROOM, RUNNING, SLICE, ClassicalPlanner
+from search.classical.planner import FOUND, RUNNING, SLICE, ClassicalPlanner, with_memory
 from search.classical.problem import ClassicalProblem
 from search.packed.operators import Operator
 from serendipity.model.errors import LimitReachedError
@@ -170,12 +170,7 @@ class Epochs:
         return not self._is_under_way
 
     def _allowed(self, call: Callable[[int], int], deadline: Deadline) -> int:
-        outcome = call(ROOM)
-        while outcome == MEMORY:
-            wanted = self._kernel.epochs_wanted(self._epochs)
-            deadline.require(wanted)
-            outcome = call(wanted)
-        return outcome
+        return with_memory(call, lambda: self._kernel.epochs_wanted(self._epochs), deadline)
 
 
 def _human_last(task: Task, operators: Sequence[Operator]) -> list[int]:

@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from pkgutil import resolve_name
 
 from docs import hooks
 from search import bounds
@@ -14,7 +15,7 @@ WHAT_THEY_STAND_ON = {"__init__", "registry", "interactions", "achiever_automato
 
 def test_each_is_where_it_is_said_to_be() -> None:
     assert len({bound.name for bound in BOUNDS}) == len(BOUNDS)
-    assert all(callable(bound.load()) for bound in BOUNDS)
+    assert all(callable(resolve_name(bound.home)) for bound in BOUNDS)
     assert all(all(bound) for bound in BOUNDS)
 
 

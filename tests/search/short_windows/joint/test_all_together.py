@@ -10,6 +10,7 @@ import pytest
 import serendipity
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
+from search.classical import planner
 from search.engine.best_first import Incumbent, Progress
 from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY
@@ -117,7 +118,7 @@ def test_too_many_states_are_given_up() -> None:
 
 def test_the_kernel_goes_on_where_memory_ended(monkeypatch: pytest.MonkeyPatch) -> None:
     """It asks for more, bit by bit."""
-    monkeypatch.setattr(epochs, "ROOM", 1 << 10)
+    monkeypatch.setattr(planner, "ROOM", 1 << 10)
     robots, places = 2, 5
     actions = {f"work_h_{i} h": f"-> done_{i} @ 3" for i in range(places)}
     for robot in range(robots):
