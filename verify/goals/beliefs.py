@@ -19,6 +19,9 @@ Fault = str
 
 PlanNames = tuple[str, ...]
 
+Costs = tuple[Fraction | None, Fraction | None]
+"""``cost(G, O)`` and ``cost(G, not O)`` of a goal; None where there is no such plan."""
+
 
 def compiled(
     task: Task, goal: Condition, observed: Sequence[str], deadline: Deadline, *, embed: bool
@@ -90,60 +93,80 @@ def faults(task: Task, recognised: Recognised, deadline: Deadline) -> Iterator[F
         yield "the priors do not add up to 1"
     if len({goal.name for goal in recognised.goals}) < len(recognised.goals):
         yield "two goals have one name"
-    for goal in recognised.goals:
-        yield from _own_faults(task, recognised, goal, deadline)
+    costs = [_costs(task, recognised, goal, deadline) for goal in recognised.goals]
+    for goal, least in zip(recognised.goals, costs, strict=True):
+        yield from _own_faults(task, recognised, goal, least, deadline)
     possible = any(goal.prior and goal.with_observed is not None for goal in recognised.goals)
     if recognised.explained != possible:
         yield f"explained is {str(possible).lower()}, the answer says otherwise"
         return
-    for goal, right in zip(recognised.goals, _posteriors(recognised), strict=True):
+    for goal, right in zip(recognised.goals, _posteriors(recognised, costs), strict=True):
         if not _close(goal.posterior, right):
             yield f"goal '{goal.name}': the posterior is {right:.12g}, the answer says {goal.posterior:.12g}"
 
 
-def _own_faults(task: Task, recognised: Recognised, goal: Believed, deadline: Deadline) -> Iterator[Fault]:
-    for embed, said in ((True, goal.with_observed), (False, goal.without_observed)):
+def _costs(task: Task, recognised: Recognised, goal: Believed, deadline: Deadline) -> Costs:
+    """What a goal costs with the observations and without, exactly: their difference may be a small one."""
+    found = []
+    for embed in (True, False):
         own = compiled(task, goal.goal, recognised.observed, deadline, embed=embed)
         worth = IndividualOptimum(own, deadline).optimum(own.init)
-        least = None if worth is None else float(worth[0])
+        found.append(None if worth is None else worth[0])
+    return found[0], found[1]
+
+
+def _own_faults(
+    task: Task, recognised: Recognised, goal: Believed, costs: Costs, deadline: Deadline
+) -> Iterator[Fault]:
+    for what, said, cost in zip(
+        ("with", "without"), (goal.with_observed, goal.without_observed), costs, strict=True
+    ):
+        least = None if cost is None else float(cost)
         if said != least:
-            what = "with" if embed else "without"
             yield f"goal '{goal.name}': its cost {what} the observations is {least}, the answer says {said}"
             return
     if goal.plan != considered_plan(task, goal.goal, recognised.observed, deadline):
         yield f"goal '{goal.name}': the plan is not the canonical one that explains the observations"
-    likelihood = _likelihood(recognised.beta, goal)
+    likelihood = _likelihood(recognised.beta, costs)
     if (likelihood is None) != (goal.likelihood is None) or not _close(goal.likelihood or 0, likelihood or 0):
         yield f"goal '{goal.name}': the likelihood is {likelihood}, the answer says {goal.likelihood}"
 
 
-def _likelihood(beta: float, goal: Believed) -> float | None:
+def _likelihood(beta: float, costs: Costs) -> float | None:
     """``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``; None where both are infinite."""
-    if goal.with_observed is None:
-        return None if goal.without_observed is None else 0.0
-    if goal.without_observed is None:
+    with_observed, without_observed = costs
+    if with_observed is None:
+        return None if without_observed is None else 0.0
+    if without_observed is None:
         return 1.0
-    loss = beta * (goal.with_observed - goal.without_observed)
+    loss = beta * float(with_observed - without_observed)
     return 1 / (1 + math.exp(loss)) if loss < 700 else 0.0
 
 
-def _posteriors(recognised: Recognised) -> list[float]:
-    """Bayes' rule in logarithms, since a dear detour's likelihood would be rounded to 0."""
+def _posteriors(recognised: Recognised, costs: Sequence[Costs]) -> list[float]:
+    """Bayes' rule, by logarithms of likelihoods, since a dear detour's would be rounded to 0.
+
+    They are compared before priors count: beside a large one the logarithm of a prior loses its digits.
+    """
     if not recognised.explained:
         return [goal.prior for goal in recognised.goals]
-    logs = [_log_joint(recognised.beta, goal) for goal in recognised.goals]
-    most = max(logs)
-    shares = [math.exp(log - most) for log in logs]
+    logs = [_log_likelihood(recognised.beta, least) for least in costs]
+    most = max(log for log, goal in zip(logs, recognised.goals, strict=True) if goal.prior)
+    # A goal without a prior has no share, however likely what was observed is for it.
+    shares = [
+        goal.prior * math.exp(min(log - most, 0.0)) for log, goal in zip(logs, recognised.goals, strict=True)
+    ]
     return [share / sum(shares) for share in shares]
 
 
-def _log_joint(beta: float, goal: Believed) -> float:
-    if not goal.prior or goal.with_observed is None:
+def _log_likelihood(beta: float, costs: Costs) -> float:
+    with_observed, without_observed = costs
+    if with_observed is None:
         return -math.inf
-    if goal.without_observed is None:
-        return math.log(goal.prior)
-    loss = beta * (goal.with_observed - goal.without_observed)
-    return math.log(goal.prior) - (max(loss, 0.0) + math.log1p(math.exp(-abs(loss))))
+    if without_observed is None:
+        return 0.0
+    loss = beta * float(with_observed - without_observed)
+    return -(max(loss, 0.0) + math.log1p(math.exp(-abs(loss))))
 
 
 def _close(a: float | Fraction, b: float | Fraction) -> bool:

@@ -322,3 +322,29 @@ def test_command_line(run: Callable[[str], Run]) -> None:  # noqa: F811
     answer["saving"] += 1
     Path("answer.json").write_text(json.dumps(answer))
     assert run("verify --example room2 answer.json").code == 1
+
+
+@pytest.mark.parametrize("unit", [1, 10**6, 10**9, 10**12])
+def test_posteriors_of_dear_tasks_are_certified(unit: int) -> None:
+    """Their costs differ by little, or by so much that priors are lost beside the logarithms."""
+    dear = build(
+        agents="hum rob",
+        human="hum",
+        init="at_start",
+        goal="left",
+        actions={
+            "left hum": f"at_start -> left @ {unit + 1}/3",
+            "right hum": f"at_start -> right @ {unit}",
+            "back hum": f"right -> left @ {unit}",
+            "on hum": f"left -> right @ {unit}/7",
+            "look hum": f"!seen -> seen @ {unit}/3",
+            "carry rob": f"-> left @ {unit}/11",
+        },
+    )
+    goals = [{"name": name, "goal": [name], "prior": prior} for name, prior in (("left", 7), ("right", 0.3))]
+    for observed in (["left hum"], ["right hum"], ["look hum"], ["look hum", "back hum"]):
+        answer = serendipity.plan(dear, goals=goals, observed=observed, discount="0.9", beta=0.37)
+        assert (
+            serendipity.verify(dear, Result.from_dict(json.loads(json.dumps(answer.to_dict())))).verdict
+            == "proved"
+        )
