@@ -1,18 +1,21 @@
-"""What each strategy of the search is good for: calls with all of them, and without each.
+"""What each strategy, technique and bound of the search is good for: calls with all, and without each.
 
     python -m benchmarks.ablation -o FILE.jsonl [--limits 2,10] [--suites families,buildings,competition]
-        [--stride N]
+        [--stride N] [--calls individual,composite-inf] [--techniques]
     python -m benchmarks.ablation -o FILE.jsonl --table
 
 Limits are seconds of processor time.  A call is asked again without each strategy that made its answer
 better, raised its bound or settled it, or took a twentieth of its time: without any other it would be the
-same call.  What is in the file already is not asked again.  ``lost``: calls decided with it alone, by family;
-``gap``: the change of the sum over all calls of log((cost + 1) / (bound + 1)) without it.
+same call.  With ``--techniques`` it is asked without each technique of the kernel and each bound instead,
+if it takes a hundredth of its time.  What is in the file already is not asked again.  ``lost``: calls
+decided with it alone, by family; ``gap``: the change of the sum over all calls of log((cost + 1) /
+(bound + 1)) without it.
 """
 
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import product
 from math import log
 from pathlib import Path
 from random import Random
@@ -25,6 +28,8 @@ import typer
 import serendipity
 from benchmarks.families import FAMILIES
 from benchmarks.problems import PROBLEMS, can_alone
+from benchmarks.techniques import NAMES
+from benchmarks.techniques import without as doing_without
 from search.strategies.portfolio import STRATEGIES, TURNS
 from serendipity import SerendipityError, Task
 from serendipity.evaluation.measuring.record import Lines
@@ -67,6 +72,8 @@ def main(
     limits: str = "2,10",
     suites: str = "families,buildings,competition",
     stride: int = 1,
+    calls: str = ",".join(CALLS),
+    techniques: Annotated[bool, typer.Option("--techniques")] = False,
     only_print: Annotated[bool, typer.Option("--table")] = False,
 ) -> None:
     """Ask what is not asked yet, or print the table of what is in the file."""
@@ -76,15 +83,17 @@ def main(
         whole = {key[:-1]: row for key, row in known.items() if not key[-1]}
         decided, gaps = sum(map(_decided, whole.values())), sum(row["gap"] for row in whole.values())
         told = Line(f"{len(whole)} calls, {decided} decided, sum of gaps {gaps:.1f}")
-        names = dict.fromkeys(name for turn in TURNS for name in (turn.strategy, turn.name))
+        names = [*dict.fromkeys(name for turn in TURNS for name in (turn.strategy, turn.name)), *NAMES]
         pairs = {(name,): _pairs(name, whole, known) for name in names}
         print(as_markdown([table(("without",), pairs, _columns(gaps)), told]), end="")
         return
     deadline.time = SimpleNamespace(perf_counter=time.process_time)  # type: ignore[attr-defined]
     for suite in suites.split(","):
         for family, name, task in SUITES[suite](stride):
-            for row in _ablated(family, name, task, [*map(float, limits.split(","))], known):
-                lines.append(row)
+            for call, limit in product(calls.split(","), map(float, limits.split(","))):
+                where = {"family": family, "name": name, "call": call, "limit": limit}
+                for row in _ablated(task, where, known, _which if techniques else _worth_a_look):
+                    lines.append(row)
 
 
 def _key(row: Row) -> tuple[Any, ...]:
@@ -114,18 +123,15 @@ def _families(_: int) -> Iterator[tuple[str, str, Task]]:
 SUITES = {"competition": _competition, "buildings": _buildings, "families": _families}
 
 
-def _ablated(family: str, name: str, task: Task, limits: Sequence[float], known: Rows) -> Iterator[Row]:
-    """Rows that are not known yet: a call with all strategies, and without each that did anything."""
-    for call in CALLS:
-        for limit in limits:
-            where = {"family": family, "name": name, "call": call, "limit": limit}
-            whole = known.get((family, name, call, limit, ""))
-            if whole is None:
-                whole = _asked(task, where, "")
-                yield whole
-            for without in _worth_a_look(whole):
-                if (family, name, call, limit, without) not in known:
-                    yield _asked(task, where, without)
+def _ablated(task: Task, where: Row, known: Rows, names: Callable[[Row], Sequence[str]]) -> Iterator[Row]:
+    """Rows that are not known yet: a call with all there is, and without each that may matter in it."""
+    whole = known.get(_key({**where, "without": ""}))
+    if whole is None:
+        whole = _asked(task, where, "")
+        yield whole
+    for name in names(whole):
+        if _key({**where, "without": name}) not in known:
+            yield _asked(task, where, name)
 
 
 def _worth_a_look(row: Row) -> list[str]:
@@ -135,17 +141,23 @@ def _worth_a_look(row: Row) -> list[str]:
     return list(dict.fromkeys([turn.name for turn in turns] + [turn.strategy for turn in turns]))
 
 
+def _which(row: Row) -> Sequence[str]:
+    """The techniques and bounds that a call is asked without."""
+    return NAMES if row["seconds"] > 0.01 * row["limit"] else ()
+
+
 def _useful(part: Row) -> bool:
     """Whether a strategy made an answer better, raised its bound, or settled it."""
     return bool(part["better"] or part["bound"] is not None or part["settled"])
 
 
 def _asked(task: Task, where: Row, without: str) -> Row:
-    more = {"strategies": ",".join(f"-{name}" for name in without.split(","))} if without else {}
+    more = {"strategies": f"-{without}"} if without and without not in NAMES else {}
     begun = time.process_time()
     try:
         options = {**CALLS[where["call"]], **more, "time_limit": where["limit"]}
-        answer = serendipity.plan(task.at(task.init), **options)
+        with doing_without(without):
+            answer = serendipity.plan(task.at(task.init), **options)
     except SerendipityError as error:
         return {**where, "without": without, "status": str(error), "gap": 0.0, "seconds": 0.0, "tried": []}
     return {
@@ -173,7 +185,7 @@ def _gap(answer: serendipity.Result) -> float:
 def _pairs(without: str, whole: Rows, rows: Rows) -> list[Pair]:
     """Every call with all strategies, beside what it is without a turn, or a strategy and all its turns."""
     of = "strategy" if without in STRATEGIES else "name"
-    names = [turn.name for turn in TURNS if getattr(turn, of) == without]
+    names = [turn.name for turn in TURNS if getattr(turn, of) == without or without in NAMES]
     return [
         Pair(row, rows.get((*key, without)), [part for part in row["tried"] if part["name"] in names])
         for key, row in whole.items()

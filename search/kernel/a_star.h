@@ -104,7 +104,7 @@ static int keep_plan(AStar *s, int32_t id, const Ints *rest) {
 /* What relaxed plans suggest from a node may be a better plan, if it is nearer to the goal than all others that cost as much. */
 static void suggest(AStar *s, int32_t id) {
     const Node *node = node_of(&s->table, id);
-    if (node->rest >= s->nearest) return;
+    if (left_out & LOOKAHEAD || node->rest >= s->nearest) return;
     s->nearest = node->rest;
     Cost left = (s->limit < MOST_COST ? s->limit : MOST_COST) - node->spent;
     if (look_ahead(s->lookahead, s->relaxation, s->problem, state_of(&s->table, id), left) != INFINITE_COST)

@@ -23,6 +23,8 @@
 #define API __attribute__((visibility("default")))
 #endif
 
+API void leave_out(int techniques) { left_out = techniques; } /* by every planner from now on */
+
 typedef struct {
     Problem problem;
     Relaxation relaxation; /* both searches work with it, and with this: */
@@ -109,6 +111,7 @@ API void planner_counts(const Planner *s, int64_t *counts) {
 
 /* Tables for the optimal search: projections, then samples, then an order for one sample after another. */
 API int64_t planner_pattern(Planner *s, const int32_t *fields, int32_t count, int64_t most_transitions) {
+    if (left_out & PARTITIONING) return -1;
     return projections_add(&s->a_star.evaluator.projections, &s->problem, fields, count, most_transitions);
 }
 API int planner_samples(Planner *s, int32_t most) { return a_star_samples(&s->a_star, most); }

@@ -44,8 +44,7 @@ static void look_up(const Evaluator *s, const Problem *p, Node *node, const Word
     if (node->projected || !s->projections.n_orders) return;
     node->projected = 1;
     Cost rest = projected(&s->projections, p, state, INFINITE_COST);
-    if (rest > node->rest) node->rest = rest;
-    if (rest == INFINITE_COST) node->exact = 1;
+    if (rest > node->rest) node->rest = rest, node->exact = rest == INFINITE_COST;
 }
 
 /* Whether it is worth asking: one that seldom said more is asked now and then only. */
@@ -69,7 +68,7 @@ static void keep_rests(Evaluator *s, const Relaxation *r, const Word *state, Cos
 
 /* What LM-cut has left says of plans that intend what the operator before does. */
 static void look_onward(Evaluator *s, const Problem *p, const Relaxation *r, Node *node, const Word *state, Cost total) {
-    if (node->op == NONE || node->onward == SEVERAL) return;
+    if (left_out & INTENDED_EFFECTS || node->op == NONE || node->onward == SEVERAL) return;
     Cost onward = with_intention(&s->intentions, p, r, node->op, state, total);
     if (onward > node->onward) node->onward = onward;
 }
@@ -77,16 +76,13 @@ static void look_onward(Evaluator *s, const Problem *p, const Relaxation *r, Nod
 /* What the next turn of LM-cut says of a node. */
 static void evaluate(Evaluator *s, const Problem *p, Relaxation *r, const Table *t, Node *node, const Word *state) {
     int32_t turn = node->evaluated++;
-    if (node->exact || turn >= N_TURNS || (turn && !pays(s, turn))) return;
+    if (node->exact || turn >= N_TURNS || (turn && (left_out & SECOND_CUTS << (turn - 1) || !pays(s, turn)))) return;
     s->evaluated++, s->asked[turn]++;
     const int32_t *known = NULL;
-    if (turn != ANEW && node->parent != NONE) known = set_of(&s->lm_cut.landmarks, node_of(t, node->parent)->landmarks, turn);
+    if (turn != ANEW && node->parent != NONE && !(left_out & HANDED_DOWN)) known = set_of(&s->lm_cut.landmarks, node_of(t, node->parent)->landmarks, turn);
     Cost rest = lm_cut(&s->lm_cut, r, p, state, turn, known, node->op == NONE ? NONE : r->problem.class_of[node->op]);
     if (rest > node->rest) node->rest = rest, s->raised[turn]++;
-    if (rest == INFINITE_COST) {
-        node->exact = 1;
-        return;
-    }
+    if ((node->exact = rest == INFINITE_COST)) return;
     node->landmarks = keep_set(&s->lm_cut.landmarks, &s->lm_cut.found, turn, node->landmarks);
     keep_rests(s, r, state, rest);
     look_onward(s, p, r, node, state, rest);
@@ -94,7 +90,8 @@ static void evaluate(Evaluator *s, const Problem *p, Relaxation *r, const Table 
 
 /* The same for the operator that the best way to the node ends with, where this was not asked together with LM-cut. */
 static void evaluate_onward(Evaluator *s, const Problem *p, Relaxation *r, Node *node, const Word *state) {
-    if (node->onward || node->op == NONE || users_of(&s->intentions, p, &r->problem, node->op) < 0 || !pays(s, N_TURNS)) return;
+    if (left_out & INTENDED_EFFECTS || node->onward || node->op == NONE) return;
+    if (users_of(&s->intentions, p, &r->problem, node->op) < 0 || !pays(s, N_TURNS)) return;
     s->evaluated++, s->asked[N_TURNS]++;
     look_onward(s, p, r, node, state, lm_cut(&s->lm_cut, r, p, state, 0, set_of(&s->lm_cut.landmarks, node->landmarks, 0), NONE));
     if (node->onward > node->rest) s->raised[N_TURNS]++;

@@ -7,6 +7,7 @@ from ctypes import CDLL, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, 
 from typing import Final
 
 SIGNATURES: Final = {
+    "leave_out": (None, [c_int]),
     "planner_new": (c_void_p, [c_void_p]),
     "planner_free": (None, [c_void_p]),
     "planner_begin": (c_int, [c_void_p, c_char_p, c_int32, c_int64, c_size_t]),

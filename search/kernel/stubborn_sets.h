@@ -174,7 +174,7 @@ static int include_makers(Stubborn *b, const Problem *p, const Word *state, int3
 /* Leave of the applicable operators enough for some optimal plan to begin with one of them, where there is a plan: all
    costs are positive.  Where it seldom leaves out any it is given up. */
 static void leave_stubborn(Stubborn *b, const Problem *p, Table *t, const Word *state, Ints *applicable) {
-    if (!b->words || applicable->count < 2) return;
+    if (left_out & STUBBORN_SETS || !b->words || applicable->count < 2) return;
     if (b->kept + b->pruned > STUBBORN_TRIALS && b->pruned * 10 < b->kept) return;
     memset(b->set, 0, (size_t)b->words * sizeof(Word));
     b->waiting.count = 0, b->round++;
