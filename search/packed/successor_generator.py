@@ -176,25 +176,6 @@ class Successors:
         """Applicable actions by who leads them: the human, alone or jointly, then each robot."""
         return [[*self.human(state), *self.joint(state)], *(lookup.options(state) for lookup in self._led)]
 
-    def asked_from(self, groups: list[list[JointAction]]) -> list[int]:
-        """Per group the fields that its options and those of later groups ask for, after which they may have
-        changed in the same epoch; none where interference is strict, which allows no such thing.
-        """
-        asked, found = 0, []
-        for group in reversed(groups):
-            for option in () if self._strict else group:
-                asked |= self._asked(option)
-            found.append(asked)
-        return found[::-1]
-
-    def beside_others(self, chosen: JointAction, option: JointAction) -> JointAction | None:
-        """A set with one more action (or none); None where it does not fit."""
-        if not option.actions:
-            return chosen
-        if chosen.agents & option.agents or not self._fits(option, chosen):
-            return None
-        return together(chosen, option)
-
     def in_turn(self, state: int) -> Iterator[tuple[JointAction, JointAction]]:
         """What can happen next where epochs don't count: one action, or a set that needs one epoch.
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from search.bounds.achievers import Achievers, Provided
 from search.bounds.first_interaction import (
@@ -16,7 +15,6 @@ from search.bounds.first_interaction import (
 from search.bounds.prefix_bounds import FirstInteractionOnTheWay, PrefixBounds
 from search.bounds.private_distances import Corridor
 from search.call.context import SearchContext
-from search.engine.best_first import Incumbent, Space
 from search.engine.dominance import ParetoFront
 from search.human.pattern_database import NOTHING_KNOWN
 from search.human.suffix_rules import Preserved, Replan, Subplan, Suffix
@@ -24,7 +22,6 @@ from search.packed.cost_vector import INFINITE_KEY, NEVER, CostLayout
 from search.packed.operators import Operator
 from search.packed.packings import human_facts
 from search.packed.successor_generator import JointAction
-from search.spaces.stepwise import Stepwise
 from search.spaces.unrestricted import Unrestricted
 from search.spaces.windowed import AnyOfPlan, InLayers, Prefix, Timetable, Windowed
 from serendipity.model.options import Options
@@ -87,7 +84,13 @@ def window_space(
 
 
 def free_space(
-    context: SearchContext, horizon: int | None, most_cost: int | None, limit: int, *, idle: bool
+    context: SearchContext,
+    horizon: int | None,
+    most_cost: int | None,
+    limit: int,
+    *,
+    idle: bool,
+    greed: int = 1,
 ) -> Unrestricted:
     """The space of plans without a window.
 
@@ -97,6 +100,7 @@ def free_space(
         most_cost: largest scaled cost of an acceptable plan, or None.
         limit: key that a plan has to beat.
         idle: robots do nothing.
+        greed: what the bound counts for in the order of nodes.
     """
     # What is announced may make a cheap node look dearer than one that exceeds max_cost in the end.
     announces = context.weights.announces
@@ -110,27 +114,6 @@ def free_space(
         successors=context.successors(idle=idle),
         bounds=free_bounds(context, horizon, limit, idle=idle),
         labels=ParetoFront(compared),
-    )
-
-
-def joint_space(context: SearchContext, horizon: int, limit: int, greed: int = 1) -> Space[Any, Incumbent]:
-    """The space of composite plans within ``T``, where goals are shared.
-
-    Args:
-        context: of the call; its mode has no limit on costs.
-        horizon: ``T``.
-        limit: key that a plan has to beat.
-        greed: what the bound counts for in the order of nodes.
-    """
-    if context.team is None:
-        return free_space(context, horizon, None, limit, idle=False)
-    return Stepwise(
-        initial=context.packed.init,
-        horizon=horizon,
-        goals=context.goals,
-        successors=context.successors(),
-        bounds=free_bounds(context, horizon, limit, idle=False),
-        labels=ParetoFront(),
         greed=greed,
     )
 

@@ -25,6 +25,8 @@ class Unrestricted:
         successors: what agents can do in an epoch.
         bounds: lower bounds on what still has to be paid.
         labels: which nodes make others superfluous.
+        greed: what the bound counts for in the order of nodes; with more than 1 a plan is found sooner, and
+            its optimality is not proved.
     """
 
     def __init__(
@@ -38,7 +40,9 @@ class Unrestricted:
         successors: Successors,
         bounds: Bounds,
         labels: ParetoFront,
+        greed: int = 1,
     ) -> None:
+        self._greed = greed
         self._initial = initial
         self._horizon = horizon
         self._most_cost = most_cost
@@ -82,7 +86,7 @@ class Unrestricted:
             if self._labels.add(after, epoch, key):
                 child = Node(key, epoch, after, TOUCHED if touched else UNTOUCHED, 0, node, option.actions)
                 if not self._offer(child, best):
-                    yield bound, child
+                    yield key + self._greed * (bound - key), child
 
     def _offer(self, node: Node, best: Incumbent) -> bool:
         """Whether a plan ends at the node (going on could only cost more)."""

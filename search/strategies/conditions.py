@@ -27,11 +27,6 @@ def goals_are_shared(call: Call) -> bool:
     return call.context.distances_say_little
 
 
-def time_is_limited(call: Call) -> bool:
-    """Whether an answer on the way may be all that there will be."""
-    return call.context.deadline.left() is not None
-
-
 # -- the human's plan
 
 
@@ -127,14 +122,10 @@ def joint_optimum_is_open(call: Call) -> bool:
     return team is not None and team.planner.is_open
 
 
-def joint_plans_decide_here(call: Call) -> bool:
-    """The same, where goals are shared."""
-    return is_planned(call) and goals_are_shared(call) and joint_plans_decide(call)
-
-
 def joint_plans_on_the_way(call: Call) -> bool:
-    """The same, and such plans are welcome before the best one is known."""
-    return joint_plans_decide_here(call) and time_is_limited(call)
+    """The same, where goals are shared, and an answer on the way may be all that there will be."""
+    limited = call.context.deadline.left() is not None
+    return limited and is_planned(call) and goals_are_shared(call) and joint_plans_decide(call)
 
 
 # -- windows

@@ -4,11 +4,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Final
 
-from search.engine.best_first import Incumbent, Node, Progress, Ties, best_first
+from search.engine.best_first import Incumbent, Node, Progress, best_first
 from search.engine.paths import path_steps
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
-from search.spaces.factory import joint_space
+from search.spaces.factory import free_space
 from search.spaces.from_composite import Suggestions
 from search.strategies.call import Allowance, Call
 from serendipity.model.errors import LimitReachedError
@@ -88,24 +88,10 @@ def _raise(call: Call, amount: int) -> None:
 def greedily_within_horizon(call: Call, part: Allowance) -> Iterator[None]:
     """Composite plans within ``T`` that a greedy search comes by."""
     joint = _incumbent(call)
-    space = joint_space(call.context, int(call.horizon), joint.key, part.limit)
+    space = free_space(call.context, int(call.horizon), None, joint.key, idle=False, greed=part.limit)
     for _ in best_first(space, joint, Progress(), part.deadline):
         if _take(call, joint):
             yield
-
-
-def within_horizon(call: Call, part: Allowance) -> Iterator[None]:
-    """A best composite plan within ``T``, which is the answer but for its window and for ties."""
-    joint = _incumbent(call)
-    progress = Progress(call.progress.bound, told_at=part.deadline.elapsed())
-    space = joint_space(call.context, int(call.horizon), joint.key)
-    shift = call.keys.objective_shift
-    for _ in best_first(space, joint, progress, part.deadline, Ties(shift, 0)):
-        call.progress.expanded, call.progress.generated = progress.expanded, progress.generated
-        call.raise_joint_bound(progress.bound)
-        _take(call, joint)
-        yield
-    call.raise_joint_bound(joint.key >> shift << shift)
 
 
 def _incumbent(call: Call) -> Incumbent:

@@ -21,7 +21,6 @@ from search.strategies.joint_plans import (
     joint_optimum,
     open_joint_optimum,
     team_optimum,
-    within_horizon,
 )
 from search.strategies.outcome import answer_of
 from search.strategies.short_windows import beside_timetable, robots_apart
@@ -74,7 +73,7 @@ STRATEGIES: Final = {
     "warm-start": "The rest of the last answer, where it is a plan of this call.",
     "bound": "The private costs that are left to the human in every plan.",
     "joint-optimum": "The best plan of all agents together without a horizon, by the kernel's A*.",
-    "within-horizon": "Composite plans within T.",
+    "greedy": "Composite plans within T that are come by soon.",
     "robots-apart": "Windows of one epoch from what each robot can bring about by itself.",
     "timetable": "Windows of one epoch from all states beside the human's timetable.",
     "all-plans": "Best-first search over all windows and plans of the mode.",
@@ -97,9 +96,8 @@ TURNS: Final = (
     Turn("timetable", "timetable-on", calls.timetable_is_hopeful, beside_timetable, 0.35, 3_000_000),
     Turn("robots-apart", "robots-apart", calls.robots_only_leave_behind, robots_apart, share=0.5),
     Turn("timetable", "timetable-last", calls.robots_only_leave_behind, beside_timetable, 0.9, 10_000_000),
-    Turn("within-horizon", "greedy", calls.joint_plans_on_the_way, greedily_within_horizon, 0.2, limit=5),
+    Turn("greedy", "greedy", calls.joint_plans_on_the_way, greedily_within_horizon, 0.2, limit=5),
     Turn("joint-optimum", "joint-optimum-on", calls.joint_optimum_is_open, open_joint_optimum, share=0.9),
-    Turn("within-horizon", "exact-within-horizon", calls.joint_plans_decide_here, within_horizon),
     Turn("all-plans", "exact-bounds", calls.is_for_team_beside_plan, while_bounds_are_exact),
     Turn("joint-optimum", "team", calls.is_for_kernel, team_optimum),
     Turn("all-plans", "all", calls.is_planned, all_plans),
