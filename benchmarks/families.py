@@ -3,7 +3,7 @@
 Each kind is a function of dice and a size; nothing else about the planner was ever decided by them.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 from random import Random
 from typing import Final
@@ -11,9 +11,24 @@ from typing import Final
 from serendipity import Task
 from serendipity.testing.builders import task
 
-ROBOTS: Final = ("r", "s")
+AGENTS: Final = ("h", "r", "s")
 
 Actions = dict[str, str]
+
+
+def _each(ranges: Mapping[str, Iterable[object]], texts: Actions) -> Actions:
+    """Actions for every agent, ``{a}`` in their texts, and every value of some ranges.
+
+    Args:
+        ranges: by a name; by names with blanks between them where values are tuples.
+        texts: actions in the form of :func:`serendipity.testing.builders.task`, with names in braces.
+    """
+    chosen: list[dict[str, object]] = [{"a": agent} for agent in AGENTS]
+    for text, values in ranges.items():
+        names = text.split()
+        tuples = [value if isinstance(value, tuple) else (value,) for value in values]
+        chosen = [one | dict(zip(names, each, strict=True)) for one in chosen for each in tuples]
+    return {name.format(**one): text.format(**one) for one in chosen for name, text in texts.items()}
 
 
 def _tree(dice: Random, places: int) -> list[tuple[int, int]]:
@@ -21,73 +36,63 @@ def _tree(dice: Random, places: int) -> list[tuple[int, int]]:
     return [(dice.randrange(place), place) for place in range(1, places)]
 
 
-def _walks(
-    agents: Sequence[str], edges: Sequence[tuple[int, int]], needs: Callable[[int, int], str]
-) -> Actions:
-    """Everybody walks along edges, where what an edge needs holds."""
-    return {
-        f"go_{agent}_{a}_{b} {agent}": f"at_{agent}_{a} {needs(a, b)} -> at_{agent}_{b} !at_{agent}_{a}"
-        for agent in agents
-        for one, other in edges
-        for a, b in ((one, other), (other, one))
-    }
+def _row(places: int) -> list[tuple[int, int]]:
+    """The edges between places in a row."""
+    return list(pairwise(range(places)))
 
 
-def _beside(places: int) -> list[tuple[int, int]]:
-    """Places in a row, and those beside them."""
-    return [(a, b) for a in range(places) for b in (a - 1, a + 1) if 0 <= b < places]
+def _both_ways(edges: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
+    return [pair for one, other in edges for pair in ((one, other), (other, one))]
 
 
-def _free(_: int, __: int) -> str:
-    return ""
+def _walks(edges: Iterable[tuple[int, int]]) -> Actions:
+    """Everybody walks along edges."""
+    return _each({"x y": _both_ways(edges)}, {"go_{a}_{x}_{y} {a}": "at_{a}_{x} -> at_{a}_{y} !at_{a}_{x}"})
 
 
 def kitchen(dice: Random, size: int) -> Task:
     """Things out of cupboards, which have to be opened, onto the table; each agent carries one."""
-    agents, edges = ("h", *ROBOTS), _tree(dice, 4)
-    actions = _walks(agents, edges, _free)
+    actions = _walks(_tree(dice, 4))
     where = [dice.randrange(1, 4) for _ in range(size)]
-    for agent in agents:
-        for place in range(1, 4):
-            actions[f"open_{agent}_{place} {agent}"] = f"at_{agent}_{place} !open_{place} -> open_{place}"
-        for thing, place in enumerate(where):
-            actions[f"take_{agent}_{thing} {agent}"] = (
-                f"at_{agent}_{place} open_{place} in_{thing} empty_{agent} "
-                f"-> has_{agent}_{thing} !in_{thing} !empty_{agent}"
-            )
-            actions[f"put_{agent}_{thing} {agent}"] = (
-                f"at_{agent}_0 has_{agent}_{thing} -> on_{thing} !has_{agent}_{thing} empty_{agent}"
-            )
-    init = [f"at_{a}_{dice.randrange(4)} empty_{a}" for a in agents] + [f"in_{t}" for t in range(size)]
-    return _made(agents, init, [f"on_{thing}" for thing in range(size)], actions)
+    actions |= _each(
+        {"place": range(1, 4)}, {"open_{a}_{place} {a}": "at_{a}_{place} !open_{place} -> open_{place}"}
+    )
+    actions |= _each(
+        {"thing place": enumerate(where)},
+        {
+            "take_{a}_{thing} {a}": (
+                "at_{a}_{place} open_{place} in_{thing} empty_{a} -> has_{a}_{thing} !in_{thing} !empty_{a}"
+            ),
+            "put_{a}_{thing} {a}": "at_{a}_0 has_{a}_{thing} -> on_{thing} !has_{a}_{thing} empty_{a}",
+        },
+    )
+    init = [f"at_{a}_{dice.randrange(4)} empty_{a}" for a in AGENTS] + [f"in_{t}" for t in range(size)]
+    return _made(init, [f"on_{thing}" for thing in range(size)], actions)
 
 
 def doors(dice: Random, size: int) -> Task:
     """A tree of rooms with locked doors, whose keys lie about; the human has to look into some of them."""
-    agents, edges = ("h", *ROBOTS), _tree(dice, size + 3)
+    edges = _tree(dice, size + 3)
     locked = dice.sample(edges[1:], k=max(1, size // 2))
-
-    def needs(a: int, b: int) -> str:
-        return f"open_{max(a, b)}" if (min(a, b), max(a, b)) in locked else ""
-
-    actions = _walks(agents, edges, needs)
+    actions = _walks(edge for edge in edges if edge not in locked)
+    actions |= _each(
+        {"x y door": [(x, y, max(x, y)) for x, y in _both_ways(locked)]},
+        {
+            "go_{a}_{x}_{y} {a}": "at_{a}_{x} open_{door} -> at_{a}_{y} !at_{a}_{x}",
+            "unlock_{a}_{door}_{x} {a}": "at_{a}_{x} has_{a}_{door} -> open_{door} @ 2",
+        },
+    )
     behind = {b for _, b in locked}
     start = [room for room in range(size + 3) if not _is_behind(room, edges, behind)]
     keys = {door: dice.choice(start) for door in behind}
-    for agent in agents:
-        for (a, b), door in [(edge, edge[1]) for edge in locked]:
-            actions[f"take_{agent}_{door} {agent}"] = (
-                f"at_{agent}_{keys[door]} key_{door} -> has_{agent}_{door} !key_{door}"
-            )
-            for side in (a, b):
-                actions[f"unlock_{agent}_{door}_{side} {agent}"] = (
-                    f"at_{agent}_{side} has_{agent}_{door} -> open_{door} @ 2"
-                )
+    actions |= _each(
+        {"door room": keys.items()},
+        {"take_{a}_{door} {a}": "at_{a}_{room} key_{door} -> has_{a}_{door} !key_{door}"},
+    )
     looked = dice.sample(range(1, size + 3), k=min(3, size))
-    for room in looked:
-        actions[f"look_{room} h"] = f"at_h_{room} -> seen_{room}"
-    init = [f"at_{agent}_{dice.choice(start)}" for agent in agents] + [f"key_{door}" for door in behind]
-    return _made(agents, init, [f"seen_{room}" for room in looked], actions)
+    actions |= _each({"room": looked}, {"look_{room} h": "at_h_{room} -> seen_{room}"})
+    init = [f"at_{agent}_{dice.choice(start)}" for agent in AGENTS] + [f"key_{door}" for door in behind]
+    return _made(init, [f"seen_{room}" for room in looked], actions)
 
 
 def _is_behind(room: int, edges: Sequence[tuple[int, int]], doors: set[int]) -> bool:
@@ -101,152 +106,134 @@ def _is_behind(room: int, edges: Sequence[tuple[int, int]], doors: set[int]) -> 
 
 def assembly(dice: Random, size: int) -> Task:
     """Parts are cut, drilled and painted, in their order, with tools of which there is one each."""
-    agents, stages = ("h", *ROBOTS), ("raw", "cut", "drilled", "painted")
-    actions: Actions = {}
-    for agent in agents:
-        for tool in stages[1:]:
-            actions[f"pick_{agent}_{tool} {agent}"] = (
-                f"{tool}_there empty_{agent} -> {tool}_{agent} !{tool}_there !empty_{agent}"
-            )
-            actions[f"lay_{agent}_{tool} {agent}"] = (
-                f"{tool}_{agent} -> {tool}_there empty_{agent} !{tool}_{agent}"
-            )
-            for part in range(size):
-                before = stages[stages.index(tool) - 1]
-                actions[f"do_{agent}_{tool}_{part} {agent}"] = (
-                    f"{tool}_{agent} {before}_p{part} -> {tool}_p{part} !{before}_p{part} @ 2"
-                )
-    init = [f"{tool}_there" for tool in stages[1:]] + [f"empty_{agent}" for agent in agents]
+    stages = ("raw", "cut", "drilled", "painted")
+    actions = _each(
+        {"tool": stages[1:]},
+        {
+            "pick_{a}_{tool} {a}": "{tool}_there empty_{a} -> {tool}_{a} !{tool}_there !empty_{a}",
+            "lay_{a}_{tool} {a}": "{tool}_{a} -> {tool}_there empty_{a} !{tool}_{a}",
+        },
+    ) | _each(
+        {"before tool": pairwise(stages), "part": range(size)},
+        {"do_{a}_{tool}_{part} {a}": ("{tool}_{a} {before}_p{part} -> {tool}_p{part} !{before}_p{part} @ 2")},
+    )
+    init = [f"{tool}_there" for tool in stages[1:]] + [f"empty_{agent}" for agent in AGENTS]
     init += [f"{dice.choice(stages[:2])}_p{part}" for part in range(size)]
-    return _made(agents, init, [f"painted_p{part}" for part in range(size)], actions)
+    return _made(init, [f"painted_p{part}" for part in range(size)], actions)
 
 
 def garden(dice: Random, size: int) -> Task:
     """Beds along a path are weeded and watered; a can holds water for one, and is filled at the tap."""
-    agents, edges = ("h", *ROBOTS), list(pairwise(range(size + 1)))
-    actions = _walks(agents, edges, _free)
-    for agent in agents:
-        actions[f"fill_{agent} {agent}"] = f"at_{agent}_0 dry_{agent} -> full_{agent} !dry_{agent}"
-        for bed in range(1, size + 1):
-            actions[f"weed_{agent}_{bed} {agent}"] = (
-                f"at_{agent}_{bed} wild_{bed} -> clean_{bed} !wild_{bed} @ 2"
-            )
-            actions[f"water_{agent}_{bed} {agent}"] = (
-                f"at_{agent}_{bed} clean_{bed} full_{agent} -> wet_{bed} dry_{agent} !full_{agent}"
-            )
-    init = [f"at_{agent}_{dice.randrange(size + 1)} dry_{agent}" for agent in agents]
+    actions = _walks(_row(size + 1)) | _each(
+        {"bed": range(1, size + 1)},
+        {
+            "fill_{a} {a}": "at_{a}_0 dry_{a} -> full_{a} !dry_{a}",
+            "weed_{a}_{bed} {a}": "at_{a}_{bed} wild_{bed} -> clean_{bed} !wild_{bed} @ 2",
+            "water_{a}_{bed} {a}": "at_{a}_{bed} clean_{bed} full_{a} -> wet_{bed} dry_{a} !full_{a}",
+        },
+    )
+    init = [f"at_{agent}_{dice.randrange(size + 1)} dry_{agent}" for agent in AGENTS]
     init += [dice.choice(("wild", "wild", "clean")) + f"_{bed}" for bed in range(1, size + 1)]
-    return _made(agents, init, [f"wet_{bed}" for bed in range(1, size + 1)], actions)
+    return _made(init, [f"wet_{bed}" for bed in range(1, size + 1)], actions)
 
 
 def library(dice: Random, size: int) -> Task:
     """Books go back to their shelves along an aisle; there is one trolley, which holds any number."""
-    agents, places = ("h", *ROBOTS), 4
-    actions = _walks(agents, list(pairwise(range(places))), _free)
+    places = 4
     home = [dice.randrange(1, places) for _ in range(size)]
-    for agent in agents:
-        for a, b in _beside(places):
-            actions[f"push_{agent}_{a}_{b} {agent}"] = (
-                f"at_{agent}_{a} cart_{a} -> at_{agent}_{b} cart_{b} !at_{agent}_{a} !cart_{a}"
-            )
-        for book, shelf in enumerate(home):
-            for place in range(places):
-                actions[f"load_{agent}_{book}_{place} {agent}"] = (
-                    f"at_{agent}_{place} cart_{place} lies_{book}_{place} -> in_{book} !lies_{book}_{place}"
-                )
-            actions[f"shelve_{agent}_{book} {agent}"] = (
-                f"at_{agent}_{shelf} cart_{shelf} in_{book} -> home_{book} !in_{book}"
-            )
-    init = [f"at_{agent}_{dice.randrange(places)}" for agent in agents] + [f"cart_{dice.randrange(places)}"]
+    actions = _walks(_row(places)) | _each(
+        {"x y": _both_ways(_row(places))},
+        {"push_{a}_{x}_{y} {a}": "at_{a}_{x} cart_{x} -> at_{a}_{y} cart_{y} !at_{a}_{x} !cart_{x}"},
+    )
+    actions |= _each(
+        {"book shelf": enumerate(home), "place": range(places)},
+        {
+            "load_{a}_{book}_{place} {a}": (
+                "at_{a}_{place} cart_{place} lies_{book}_{place} -> in_{book} !lies_{book}_{place}"
+            ),
+            "shelve_{a}_{book} {a}": ("at_{a}_{shelf} cart_{shelf} in_{book} -> home_{book} !in_{book}"),
+        },
+    )
+    init = [f"at_{agent}_{dice.randrange(places)}" for agent in AGENTS] + [f"cart_{dice.randrange(places)}"]
     init += [f"lies_{book}_{dice.randrange(places)}" for book in range(size)]
-    return _made(agents, init, [f"home_{book}" for book in range(size)], actions)
+    return _made(init, [f"home_{book}" for book in range(size)], actions)
 
 
 def lift(dice: Random, size: int) -> Task:
     """Parcels to floors by a lift that whoever stands in it drives, or by stairs, which cost more."""
-    agents, floors = ("h", *ROBOTS), 3
-    actions: Actions = {}
-    for agent in agents:
-        for a, b in _beside(floors):
-            actions[f"climb_{agent}_{a}_{b} {agent}"] = (
-                f"at_{agent}_{a} -> at_{agent}_{b} !at_{agent}_{a} @ 3"
-            )
-            actions[f"ride_{agent}_{a}_{b} {agent}"] = f"in_{agent} lift_{a} -> lift_{b} !lift_{a}"
-        for floor in range(floors):
-            actions[f"enter_{agent}_{floor} {agent}"] = (
-                f"at_{agent}_{floor} lift_{floor} room -> in_{agent} !at_{agent}_{floor} !room"
-            )
-            actions[f"leave_{agent}_{floor} {agent}"] = (
-                f"in_{agent} lift_{floor} -> at_{agent}_{floor} room !in_{agent}"
-            )
-            actions[f"call_{agent}_{floor} {agent}"] = (
-                f"at_{agent}_{floor} room lift_0 -> lift_{floor} !lift_0"
-            )
-            for parcel in range(size):
-                actions[f"take_{agent}_{parcel}_{floor} {agent}"] = (
-                    f"at_{agent}_{floor} p_{parcel}_{floor} -> has_{agent}_{parcel} !p_{parcel}_{floor}"
-                )
-                actions[f"drop_{agent}_{parcel}_{floor} {agent}"] = (
-                    f"at_{agent}_{floor} has_{agent}_{parcel} -> p_{parcel}_{floor} !has_{agent}_{parcel}"
-                )
-    init = [f"at_{agent}_{dice.randrange(floors)}" for agent in agents] + ["room", "lift_0"]
-    goal = []
-    for parcel in range(size):
-        start, end = dice.sample(range(floors), k=2)
-        init.append(f"p_{parcel}_{start}")
-        goal.append(f"p_{parcel}_{end}")
-    return _made(agents, init, goal, actions)
+    floors = 3
+    actions = _each(
+        {"x y": _both_ways(_row(floors))},
+        {
+            "climb_{a}_{x}_{y} {a}": "at_{a}_{x} -> at_{a}_{y} !at_{a}_{x} @ 3",
+            "ride_{a}_{x}_{y} {a}": "in_{a} lift_{x} -> lift_{y} !lift_{x}",
+        },
+    )
+    actions |= _each(
+        {"floor": range(floors), "parcel": range(size)},
+        {
+            "enter_{a}_{floor} {a}": "at_{a}_{floor} lift_{floor} room -> in_{a} !at_{a}_{floor} !room",
+            "leave_{a}_{floor} {a}": "in_{a} lift_{floor} -> at_{a}_{floor} room !in_{a}",
+            "call_{a}_{floor} {a}": "at_{a}_{floor} room lift_0 -> lift_{floor} !lift_0",
+            "take_{a}_{parcel}_{floor} {a}": (
+                "at_{a}_{floor} p_{parcel}_{floor} -> has_{a}_{parcel} !p_{parcel}_{floor}"
+            ),
+            "drop_{a}_{parcel}_{floor} {a}": (
+                "at_{a}_{floor} has_{a}_{parcel} -> p_{parcel}_{floor} !has_{a}_{parcel}"
+            ),
+        },
+    )
+    init = [f"at_{agent}_{dice.randrange(floors)}" for agent in AGENTS] + ["room", "lift_0"]
+    ways = [dice.sample(range(floors), k=2) for _ in range(size)]
+    init += [f"p_{parcel}_{start}" for parcel, (start, _) in enumerate(ways)]
+    return _made(init, [f"p_{parcel}_{end}" for parcel, (_, end) in enumerate(ways)], actions)
 
 
 def bridge(dice: Random, size: int) -> Task:
     """Stones over a narrow bridge, on which there is room for one agent."""
-    agents, places = ("h", *ROBOTS), 5
-    actions: Actions = {}
-    for agent in agents:
-        for a, b in _beside(places):
-            needs, gives = ("clear" if b == 2 else ""), ("clear" if a == 2 else "")
-            takes = "!clear" if b == 2 else ""
-            actions[f"go_{agent}_{a}_{b} {agent}"] = (
-                f"at_{agent}_{a} {needs} -> at_{agent}_{b} !at_{agent}_{a} {gives} {takes}"
-            )
-        for stone in range(size):
-            for place in (0, 1, 3, 4):
-                actions[f"lift_{agent}_{stone}_{place} {agent}"] = (
-                    f"at_{agent}_{place} s_{stone}_{place} empty_{agent} "
-                    f"-> has_{agent}_{stone} !s_{stone}_{place} !empty_{agent}"
-                )
-                actions[f"lay_{agent}_{stone}_{place} {agent}"] = (
-                    f"at_{agent}_{place} has_{agent}_{stone} "
-                    f"-> s_{stone}_{place} empty_{agent} !has_{agent}_{stone}"
-                )
-    init = [f"at_{agent}_{dice.choice((0, 1, 3, 4))} empty_{agent}" for agent in agents] + ["clear"]
-    goal = []
-    for stone in range(size):
-        start, end = dice.choice(((0, 4), (1, 3), (4, 0), (3, 1), (0, 3)))
-        init.append(f"s_{stone}_{start}")
-        goal.append(f"s_{stone}_{end}")
-    return _made(agents, init, goal, actions)
+    narrow, shores = 2, (0, 1, 3, 4)
+    actions = _walks(edge for edge in _row(5) if narrow not in edge) | _each(
+        {"x": (1, 3)},
+        {
+            "go_{a}_{x}_2 {a}": "at_{a}_{x} clear -> at_{a}_2 !at_{a}_{x} !clear",
+            "go_{a}_2_{x} {a}": "at_{a}_2 -> at_{a}_{x} !at_{a}_2 clear",
+        },
+    )
+    actions |= _each(
+        {"stone": range(size), "place": shores},
+        {
+            "lift_{a}_{stone}_{place} {a}": (
+                "at_{a}_{place} s_{stone}_{place} empty_{a} -> has_{a}_{stone} !s_{stone}_{place} !empty_{a}"
+            ),
+            "lay_{a}_{stone}_{place} {a}": (
+                "at_{a}_{place} has_{a}_{stone} -> s_{stone}_{place} empty_{a} !has_{a}_{stone}"
+            ),
+        },
+    )
+    init = [f"at_{agent}_{dice.choice(shores)} empty_{agent}" for agent in AGENTS] + ["clear"]
+    ways = [dice.choice(((0, 4), (1, 3), (4, 0), (3, 1), (0, 3))) for _ in range(size)]
+    init += [f"s_{stone}_{start}" for stone, (start, _) in enumerate(ways)]
+    return _made(init, [f"s_{stone}_{end}" for stone, (_, end) in enumerate(ways)], actions)
 
 
 def laundry(dice: Random, size: int) -> Task:
     """Baskets are washed, hung up and folded; a machine takes one at a time, and anybody may switch it on."""
-    agents = ("h", *ROBOTS)
-    actions: Actions = {}
-    for agent in agents:
-        for load in range(size):
-            actions[f"fill_{agent}_{load} {agent}"] = (
-                f"dirty_{load} idle -> loaded_{load} !dirty_{load} !idle"
-            )
-            actions[f"wash_{agent}_{load} {agent}"] = f"loaded_{load} -> washed_{load} !loaded_{load} @ 1"
-            actions[f"empty_{agent}_{load} {agent}"] = f"washed_{load} -> wet_{load} idle !washed_{load}"
-            actions[f"hang_{agent}_{load} {agent}"] = f"wet_{load} line -> dry_{load} !wet_{load} !line @ 2"
-            actions[f"fold_{agent}_{load} {agent}"] = f"dry_{load} -> folded_{load} line !dry_{load} @ 2"
+    actions = _each(
+        {"load": range(size)},
+        {
+            "fill_{a}_{load} {a}": "dirty_{load} idle -> loaded_{load} !dirty_{load} !idle",
+            "wash_{a}_{load} {a}": "loaded_{load} -> washed_{load} !loaded_{load} @ 1",
+            "empty_{a}_{load} {a}": "washed_{load} -> wet_{load} idle !washed_{load}",
+            "hang_{a}_{load} {a}": "wet_{load} line -> dry_{load} !wet_{load} !line @ 2",
+            "fold_{a}_{load} {a}": "dry_{load} -> folded_{load} line !dry_{load} @ 2",
+        },
+    )
     init = ["idle", "line"] + [dice.choice(("dirty", "dirty", "wet")) + f"_{load}" for load in range(size)]
-    return _made(agents, init, [f"folded_{load}" for load in range(size)], actions)
+    return _made(init, [f"folded_{load}" for load in range(size)], actions)
 
 
-def _made(agents: Sequence[str], init: Sequence[str], goal: Sequence[str], actions: Actions) -> Task:
-    return task(agents=" ".join(agents), init=" ".join(init), goal=" ".join(goal), actions=actions)
+def _made(init: Sequence[str], goal: Sequence[str], actions: Actions) -> Task:
+    return task(agents=" ".join(AGENTS), init=" ".join(init), goal=" ".join(goal), actions=actions)
 
 
 FAMILIES: Final = {
