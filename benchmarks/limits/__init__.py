@@ -1,1 +1,1 @@
-"""How limits of time and memory are kept: studies of commands as processes."""
+"""How well limits are kept: commands on tasks."""

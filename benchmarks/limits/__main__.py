@@ -1,92 +1,49 @@
 """How well every command keeps ``--time-limit`` and ``--memory-limit``, as a process.
 
     python -m benchmarks.limits plan|verify|memory|commands [--suite FOLDER] [--record FILE] [--jobs N]
-        [--fair] [--limits 0.1,1,10] [--memory MIB] [--commands plan,...] [--rotate N] [--tasks NAME,...]
-        [--stride N]
+        [--limits 0.1,1,10] [--memory MIB] [--rotate N] [--stride N]
 
 What is measured, unless options say otherwise:
 
 - ``plan``: every mode on all tasks of the suite, limits of 0.1 and 1 s
-- ``verify``: certificates for answers of every mode, on 100 tasks of all kinds, 0.05, 0.5 and 5 s
+- ``verify``: certificates for answers of every mode, on some 80 tasks of all kinds, 0.05, 0.5 and 5 s
 - ``memory``: every mode and ``verify`` on the ten largest tasks of the suite, 300 MiB, 20 s
 - ``commands``: every command on ten tasks of the suite and four of our own, 0.05, 0.5 and 2 s; and on
   all of them 40 MiB above what the process has when it starts
 
-Tasks are those of ``benchmarks.limits.tasks``; with ``--rotate`` each gets N of the commands, in turn.
+Tasks are those of ``benchmarks.limits.tasks``; with ``--rotate`` each task
+gets N of the commands, in turn.
 
 A command starts when the interpreter and its modules are loaded, which it tells itself (``reproduce`` does
 not, so the same command with a limit of 0 is taken off).  What is over the limit is the *overrun*; a limit
 is *kept* if that is at most 10 % of it and 50 ms.  ``reproduce`` has the limit twice: for reading,
-and for its row.  A process that is late by 15 s is killed.
-
-On a busy machine the deadline also counts what others do.  With ``--fair`` no clock runs while the process
-waits for a processor (on Linux).  It does not see what solvers wait for, which are processes of their own,
-nor what the machine itself waits for another: rows that are late by little are worth a second look.
+and for its row.  A process that is late by 15 s is killed.  On a busy machine the deadline also counts what
+others do: rows that are late by little are worth a second look.
 
 With ``--record`` rows are written as they come, and what is there already is not measured again; answers to
 check are kept in a folder beside it.
 """
 
+import os
+import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from string import Formatter
-from typing import Literal, NamedTuple
+from threading import Timer
+from typing import Any, Final, Literal, NamedTuple
 
 import typer
 
-from benchmarks.limits.process import Ended, Runner
-from benchmarks.limits.tasks import Named, own_tasks, tasks_of_all_kinds, tasks_of_suite, with_files
+from benchmarks.limits.tasks import CERTIFICATES, FOUND, MODES, OTHERS, lines, tasks
 from benchmarks.problems import PROBLEMS
 from serendipity.evaluation.measuring.record import Record
 from serendipity.evaluation.measuring.running import measured
 from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
 from serendipity.model.telling import Grid, Line
-
-MODES = {
-    "plan": "plan {task} --discount 0.9",
-    "plan individual": "plan {task} --mode individual",
-    "plan K=0": "plan {task} --discount 0.9 --window-weight 0",
-    "plan communication": "plan {task} --discount 0.9 --mode communication --format json",
-    "plan composite": "plan {task} --discount 0.9 --mode composite --horizon inf",
-    "plan local": "plan {task} --discount 0.9 --human-model local",
-    "plan observant": "plan {task} --discount 0.9 --human-model observant",
-    "plan ties": "plan {task} --discount 0.9 --ties robust --max-ties 1000000",
-    "plan goals": "plan {task} --discount 0.9 --goals {goals}",
-    "plan assistance": "plan {alone} --mode assistance",
-}
-"""By what the table calls them; each runs where its words can be filled in."""
-
-CERTIFICATES = {
-    "verify": "verify {task} {result}",
-    "verify individual": "verify {task} {individual_result}",
-    "verify K=0": "verify {task} {free_window_result}",
-    "verify communication": "verify {task} {communication_result}",
-    "verify composite": "verify {task} {composite_result}",
-    "verify local": "verify {task} {local_result}",
-    "verify ties": "verify {task} {ties_result}",
-    "verify goals": "verify {task} {goals_result}",
-    "verify assistance": "verify {alone} {assistance_result}",
-}
-
-OTHERS = {
-    "individual verify": "plan {task} --mode individual --verify",
-    "composite verify": "plan {task} --discount 0.9 --mode composite --horizon inf --verify",
-    "plan verify": "plan {task} --discount 0.9 --verify",
-    "assistance robust": "plan {alone} --mode assistance --ties robust --format json",
-    "check-task": "check-task {task}",
-    "explain": "explain {task} --discount 0.9",
-    "interruptions": "interruptions {task} --discount 0.9 --format json",
-    "recognise": "recognise {task} --goals {goals}",
-    "simulate": "simulate {task} {result}",
-    "solve": "solve {task} --discount 0.9",
-    "reproduce": "reproduce {suite} --modes serendipity --discounts 0.9",
-}
-
-COMMANDS = MODES | CERTIFICATES | OTHERS
 
 
 class Study(NamedTuple):
@@ -105,30 +62,43 @@ class Study(NamedTuple):
     stride: int = 1
 
 
-STUDIES = {
+STUDIES: Final = {
     "plan": Study(MODES, "0.1,1"),
-    "verify": Study(CERTIFICATES, "0.05,0.5,5"),
+    "verify": Study(CERTIFICATES, "0.05,0.5,5", stride=3),
     "memory": Study(MODES | {"verify": CERTIFICATES["verify"]}, "", 300),
-    "commands": Study(COMMANDS, "0.05,0.5,2", None, 8),
+    "commands": Study(MODES | CERTIFICATES | OTHERS, "0.05,0.5,2", None, 8),
 }
 
-LARGEST = 10
+LARGEST: Final = 10
 """Tasks that ``--memory`` is measured on."""
 
-PATIENCE = 15.0
+PATIENCE: Final = 15.0
 """Seconds after which a late process is killed."""
 
-ABOVE = 40
+ABOVE: Final = 40
 """MiB that a process may add to what it has when it starts, where no limit on memory is named."""
 
-CONFINED_FOR = 20.0
+CONFINED_FOR: Final = 20.0
 """Seconds with a limit on memory."""
 
 SHARE, EXTRA = 0.1, 0.05
 """What may be added to a limit: of it, and seconds."""
 
-FOUND = (0, 3)
-"""Exit codes of an answer, or a proof that there is none."""
+_PROGRAM: Final = """
+import runpy, sys, time
+from serendipity.cli.options import limits
+
+said, begin = sys.argv.pop(1), limits.limits_from
+
+def begun(*given):
+    with open(said, "w") as file:
+        print(time.perf_counter(), file=file)
+    return begin(*given)
+
+limits.limits_from = begun
+runpy.run_module("serendipity", None, "__main__")
+"""
+"""The command ``serendipity``, which tells when its limits begin."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +107,8 @@ class Job:
 
     Attributes:
         seconds: the limit on time.
-        confined: whether there is one on memory, too, and of how many MiB (0: see ``ABOVE``).
+        confined: MiB where there is a limit on memory, too (0: see ``ABOVE``).
+        folder: where it runs.
     """
 
     command: str
@@ -145,7 +116,7 @@ class Job:
     line: tuple[str, ...]
     seconds: float
     confined: float | None
-    runner: Runner
+    folder: Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,7 +126,6 @@ class Row:
     job: Job
     code: int | None
     over: float
-    waited: float
     peak: float
     memory: float | None
 
@@ -179,34 +149,29 @@ def main(
     study: Literal["plan", "verify", "memory", "commands"],
     suite: Path = PROBLEMS / "codmap15",
     stride: int | None = None,
-    tasks: str = "",
-    commands: str = "",
     rotate: int | None = None,
     limits: str | None = None,
     memory: float | None = None,
     jobs: int = 1,
-    fair: bool = False,
     record: Path | None = None,
 ) -> None:
     """Measure and print tables; exit code 1 where a limit was not kept."""
     usual = STUDIES[study]
-    chosen = {name: COMMANDS[name] for name in commands.split(",")} if commands else usual.commands
     confined = usual.memory if memory is None else memory
-    seconds = [float(limit) for limit in (usual.limits if limits is None else limits).split(",") if limit]
+    under: list[tuple[float, float | None]] = [
+        (float(limit), None) for limit in (usual.limits if limits is None else limits).split(",") if limit
+    ]
+    under += [] if confined == 0 else [(CONFINED_FOR, confined or 0.0)]
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch if record is None else record.absolute().with_suffix(".files"))
         folder.mkdir(parents=True, exist_ok=True)
-        named = [*_tasks(study, suite, usual.stride if stride is None else stride, folder)]
-        named = [task for task in named if task.name.startswith(tuple(tasks.split(",")))]
+        named = [*tasks(study, suite, usual.stride if stride is None else stride, folder)]
         if confined:
             named = sorted(named, key=lambda task: task.size)[-LARGEST:]
-        under = [(limit, None) for limit in seconds] + (
-            [] if confined == 0 else [(CONFINED_FOR, confined or 0.0)]
-        )
         asked = [
-            Job(name, task.name, tuple(line.split()), *limit, Runner(folder, fair))
+            Job(name, task.name, tuple(line.split()), *limit, folder)
             for turn, task in enumerate(named)
-            for name, line in _lines(task, turn, chosen, rotate, folder)
+            for name, line in lines(task, turn, usual.commands, rotate, folder)
             for limit in under
         ]
         print(f"{len(named)} tasks, {len(asked)} runs", file=sys.stderr, flush=True)
@@ -215,48 +180,53 @@ def main(
     sys.exit(any(not row.kept or row.memory_over > SHARE for row in rows))
 
 
-def _tasks(study: str, suite: Path, stride: int, folder: Path) -> Iterator[Named]:
-    if study == "verify":
-        yield from tasks_of_all_kinds(suite.parent, folder)
-        return
-    yield from own_tasks(folder) if study == "commands" else ()
-    yield from tasks_of_suite(suite, stride)
-
-
-def _lines(
-    task: Named, turn: int, commands: dict[str, str], most: int | None, folder: Path
-) -> Iterator[tuple[str, str]]:
-    """Every command on a task where its words are known, or so many of them, in turn."""
-    names = [*commands]
-    number = len(names) if most is None else min(most, len(names))
-    left = number
-    for i in range(len(names)):
-        name = names[(turn * number + i) % len(names)]
-        words = {word for _, word, *_ in Formatter().parse(commands[name]) if word}
-        task = with_files(task, words, folder)
-        if left and task.words.keys() >= words:
-            left -= 1
-            yield name, commands[name].format(**task.words)
-        if not left:
-            return
-
-
 def done(job: Job) -> dict[str, float | None]:
     """The fields of a row."""
     words, memory = [*job.line, "--time-limit", f"{job.seconds:g}"], None
     if job.confined is not None:
-        memory = job.confined or round(_start(job.runner, job.line).peak + ABOVE)
+        memory = job.confined or round(_start(job.folder, job.line)["peak"] + ABOVE)
         words += ["--memory-limit", f"{memory:g}"]
     allowed = job.seconds * (2 if job.command == "reproduce" else 1)
-    ended = job.runner(words, allowed + PATIENCE)
-    over = ended.seconds - allowed - (0.0 if ended.begun else _start(job.runner, job.line).seconds)
-    return {"code": ended.code, "over": over, "waited": ended.waited, "peak": ended.peak, "memory": memory}
+    ended = _ended(job.folder, words, allowed + PATIENCE)
+    over = ended["seconds"] - allowed - (0.0 if ended["begun"] else _start(job.folder, job.line)["seconds"])
+    return {"code": ended["code"], "over": over, "peak": ended["peak"], "memory": memory}
 
 
 @cache
-def _start(runner: Runner, line: tuple[str, ...]) -> Ended:
-    """How a command starts, loads its modules, and ends at once."""
-    return runner.started([*line], PATIENCE)
+def _start(folder: Path, line: tuple[str, ...]) -> dict[str, Any]:
+    """How a command starts, loads its modules, and ends at once: the quickest of five."""
+    runs = [_ended(folder, [*line, "--time-limit", "0"], PATIENCE) for _ in range(5)]
+    return min(runs, key=lambda ended: ended["seconds"])
+
+
+def _ended(folder: Path, words: Sequence[str], patience: float) -> dict[str, Any]:
+    """How a command ends, which is killed after some seconds.
+
+    Returns:
+        ``code``, None where it was killed; ``seconds``, from when its limits began, or else from its start;
+        ``begun``, whether they did; ``peak``, most memory in MiB.
+    """
+    with tempfile.NamedTemporaryFile(mode="r", dir=folder) as said:
+        started = time.perf_counter()
+        process = subprocess.Popen(
+            [sys.executable, "-c", _PROGRAM, said.name, *words, "--quiet"],
+            cwd=folder,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        late = Timer(patience, process.kill)
+        late.start()
+        _, status, used = os.wait4(process.pid, 0)
+        ended = time.perf_counter()
+        late.cancel()
+        process.returncode = os.waitstatus_to_exitcode(status)
+        began = said.read().strip()
+    return {
+        "code": None if process.returncode < 0 else process.returncode,
+        "seconds": ended - (float(began) if began else started),
+        "begun": bool(began),
+        "peak": used.ru_maxrss / 1024,
+    }
 
 
 def _tables(rows: Sequence[Row]) -> Iterator[Line | Grid]:
@@ -277,7 +247,7 @@ def _tables(rows: Sequence[Row]) -> Iterator[Line | Grid]:
     by_limit = grouped(timed, lambda row: (row.job.command, f"{row.job.seconds:g} s"))
     yield table(("command", "limit"), by_limit, counts | {"most over": latest})
     for row in rows:  # 2: a horizon is missing where the human has no plan alone
-        over = f"{row.over * 1000:.0f} ms over, waited {row.waited * 1000:.0f} ms, {row.peak:.0f} MiB"
+        over = f"{row.over * 1000:.0f} ms over, {row.peak:.0f} MiB"
         if not row.kept or row.code not in (*FOUND, 4):
             kept = "exit" if row.kept else "not kept, exit"
             yield Line(f"{row.job.command}, {row.job.task}, {row.job.seconds:g} s: {kept} {row.code}, {over}")

@@ -1,33 +1,73 @@
-"""The tasks on which limits are measured, and the words that name them on a command line.
+"""The tasks on which limits are measured, and the commands on them.
 
 *Own* tasks: a building of 2,100 rooms and 10 medkits, one of 840 and 2; two files of 46 objects and one
 action of four parameters, which has 4.5 million ground actions: of two agents, and of 46.  Tasks of a
-*suite* have two robots.  Tasks of *all kinds* are a hundred: 20 of the published buildings, 10 that are
-generated, 32 of the multi-agent competition, 12 of the published problems of silent assistance, 20 random
-ones, and the 6 that are shipped.
+*suite* have two robots.  Tasks of *all kinds*: some of the published buildings, of the suite, of the
+published problems of silent assistance, buildings that are generated, and what is shipped.
 """
 
 import json
 import re
-from collections.abc import Iterator
-from contextlib import suppress
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import count, islice
+from functools import partial
+from itertools import islice
 from pathlib import Path
-from typing import Any, Final
+from string import Formatter
+from typing import Final
 
 import serendipity
 from benchmarks.problems import silent
-from serendipity import Deadline, Task
-from serendipity.cli.options.naming import TaskName
-from serendipity.evaluation.crosscheck import random_call
+from serendipity import SerendipityError, Task
 from serendipity.evaluation.measuring.running import apart
-from serendipity.evaluation.measuring.suites import may_alone, problems, roles
-from serendipity.pddl.write import write_pddl
+from serendipity.evaluation.measuring.suites import folders, may_alone, problems, roles
 from serendipity.scenarios.examples import EXAMPLES
 
-_SECONDS: Final = 1.0
-"""For an answer to check."""
+MODES: Final = {
+    "plan": "plan {task} --discount 0.9",
+    "plan individual": "plan {task} --mode individual",
+    "plan K=0": "plan {task} --discount 0.9 --window-weight 0",
+    "plan communication": "plan {task} --discount 0.9 --mode communication --format json",
+    "plan composite": "plan {task} --discount 0.9 --mode composite --horizon inf",
+    "plan local": "plan {task} --discount 0.9 --human-model local",
+    "plan observant": "plan {task} --discount 0.9 --human-model observant",
+    "plan ties": "plan {task} --discount 0.9 --ties robust --max-ties 1000000",
+    "plan goals": "plan {task} --discount 0.9 --goals {goals}",
+    "plan assistance": "plan {alone} --mode assistance",
+}
+"""Commands by what the table calls them; each runs where its words can be filled in."""
+
+CERTIFICATES: Final = {
+    f"verify{mode.removeprefix('plan')}": f"verify {'{alone}' if '{alone}' in line else '{task}'} {{{mode}}}"
+    for mode, line in MODES.items()
+}
+"""Of the answer to each of these, which stands in a file."""
+
+OTHERS: Final = {
+    "individual verify": "plan {task} --mode individual --verify",
+    "composite verify": "plan {task} --discount 0.9 --mode composite --horizon inf --verify",
+    "plan verify": "plan {task} --discount 0.9 --verify",
+    "assistance robust": "plan {alone} --mode assistance --ties robust --format json",
+    "check-task": "check-task {task}",
+    "explain": "explain {task} --discount 0.9",
+    "interruptions": "interruptions {task} --discount 0.9 --format json",
+    "recognise": "recognise {task} --goals {goals}",
+    "simulate": "simulate {task} {plan}",
+    "solve": "solve {task} --discount 0.9",
+    "reproduce": "reproduce {suite} --modes serendipity --discounts 0.9",
+}
+
+
+ANSWERING: Final = 1.0
+"""Seconds for an answer to check."""
+
+FOUND: Final = (0, 3)
+"""Exit codes of an answer, or a proof that there is none."""
+
+_SIGNS: Final = r"\W+"
+"""All that is no part of a file's name."""
 
 _LARGE_DOMAIN: Final = """
 (define (domain large) (:requirements :strips)
@@ -43,19 +83,6 @@ _BUILDINGS: Final = (
 )
 """Rooms, medkits, robots."""
 
-ANSWERED: Final[dict[str, dict[str, Any]]] = {
-    "result": {"discount": "0.9"},
-    "individual_result": {"mode": "individual"},
-    "free_window_result": {"discount": "0.9", "window_weight": "0"},
-    "communication_result": {"discount": "0.9", "mode": "communication"},
-    "composite_result": {"discount": "0.9", "mode": "composite", "horizon": "inf"},
-    "local_result": {"discount": "0.9", "human_model": "local"},
-    "ties_result": {"discount": "0.9", "ties": "robust", "max_ties": 1_000_000},
-    "goals_result": {"discount": "0.9"},
-    "assistance_result": {"mode": "assistance"},
-}
-"""Options of the answers that are there to be checked, by the words that name them."""
-
 
 @dataclass(frozen=True, slots=True)
 class Named:
@@ -64,139 +91,120 @@ class Named:
     Attributes:
         name: of the task.
         words: ``task``; with one robot only, ``alone``; ``suite``, a folder of tasks; files to
-            read: ``goals``; answers in several modes, by the words of ``ANSWERED``.
+            read: ``goals``; answers, by what answered in ``MODES``.
+        load: gives the task.
         size: number of ground actions, where it was looked at.
     """
 
     name: str
     words: dict[str, str]
+    load: Callable[[], Task]
     size: int = 0
 
 
-def own_tasks(scratch: Path) -> Iterator[Named]:
+def tasks(study: str, suite: Path, stride: int, folder: Path) -> Iterator[Named]:
+    """The tasks of a study, which may be written to a folder."""
+    if study == "commands":
+        yield from _own_tasks(folder)
+    elif study == "verify":
+        for place in folders(suite.parent / "usar200", 10):
+            yield _in_folder(f"usar {place.name}", place, robots=1)
+        for rooms, medkits, robots in _BUILDINGS:
+            place = folder / f"building{rooms}-{medkits}-{robots}"
+            serendipity.generate_usar(place, rooms=rooms, medkits=medkits, robots=robots)
+            yield _in_folder(f"{rooms} rooms, {medkits} medkits, {robots} robots", place, robots)
+        for name, *files in islice(silent(suite.parent / "spa"), 0, 72, 6):
+            pairs = dict(zip(("prime", "supporter"), files, strict=True))
+            agents = "".join(f"--agent {who}={domain},{file} " for who, (domain, file) in pairs.items())
+            words = dict.fromkeys(("task", "alone"), f"{agents}--human prime")
+            yield Named(f"spa {name}", words, partial(serendipity.load_agents, pairs, human="prime"))
+        for name, shipped in EXAMPLES.items():
+            words = dict.fromkeys(("task", "alone")[: 3 - len(shipped.robots)], f"--example {name}")
+            yield Named(name, words, partial(serendipity.example, name))
+    yield from apart(_of_suite, suite, stride)
+
+
+def _own_tasks(scratch: Path) -> Iterator[Named]:
     """Buildings, and what has millions of ground actions."""
     for rooms, medkits in ((2100, 10), (840, 2)):
-        suite = scratch / f"rooms{rooms}"
-        serendipity.generate_usar(suite / "test1", rooms=rooms, medkits=medkits)
-        yield Named(
-            f"{rooms} rooms", {**dict.fromkeys(("task", "alone"), str(suite / "test1")), "suite": str(suite)}
-        )
-    folder = scratch / "large"
-    folder.mkdir(exist_ok=True)
+        place = scratch / f"rooms{rooms}"
+        serendipity.generate_usar(place / "test1", rooms=rooms, medkits=medkits)
+        named = _in_folder(f"{rooms} rooms", place / "test1", robots=1)
+        yield Named(named.name, named.words | {"suite": str(place)}, named.load)
     objects, clean = (" ".join(word.format(i) for i in range(46)) for word in ("o{}", "(clean o{})"))
-    problem = f"(define (problem p) (:domain large) (:objects {objects}) (:init {clean}) (:goal (done o1)))"
-    files = [folder / "domain.pddl", folder / "problem.pddl"]
-    for file, text in zip(files, (_LARGE_DOMAIN, problem), strict=True):
-        file.write_text(text)
+    domain, problem = scratch / "large-domain.pddl", scratch / "large-problem.pddl"
+    domain.write_text(_LARGE_DOMAIN)
+    problem.write_text(
+        f"(define (problem p) (:domain large) (:objects {objects}) (:init {clean}) (:goal (done o1)))"
+    )
     for agents in (2, 46):
-        yield _of_files(f"4.5 million, {agents} agents", files, "o0", [f"o{i}" for i in range(1, agents)])
+        robots = tuple(f"o{i}" for i in range(1, agents))
+        yield _of_files(f"4.5 million, {agents} agents", domain, problem, "o0", robots)
 
 
-def tasks_of_suite(folder: Path, stride: int) -> Iterator[Named]:
+def _of_suite(folder: Path, stride: int) -> list[Named]:
     """Every N-th task of each domain."""
-    yield from apart(_tasks_of_suite, folder, stride)
-
-
-def _tasks_of_suite(folder: Path, stride: int) -> list[Named]:
     found = []
     for problem in problems(folder, stride=stride):
-        who = roles(problem, 2, may_alone)
-        name, files = f"{problem.domain} {problem.name}", [problem.domain_file, problem.problem_file]
-        found.append(_of_files(name, files, who.human, [*who.robots], len(problem.task(who).actions)))
+        who, name = roles(problem, 2, may_alone), f"{problem.domain} {problem.name}"
+        size = len(problem.task(who).actions)
+        found.append(_of_files(name, problem.domain_file, problem.problem_file, who.human, who.robots, size))
     return found
 
 
-def tasks_of_all_kinds(problems_of_others: Path, scratch: Path) -> Iterator[Named]:
-    """The hundred tasks, as far as the problems of others are there.
-
-    Args:
-        problems_of_others: the folder with ``usar200``, ``codmap15`` and ``spa``.
-        scratch: where files go.
-    """
-    for number in range(1, 201, 10):
-        yield _in_folder(f"usar {number}", problems_of_others / f"usar200/test{number}", robots=1)
-    for rooms, medkits, robots in _BUILDINGS:
-        folder = scratch / f"building{rooms}-{medkits}-{robots}"
-        serendipity.generate_usar(folder, rooms=rooms, medkits=medkits, robots=robots)
-        yield _in_folder(f"{rooms} rooms, {medkits} medkits, {robots} robots", folder, robots)
-    yield from tasks_of_suite(problems_of_others / "codmap15", 3)
-    for name, own, other in islice(silent(problems_of_others / "spa"), 0, 72, 6):
-        pairs = [f"{who}={domain},{file}" for who, (domain, file) in (("prime", own), ("supporter", other))]
-        words = f"--agent {pairs[0]} --agent {pairs[1]} --human prime"
-        yield Named(f"spa {name}", {"task": words, "alone": words})
-    yield from islice(_drawn(scratch), 20)
-    for name, shipped in EXAMPLES.items():
-        words = f"--example {name}"
-        yield Named(name, {"task": words} | ({"alone": words} if len(shipped.robots) == 1 else {}))
+def _in_folder(name: str, folder: Path, robots: int) -> Named:
+    words = dict.fromkeys(("task", "alone") if robots == 1 else ("task",), str(folder))
+    return Named(name, words, partial(serendipity.load, folder))
 
 
-def _drawn(scratch: Path) -> Iterator[Named]:
-    for seed in count():
-        task = random_call(seed).task
-        folder = scratch / f"drawn{seed}"
-        write_pddl(task, folder)
-        yield _in_folder(f"drawn {seed}", folder, len(task.robots), task.agents[task.human])
+def _of_files(
+    name: str, domain: Path, problem: Path, human: str, robots: tuple[str, ...], size: int = 0
+) -> Named:
+    words = f"{domain} {problem} --human {human}"
+    options = [f" --robot {robot}" for robot in robots]
+    load = partial(serendipity.load_pddl, domain, problem, human, robots, time_limit=5 * ANSWERING)
+    return Named(name, {"task": words + "".join(options), "alone": words + options[0]}, load, size)
 
 
-def _in_folder(name: str, folder: Path, robots: int, human: str | None = None) -> Named:
-    words = str(folder) if human is None else f"{folder} --human {human}"
-    return Named(name, {"task": words} | ({"alone": words} if robots == 1 else {}))
-
-
-def _of_files(name: str, files: list[Path], human: str, robots: list[str], size: int = 0) -> Named:
-    words = f"{files[0]} {files[1]} --human {human}"
-    robots = [f" --robot {robot}" for robot in robots]
-    return Named(name, {"task": words + "".join(robots), "alone": words + robots[0]}, size)
-
-
-def with_files(named: Named, wanted: set[str], folder: Path) -> Named:
-    """A task with goals to recognise and answers to check, where it can be read and answered.
-
-    What is there already from an earlier run is not made again.
-
-    Args:
-        named: the task.
-        wanted: words to add, as far as they can be.
-        folder: where the files go.
-    """
-    own = folder / re.sub(r"\W+", "-", named.name)
+def lines(
+    task: Named, turn: int, commands: dict[str, str], most: int | None, folder: Path
+) -> Iterator[tuple[str, str]]:
+    """Every command on a task where its words are known, or so many of them, in turn."""
+    number = len(commands) if most is None else min(most, len(commands))
+    first = turn * number % len(commands)
+    names = [*commands][first:] + [*commands][:first]
+    own = folder / re.sub(_SIGNS, "-", task.name)
     own.mkdir(exist_ok=True)
-    index = own / "words.json"
-    found = json.loads(index.read_text()) if index.exists() else {}
-    missing = wanted.intersection(("goals", *ANSWERED)) - {*found}
-    if missing:
-        found |= apart(_write_files, named.words, sorted(missing, key=lambda word: word != "goals"), own)
-        index.write_text(json.dumps(found))
-    words = {word: file for word, file in found.items() if file is not None}
-    return Named(named.name, named.words | words, named.size)
+    filled = ((name, _filled(task, commands[name], own)) for name in names)
+    yield from islice(((name, line) for name, line in filled if line is not None), number)
 
 
-def _write_files(words: dict[str, str], wanted: list[str], folder: Path) -> dict[str, str | None]:
-    """Files by the words that name them, the goals first; None for what there is not."""
-    found: dict[str, str | None] = dict.fromkeys(wanted)
-    for name in wanted:
-        with suppress(serendipity.SerendipityError, KeyError):
-            task = _loaded(words["alone" if name == "assistance_result" else "task"])
-            goals = [{"goal": [task.facts[fact]]} for fact in sorted(task.goal.positive)[:3]]
-            content: Any = goals
-            if name != "goals":
-                asked = {"goals": goals} if name == "goals_result" else {}
-                answer = serendipity.plan(task, time_limit=_SECONDS, **asked, **ANSWERED[name])
-                content = None if answer.status == "unknown" else answer.to_dict()
-            if content is not None:
-                file = folder / f"{name}.json"
-                file.write_text(json.dumps(content))
-                found[name] = str(file)
-    return found
+def _filled(task: Named, line: str, folder: Path) -> str | None:
+    """A command line whose words are filled in; None where one is not known.
+
+    Files that it names and that are not there yet are written.
+    """
+    for word in {word for _, word, *_ in Formatter().parse(line) if word} - {*task.words}:
+        file = folder / (re.sub(_SIGNS, "-", word) + ".json")
+        if not file.exists():
+            if word == "goals":
+                apart(_write_goals, task.load, file)
+            elif word in MODES and (asked := _filled(task, MODES[word], folder)) is not None:
+                limited = [*asked.split(), "--time-limit", f"{ANSWERING:g}", "--quiet", "-o", str(file)]
+                command = [sys.executable, "-m", "serendipity", *limited]
+                if subprocess.run(command, capture_output=True, check=False).returncode not in FOUND:
+                    file.unlink(missing_ok=True)
+        if not file.exists() or not file.stat().st_size:
+            file.touch()  # there is none, and it need not be looked for again
+            return None
+        task.words[word] = str(file)
+    return line.format(**task.words)
 
 
-def _loaded(words: str) -> Task:
-    """What a command line names."""
-    given: dict[str, list[str]] = {"files": []}
-    left = iter(words.split())
-    for word in left:
-        key = word[2:] if word.startswith("--") else "files"
-        given.setdefault(key, []).append(word if key == "files" else next(left))
-    single = {key: given.pop(key)[0] for key in ("human", "example") if key in given}
-    files = [*map(Path, given.pop("files"))]
-    return TaskName(files=files, **single, **given).read(Deadline(time_limit=5 * _SECONDS))
+def _write_goals(load: Callable[[], Task], file: Path) -> None:
+    """Write three facts of the human's goal, as goals to recognise; nothing where a task is too large."""
+    try:
+        task = load()
+    except SerendipityError:
+        return
+    file.write_text(json.dumps([{"goal": [task.facts[fact]]} for fact in sorted(task.goal.positive)[:3]]))

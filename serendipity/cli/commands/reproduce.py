@@ -72,7 +72,8 @@ def reproduce(
         ),
     ] = None,
     report: Annotated[
-        Path | None, typer.Option(metavar="FILE.html", help="Also write tables and charts to one page.")
+        Path | None,
+        typer.Option(metavar="FILE.html", help="Also write tables, and charts with matplotlib, to one page."),
     ] = None,
     tables: Annotated[
         Path | None,

@@ -1,6 +1,5 @@
 """Timings as pictures, by matplotlib (the optional extra ``plot``)."""
 
-import io
 from collections.abc import Iterable, Sequence
 from math import ceil, floor, log10
 from typing import TYPE_CHECKING, Final, Literal
@@ -10,16 +9,13 @@ from serendipity.evaluation.benchmark.coverage.rows import Row
 from serendipity.evaluation.benchmark.measure import Timing
 from serendipity.evaluation.benchmark.scaling import AXES, Sample
 from serendipity.evaluation.measuring.figures import power_law
+from serendipity.evaluation.measuring.plots import COLOURS, SUFFIXES, as_bytes, figure
 from serendipity.evaluation.measuring.tables import grouped
 from serendipity.model.errors import UsageError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
-SUFFIXES: Final = (".png", ".svg", ".pdf")
-_COLOURS: Final = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
-"""The Okabe-Ito palette: told apart by everybody."""
 _MARKERS: Final = "os^Dv<>"
 _UNPROVED: Final = "x"
 _RATIOS: Final = (1, 10, 100, 1000, 10000)
@@ -35,25 +31,25 @@ def check_suffix(suffix: str) -> None:
     """
     if suffix not in SUFFIXES:
         raise UsageError(f"--plot: expected a file that ends in {', '.join(SUFFIXES)}, got '{suffix}'")
-    _figure(1, 1)
+    figure(1, 1)
 
 
 def side_by_side(timings: Sequence[Timing], suffix: str) -> bytes:
     """What each contender takes over what the search takes, a point a call; crosses met the limit."""
     modes = grouped(timings, lambda timing: timing.mode)
-    figure = _figure(5 * len(modes), 4.6)
+    drawn = figure(5 * len(modes), 4.6)
     for i, (mode, members) in enumerate(modes.items()):
-        axes = figure.add_subplot(1, len(modes), i + 1)
+        axes = drawn.add_subplot(1, len(modes), i + 1)
         axes.set(title=mode, xlabel="search, ms", ylabel="contender, ms")
         _scatter(axes, members)
-    return _as_bytes(figure, suffix)
+    return as_bytes(drawn, suffix)
 
 
 def _scatter(axes: "Axes", timings: Sequence[Timing]) -> None:
     base = {(t.task, t.discount): t.seconds * 1000 for t in timings if t.contender == "search"}
     points = [(base[t.task, t.discount], t) for t in timings if (t.task, t.discount) in base]
     others = grouped((point for point in points if point[1].contender != "search"), lambda p: p[1].contender)
-    for (name, of), colour, marker in zip(others.items(), _COLOURS, _MARKERS, strict=False):
+    for (name, of), colour, marker in zip(others.items(), COLOURS, _MARKERS, strict=False):
         for solved, shape in ((True, marker), (False, _UNPROVED)):
             chosen = [(x, t.seconds * 1000) for x, t in of if t.solved is solved]
             if chosen:
@@ -86,9 +82,9 @@ def _decades(axes: "Axes", which: Literal["x", "y"], values: Sequence[float]) ->
 def series(samples: Sequence[Sample], suffix: str) -> bytes:
     """Search time and peak memory over each axis, with the fitted power of the time."""
     axes_of = grouped(samples, lambda sample: sample.axis)
-    figure = _figure(4.6 * len(axes_of), 7.4)
+    drawn = figure(4.6 * len(axes_of), 7.4)
     for i, (name, members) in enumerate(axes_of.items()):
-        upper, lower = (figure.add_subplot(2, len(axes_of), row * len(axes_of) + i + 1) for row in (0, 1))
+        upper, lower = (drawn.add_subplot(2, len(axes_of), row * len(axes_of) + i + 1) for row in (0, 1))
         times = [s.search_seconds * 1000 for s in members]
         _points(upper, members, times, "first call, ms")
         upper.set_title(AXES[name].title, fontsize=9)
@@ -102,7 +98,7 @@ def series(samples: Sequence[Sample], suffix: str) -> bytes:
             upper.legend(fontsize=8)
         _points(lower, members, [s.memory for s in members], "peak memory of the process, MiB")
         lower.set_ylim(0, 1.1 * max(s.memory for s in members))
-    return _as_bytes(figure, suffix)
+    return as_bytes(drawn, suffix)
 
 
 def _points(axes: "Axes", samples: Sequence[Sample], values: Sequence[float], label: str) -> None:
@@ -110,7 +106,7 @@ def _points(axes: "Axes", samples: Sequence[Sample], values: Sequence[float], la
     for solved, marker in ((True, "o"), (False, _UNPROVED)):
         chosen = [(s.value, y) for s, y in zip(samples, values, strict=True) if s.solved is solved]
         if chosen:
-            colour = _COLOURS[0 if solved else 1]
+            colour = COLOURS[0 if solved else 1]
             xs, ys = zip(*chosen, strict=True)
             axes.scatter(xs, ys, s=14, marker=marker, c=colour, alpha=0.7)
     if axis.numeric:
@@ -134,10 +130,10 @@ def _spread(ticks: Sequence[float]) -> list[float]:
 def over_time(rows: Sequence[Row], suffix: str) -> bytes:
     """Calls decided over seconds, a line a contender; dotted: those that have a plan."""
     modes = grouped(rows, lambda row: row.mode)
-    figure = _figure(4.2 * len(modes), 3.8)
+    drawn = figure(4.2 * len(modes), 3.8)
     for i, (mode, asked) in enumerate(modes.items()):
-        axes = figure.add_subplot(1, len(modes), i + 1)
-        for name, colour in zip(contenders_in(rows), _COLOURS, strict=False):
+        axes = drawn.add_subplot(1, len(modes), i + 1)
+        for name, colour in zip(contenders_in(rows), COLOURS, strict=False):
             of = [row for row in asked if row.contender == name]
             if of:
                 _curve(axes, decision_times(of), color=colour, label=name)
@@ -145,32 +141,9 @@ def over_time(rows: Sequence[Row], suffix: str) -> bytes:
         axes.set(title=mode, xscale="log", xlabel="seconds", ylabel="calls")
         axes.set_ylim(0, None)
         axes.legend(fontsize=8, loc="upper left")
-    return _as_bytes(figure, suffix)
+    return as_bytes(drawn, suffix)
 
 
 def _curve(axes: "Axes", times: Iterable[float], **style: str) -> None:
     ordered = sorted(max(time, _SOONEST) for time in times)
     axes.step([_SOONEST, *ordered], range(len(ordered) + 1), where="post", **style)
-
-
-def _figure(width: float, height: float) -> "Figure":
-    """An empty figure, in inches.
-
-    Raises:
-        UsageError: matplotlib is not installed.
-    """
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError:
-        raise UsageError("plots need matplotlib: pip install serendipity-planner[plot]") from None
-    figure = Figure(figsize=(width, height), layout="constrained")
-    FigureCanvasAgg(figure)
-    return figure
-
-
-def _as_bytes(figure: "Figure", suffix: str) -> bytes:
-    """A figure as a file with that suffix."""
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format=suffix.removeprefix("."), dpi=120)
-    return buffer.getvalue()

@@ -1,6 +1,6 @@
 """A run as one HTML page that needs nothing else: tables and charts."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import floor
 from typing import Final
@@ -9,6 +9,7 @@ from serendipity.evaluation.measuring.tables import grouped
 from serendipity.evaluation.reproduction.charts import Labels, Points, bars, lines
 from serendipity.evaluation.reproduction.run import Reproduction
 from serendipity.evaluation.reproduction.tables import Entry, ExampleAnswer, Tables, Times
+from serendipity.model.errors import UsageError
 from serendipity.model.printable import markup
 from serendipity.model.telling import Grid
 
@@ -28,32 +29,25 @@ _LEAST_SECONDS: Final = 1e-6
 
 
 def html_report(run: Reproduction, tables: Tables) -> str:
-    """The page."""
-    entries = tables.costs
+    """The page; its charts need matplotlib."""
     tests = len({row.test for row in run.rows})
-    parts = [
+    body = [
         "<h1>Planning for serendipity: a reproduction</h1>",
         f"<p>{tests} tasks, modes {markup(', '.join(run.modes))}.</p>",
         "<h2>Table I: cost, and tasks in which a robot helps</h2>",
-        _table(table_1_grid(entries)),
-        _chart_of_costs(entries),
-        _chart_of_counts(entries),
-        _chart_of_savings(run),
+        _table(table_1_grid(tables.costs)),
         "<h2>Table II: seconds of a planning call</h2>",
         _table(table_2_grid(tables.times)),
-        _chart_of_times(run),
         "<h2>The examples of sections III-B to III-D</h2>",
         _table(examples_grid(tables.examples)),
+        "<h2>Charts</h2>",
+        *_charts(run, tables.costs),
     ]
-    # Wide things scroll by themselves, so that the page fits narrow screens and its words stay readable.
-    body = "\n".join(
-        f'<div class="wide">{part}</div>' if part.startswith("<svg") else part for part in parts if part
-    )
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         f"<title>Planning for serendipity: a reproduction</title><style>{_STYLE}</style></head>\n"
-        f"<body>\n{body}\n</body></html>\n"
+        "<body>\n" + "\n".join(body) + "\n</body></html>\n"
     )
 
 
@@ -116,22 +110,28 @@ def _table(grid: Grid) -> str:
     return f'<div class="wide"><table><thead><tr>{head}</tr></thead>\n<tbody>{body}</tbody></table></div>'
 
 
-def _chart_of_costs(entries: Sequence[Entry]) -> str:
-    known = (entry for entry in entries if entry.mean_cost is not None)
-    series = {
-        variant: [(float(entry.discount), float(entry.mean_cost or 0)) for entry in of]
-        for variant, of in grouped(known, lambda entry: entry.variant).items()
-    }
-    return lines(Labels("Mean cost against discount", "discount", "mean cost"), series) if series else ""
+def _charts(run: Reproduction, entries: Sequence[Entry]) -> list[str]:
+    """Charts that scroll by themselves, so that the page fits narrow screens; without matplotlib a hint."""
+    shown = [entry for entry in entries if entry.mean_cost is not None]
+    helped = [entry for entry in shown if entry.variant != "individual"]
+    try:
+        charts = [
+            _by_discount("Mean cost", "mean cost", shown, lambda entry: float(entry.mean_cost or 0)),
+            _by_discount("Opportunities", "tasks", helped, lambda entry: entry.improved),
+            _chart_of_savings(run),
+            _chart_of_times(run),
+        ]
+    except UsageError as error:
+        return [f"<p>{markup(str(error))}</p>"]
+    return [f'<div class="wide">{chart}</div>' for chart in charts if chart]
 
 
-def _chart_of_counts(entries: Sequence[Entry]) -> str:
-    helped = (entry for entry in entries if entry.variant != "individual")
+def _by_discount(title: str, y: str, entries: Sequence[Entry], figure: Callable[[Entry], float]) -> str:
     series = {
-        variant: [(float(entry.discount), entry.improved) for entry in of]
-        for variant, of in grouped(helped, lambda entry: entry.variant).items()
+        variant: [(float(entry.discount), figure(entry)) for entry in of]
+        for variant, of in grouped(entries, lambda entry: entry.variant).items()
     }
-    return lines(Labels("Opportunities against discount", "discount", "tasks"), series) if series else ""
+    return lines(Labels(f"{title} against discount", "discount", y), series) if series else ""
 
 
 def _chart_of_savings(run: Reproduction) -> str:
