@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, TypeVar
 
+from serendipity.evaluation.measuring.tables import Answered
 from serendipity.model.errors import UsageError
 from serendipity.model.options import INFINITE
 
@@ -21,7 +22,7 @@ MODES: Final[dict[str, dict[str, Any]]] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class Outcome(Answered):
     """What a contender says, and what it took.
 
     Attributes:
@@ -47,11 +48,6 @@ class Outcome:
     process_seconds: float = 0.0
     memory: float | None = None
     reason: str = ""
-
-    @property
-    def proved(self) -> bool:
-        """Whether the answer is proved."""
-        return self.status in ("optimal", "infeasible")
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,12 +10,12 @@ import sys
 import tempfile
 import time
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Final
 
+from serendipity.evaluation.benchmark.contenders import Outcome
 from serendipity.evaluation.measuring.figures import children_seconds
 from serendipity.model.errors import SerendipityError
 from serendipity.pddl.classical import ClassicalFiles
@@ -64,30 +64,14 @@ def _places(package: str) -> list[str]:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
-    """What it says.
+class Found(Outcome):
+    """Its answer; ``seconds`` are of its search process, ``read_seconds`` of the translator.
 
     Attributes:
-        status: ``optimal``, ``infeasible`` or ``unknown``.
-        cost: in the unit of the task, or None; the least only where the search was for that.
-        lower_bound: likewise: no plan is cheaper; None where nothing is known, or there is no plan.
-        expanded: nodes, as far as it has told.
         search_seconds: its search time, which leaves out what is built before.
-        seconds: of its search process: as it tells them, or by the clock where it had to end.
-        translate_seconds: of the translator, by the clock.
-        process_seconds: processor time of both.
-        memory: peak of the search process in MiB, or None.
     """
 
-    status: str
-    cost: Fraction | None = None
-    lower_bound: Fraction | None = None
-    expanded: int = 0
     search_seconds: float = 0.0
-    seconds: float = 0.0
-    translate_seconds: float = 0.0
-    process_seconds: float = 0.0
-    memory: float | None = None
 
 
 def run(files: ClassicalFiles, search: str, time_limit: float | None, *, invariants: bool = True) -> Found:
@@ -118,7 +102,7 @@ def run(files: ClassicalFiles, search: str, time_limit: float | None, *, invaria
             code, text = _process([str(program), "--search", search], folder, time_limit, _SAS)
             status = _status(code, "the search", text)
             found = _read(status, text, files.scale, time.perf_counter() - translated)
-    return replace(found, translate_seconds=translated - start, process_seconds=children_seconds() - before)
+    return replace(found, read_seconds=translated - start, process_seconds=children_seconds() - before)
 
 
 def _status(code: int | None, who: str, text: str) -> str:
@@ -145,7 +129,7 @@ def _read(status: str, text: str, scale: int, seconds: float) -> Found:
     bound = _last(r"f = (\d+),", text)
     found = Found(
         status,
-        lower_bound=None if bound is None or status == "infeasible" else Fraction(int(bound), scale),
+        lower_bound=None if bound is None or status == "infeasible" else int(bound) / scale,
         expanded=int(_last(r"(\d+) expanded$", text) or 0),
         seconds=seconds,
         search_seconds=seconds,
@@ -153,14 +137,16 @@ def _read(status: str, text: str, scale: int, seconds: float) -> Found:
     )
     if status == "unknown":
         return found
-    cost = Fraction(int(_printed(r"Plan cost: (\d+)", text)), scale) if status == "optimal" else None
+    cost = int(_printed(r"Plan cost: (\d+)", text)) / scale if status == "optimal" else None
+    seconds = float(_printed(r"Total time: ([0-9.e-]+)s", text))
     return replace(
         found,
         cost=cost,
         lower_bound=cost,
         expanded=int(_printed(r"Expanded (\d+) state", text)),
         search_seconds=float(_printed(r"Search time: ([0-9.e-]+)s", text)),
-        seconds=float(_printed(r"Total time: ([0-9.e-]+)s", text)),
+        seconds=seconds,
+        plan_seconds=None if cost is None else seconds,
     )
 
 

@@ -3,7 +3,7 @@
 import gc
 import statistics
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 from search import PreparedTask, prepare, solve
@@ -11,6 +11,7 @@ from serendipity.evaluation.benchmark import contenders as every
 from serendipity.evaluation.benchmark import fast_downward
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome, chosen
 from serendipity.evaluation.measuring.figures import timed
+from serendipity.evaluation.measuring.tables import Answered
 from serendipity.model.errors import DisagreementError, told
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -44,12 +45,8 @@ def _fast_downward(prepared: PreparedTask, options: Options) -> Outcome:
     """``seconds`` is the search time that it prints, or all that it took until the limit."""
     files = composite_files(prepared.task, options.discount)
     found = fast_downward.run(files, fast_downward.LMCUT, options.time_limit, invariants=False)
-    return Outcome(
-        found.status,
-        None if found.cost is None else float(found.cost),
-        seconds=found.process_seconds if found.status == "unknown" else found.search_seconds,
-        process_seconds=found.process_seconds,
-        memory=found.memory,
+    return replace(
+        found, seconds=found.process_seconds if found.status == "unknown" else found.search_seconds
     )
 
 
@@ -69,7 +66,7 @@ SEARCHES: Final = ("search", "in-turn", "again")
 
 
 @dataclass(frozen=True, slots=True)
-class Timing:
+class Timing(Answered):
     """One contender's answer to one call.
 
     Attributes:
@@ -97,11 +94,6 @@ class Timing:
     process_seconds: float | None
     memory: float | None
     reason: str | None = None
-
-    @property
-    def solved(self) -> bool:
-        """Whether it is proved."""
-        return self.status in ("optimal", "infeasible")
 
 
 def measure(
@@ -197,7 +189,7 @@ def _timing(call: tuple[str, str, str, str], answers: Sequence[Outcome]) -> Timi
 
 
 def _compare(found: list[Timing]) -> None:
-    costs = {timing.contender: timing.cost for timing in found if timing.solved}
+    costs = {timing.contender: timing.cost for timing in found if timing.proved}
     if len(set(costs.values())) > 1:
         told = ", ".join(f"{name} {cost}" for name, cost in costs.items())
         call = found[0]

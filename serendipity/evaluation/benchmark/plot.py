@@ -51,7 +51,7 @@ def _scatter(axes: "Axes", timings: Sequence[Timing]) -> None:
     others = grouped((point for point in points if point[1].contender != "search"), lambda p: p[1].contender)
     for (name, of), colour, marker in zip(others.items(), COLOURS, _MARKERS, strict=False):
         for solved, shape in ((True, marker), (False, _UNPROVED)):
-            chosen = [(x, t.seconds * 1000) for x, t in of if t.solved is solved]
+            chosen = [(x, t.seconds * 1000) for x, t in of if t.proved is solved]
             if chosen:
                 label = name if solved else f"{name}, at the limit"
                 xs, ys = zip(*chosen, strict=True)
@@ -104,7 +104,7 @@ def series(samples: Sequence[Sample], suffix: str) -> bytes:
 def _points(axes: "Axes", samples: Sequence[Sample], values: Sequence[float], label: str) -> None:
     axis = AXES[samples[0].axis]
     for solved, marker in ((True, "o"), (False, _UNPROVED)):
-        chosen = [(s.value, y) for s, y in zip(samples, values, strict=True) if s.solved is solved]
+        chosen = [(s.value, y) for s, y in zip(samples, values, strict=True) if s.proved is solved]
         if chosen:
             colour = COLOURS[0 if solved else 1]
             xs, ys = zip(*chosen, strict=True)

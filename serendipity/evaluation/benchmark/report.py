@@ -45,7 +45,7 @@ def ratios(timings: Sequence[Timing]) -> Grid:
 
 
 def _ratios(members: Sequence[Timing], searches: Sequence[Timing]) -> Iterator[str]:
-    base = {(timing.task, timing.discount): timing.seconds for timing in searches if timing.solved}
+    base = {(timing.task, timing.discount): timing.seconds for timing in searches if timing.proved}
     pairs = [(_figure(t), base[t.task, t.discount]) for t in members if (t.task, t.discount) in base]
     yield str(len(members)) if len(pairs) == len(members) else f"{len(pairs)} of {len(members)}"
     if not pairs:
@@ -66,7 +66,7 @@ def times(timings: Sequence[Timing]) -> Grid:
 
 
 def _times(members: Sequence[Timing]) -> Iterator[str]:
-    yield from (str(len(members)), str(sum(timing.solved for timing in members)))
+    yield from (str(len(members)), str(sum(timing.proved for timing in members)))
     figures = [_figure(timing) for timing in members]
     for share in (0.5, 0.95, 1.0):
         figure = _percentile(figures, share)
@@ -91,7 +91,7 @@ def _with_processes(timings: Sequence[Timing]) -> Iterator[Timing]:
 
 
 def _figure(timing: Timing) -> _Figure:
-    return _Figure(timing.seconds, cut=not timing.solved)
+    return _Figure(timing.seconds, cut=not timing.proved)
 
 
 def _percentile(figures: Sequence[_Figure], share: float) -> _Figure:

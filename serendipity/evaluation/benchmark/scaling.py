@@ -13,7 +13,7 @@ from typing import Final
 from serendipity.evaluation.benchmark.child import in_child
 from serendipity.evaluation.benchmark.measure import MODES
 from serendipity.evaluation.measuring.figures import power_law
-from serendipity.evaluation.measuring.tables import grouped, table
+from serendipity.evaluation.measuring.tables import Answered, grouped, table
 from serendipity.model.errors import SerendipityError, UsageError
 from serendipity.model.telling import Grid
 from serendipity.scenarios.generate import generate_usar
@@ -101,7 +101,7 @@ _MORE_SEEDS: Final = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Sample:
+class Sample(Answered):
     """One task of a series.
 
     Attributes:
@@ -136,11 +136,6 @@ class Sample:
     status: str
     cost: float | None
     expanded: int
-
-    @property
-    def solved(self) -> bool:
-        """Whether it is proved."""
-        return self.status in ("optimal", "infeasible")
 
     @property
     def before_seconds(self) -> float:
@@ -208,7 +203,7 @@ def scaling_table(samples: Sequence[Sample]) -> Grid:
         },
         {
             "tasks": len,
-            "proved": lambda of: sum(sample.solved for sample in of),
+            "proved": lambda of: sum(sample.proved for sample in of),
             "first call": lambda of: _shown(statistics.median(s.search_seconds for s in of)),
             "longest": lambda of: _shown(max(s.search_seconds for s in of)),
             "again": lambda of: _shown(statistics.median(s.again_seconds for s in of)),
@@ -243,7 +238,7 @@ def exponents(samples: Sequence[Sample]) -> Grid:
         grouped(numeric, lambda sample: (sample.axis,)),
         {
             "first call": lambda of: (
-                ("" if all(s.solved for s in of) else ">= ")
+                ("" if all(s.proved for s in of) else ">= ")
                 + _power([(s.value, s.search_seconds) for s in of])
             ),
             "read + pack": lambda of: _power([(s.value, s.before_seconds) for s in of]),

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
+from serendipity.evaluation.measuring.tables import Answered
 from serendipity.model import Window
 from serendipity.model.numbers import as_written, rounded
 
@@ -30,7 +31,7 @@ SHORT: Final = COLUMNS.index("best_tie")
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class Row(Answered):
     """An answer in short.
 
     Attributes:
@@ -61,11 +62,6 @@ class Row:
     best_tie: Fraction | None
     worst_tie: Fraction | None
     reason: str | None = None
-
-    @property
-    def proved(self) -> bool:
-        """Whether no limit came before the proof."""
-        return self.status in ("optimal", "infeasible")
 
     def cells(self) -> tuple[str, ...]:
         """The texts of ``COLUMNS``; empty where there is no value."""

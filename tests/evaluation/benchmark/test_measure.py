@@ -49,7 +49,7 @@ def test_proved_answers_that_differ_are_an_error(monkeypatch: pytest.MonkeyPatch
 
 def test_an_unproved_answer_may_differ(monkeypatch: pytest.MonkeyPatch) -> None:
     found = timings(monkeypatch, search=Scripted(2), other=Scripted(2, cost=2.0, status="feasible"))
-    assert [timing.solved for timing in found] == [True, False]
+    assert [timing.proved for timing in found] == [True, False]
 
 
 def test_calls_that_a_contender_cannot_answer_are_left_out() -> None:

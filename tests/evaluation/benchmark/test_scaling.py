@@ -24,7 +24,7 @@ def test_a_sample_is_the_planners_answer(
         answer = plan(task, discount="0.9")
         assert (sample.cost, sample.actions) == (answer.cost, len(task.actions))
         assert sample.length == len(answer.human_plan or ())
-        assert sample.solved
+        assert sample.proved
         assert sample.memory > 5
         assert min(sample.read_seconds, sample.pack_seconds, sample.search_seconds) > 0
 

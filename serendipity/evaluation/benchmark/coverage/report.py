@@ -77,7 +77,7 @@ def over_time(rows: Sequence[Row]) -> Grid:
 
 def decision_times(rows: Iterable[Row]) -> list[float]:
     """When the calls that are decided were."""
-    return [row.outcome.seconds for row in rows if row.decided]
+    return [row.outcome.seconds for row in rows if row.outcome.proved]
 
 
 def plan_times(rows: Iterable[Row]) -> list[float]:
@@ -131,7 +131,7 @@ def _each(rows: Sequence[Row], mode: str, figure: _Cell) -> str:
 
 
 def _decided(rows: Sequence[Row]) -> str:
-    return str(sum(row.decided for row in rows))
+    return str(sum(row.outcome.proved for row in rows))
 
 
 def _median_seconds(rows: Sequence[Row]) -> str:
@@ -145,7 +145,7 @@ def _beside(rows: Sequence[Row], mode: str, other: str) -> str:
         name: {
             (row.domain, row.task): row.outcome.expanded
             for row in rows
-            if row.decided and row.mode == mode and row.contender == name
+            if row.outcome.proved and row.mode == mode and row.contender == name
         }
         for name in (_OURS, other)
     }
@@ -163,7 +163,7 @@ def disagreements(rows: Sequence[Row]) -> list[str]:
 
 
 def _told(rows: Sequence[Row]) -> str:
-    proved = {row.contender: row.outcome.cost for row in rows if row.decided}
+    proved = {row.contender: row.outcome.cost for row in rows if row.outcome.proved}
     if len(set(proved.values())) > 1:
         told = (f"{name} {'no plan' if cost is None else cost}" for name, cost in proved.items())
         return f"the proved optima differ: {', '.join(told)}"

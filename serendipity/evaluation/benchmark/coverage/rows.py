@@ -65,11 +65,6 @@ class Row:
     contender: str
     outcome: Outcome
 
-    @property
-    def decided(self) -> bool:
-        """Whether it is proved."""
-        return self.outcome.proved
-
 
 def _search(call: Call) -> Outcome:
     most = 2 * call.time_limit + _START
@@ -96,21 +91,9 @@ def _fast_downward(search: str, call: Call) -> Outcome:
     if call.mode != "individual":
         shares |= dict.fromkeys(call.roles.robots, 1 - call.discount)
     try:
-        files = lifted_files(call.problem.unit(), shares)
-        found = fast_downward.run(files, search, call.time_limit)
+        return fast_downward.run(lifted_files(call.problem.unit(), shares), search, call.time_limit)
     except SerendipityError as error:
         return Outcome("failed", reason=str(error))
-    return Outcome(
-        status=found.status,
-        cost=None if found.cost is None else float(found.cost),
-        lower_bound=None if found.lower_bound is None else float(found.lower_bound),
-        expanded=found.expanded,
-        seconds=found.seconds,
-        plan_seconds=None if found.cost is None else found.seconds,
-        read_seconds=found.translate_seconds,
-        process_seconds=found.process_seconds,
-        memory=found.memory,
-    )
 
 
 def _classical(search: str) -> Contender:
