@@ -1,7 +1,7 @@
 """What becomes of help while it happens: many executions with people who do as they like.
 
     python -m benchmarks.execution [--tables people,domains,goals] [--stride N] [--seeds N] [--jobs N]
-        [--deadline S] [--processor-time] [--record FILE [--only-print]]
+        [--deadline S] [--record FILE]
 
 ``people``: the 200 buildings, with people who follow the canonical one of their optimal plans, or any.
 *Alone* is for ``noisy`` what the same person, with the same dice, pays where robots do nothing.
@@ -9,12 +9,10 @@
 With ``--stride 3 --seeds 7`` that is about 1,000 runs of each person whose plans are drawn, in half an
 hour of one core.
 ``goals``: the buildings, where robots do not know in which of 2 to 5 rooms triage is to be conducted.
-With ``--record`` what is done is written down at once, and not done again; ``--only-print`` prints what
-is there.  ``--processor-time``: deadlines are of processor time, which other programs do not take part of.
-Problems that are not there are left out (see ``benchmarks.problems``).
+With ``--record`` what is done is written down at once, and not done again.  Problems that are not there are
+left out (see ``benchmarks.problems``).
 """
 
-import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -63,7 +61,7 @@ class Job:
         ties: which of their plans they follow.
         seeds: how many runs.
         goals: how many goals robots take for possible.
-        deadline: seconds, of ``processor`` time or by the clock.
+        deadline: seconds for each epoch.
     """
 
     line: tuple[str, ...]
@@ -73,7 +71,6 @@ class Job:
     seeds: int
     goals: int
     deadline: float
-    processor: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,16 +92,14 @@ def main(
     seeds: int = 5,
     deadline: float = 0.1,
     jobs: int = 1,
-    processor_time: bool = False,
     record: Path | None = None,
-    only_print: bool = False,
 ) -> None:
     """Measure and print the tables."""
     kept = Record(record)
     for name in tables.split(","):
-        asked = JOBS[name](stride, seeds, (deadline, processor_time))
+        asked = JOBS[name](stride, seeds, deadline)
         runs: list[tuple[tuple[str, ...], Of]] = []
-        for job, found in measured(asked, done, kept, processes=jobs, begin=not only_print):
+        for job, found in measured(asked, done, kept, processes=jobs):
             if found is not None:
                 runs += [(job.line, Of(Run(**row), found["promised"])) for row in found["rows"]]
         lines = {line: [run for _, run in of] for line, of in grouped(runs, lambda pair: pair[0]).items()}
@@ -115,9 +110,7 @@ def main(
 
 def done(job: Job) -> dict[str, Any] | None:
     """The paper's saving on the task, and a row a run; None where the person has no plan alone."""
-    if job.processor:
-        on_processor_time()
-    task, promised = task_of(job.source), _promised(job.source)
+    task, promised = _task_of(job.source), _promised(job.source)
     if promised is None:
         return None
     candidates = _candidates(task, job.goals) if job.goals > 1 else None
@@ -129,19 +122,14 @@ def done(job: Job) -> dict[str, Any] | None:
     return {"promised": promised, "rows": [row.to_dict() for row in rows]}
 
 
-def on_processor_time() -> None:
-    """Have deadlines of this process read another clock."""
-    time.perf_counter = time.process_time
-
-
 @lru_cache(maxsize=1)
 def _promised(source: Source) -> float | None:
     """What the paper's plan saves on a task; None where the person has no plan alone, or nobody knows."""
-    result = serendipity.plan(task_of(source), discount=DISCOUNT, time_limit=2)
+    result = serendipity.plan(_task_of(source), discount=DISCOUNT, time_limit=2)
     return None if result.human_plan is None else result.saving
 
 
-def task_of(source: Source) -> Task:
+def _task_of(source: Source) -> Task:
     """A building; or a problem with its roles, and two of its goals."""
     if isinstance(source, Path):
         return serendipity.load(source, human="commx")
@@ -160,39 +148,39 @@ def _candidates(task: Task, count: int) -> list[dict[str, object]]:
     return [{"name": fact, "goal": [fact]} for fact in sorted(chosen)]
 
 
-def _people(stride: int, seeds: int, within: tuple[float, bool]) -> Iterator[Job]:
+def _people(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
     """Who the person is, over the buildings."""
-    for human, ties, folder in product(PEOPLE, ("fixed", "drawn"), buildings(stride)):
+    for human, ties, folder in product(PEOPLE, ("fixed", "drawn"), _buildings(stride)):
         runs = seeds if human.startswith("noisy") or ties == "drawn" else 1
-        yield Job((human, ties), folder, human, ties, runs, 1, *within)
+        yield Job((human, ties), folder, human, ties, runs, 1, deadline)
 
 
-def _domains(stride: int, seeds: int, within: tuple[float, bool]) -> Iterator[Job]:
+def _domains(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
     """Other domains."""
-    known = {name: smallest(name) for name in DOMAINS}
+    known = {name: _smallest(name) for name in DOMAINS}
     for number, name in product(range(0, DRAWS, stride), filter(known.get, DOMAINS)):
         problem, able = known[name][number // stride % len(known[name])]
         for human, (ties, runs) in product(PEOPLE, (("fixed", 1), ("drawn", seeds))):
-            yield Job((name, human, ties), (problem, able, number), human, ties, runs, 1, *within)
+            yield Job((name, human, ties), (problem, able, number), human, ties, runs, 1, deadline)
 
 
-def _goals(stride: int, _seeds: int, within: tuple[float, bool]) -> Iterator[Job]:
+def _goals(stride: int, _seeds: int, deadline: float) -> Iterator[Job]:
     """How many goals are possible, over the buildings."""
-    for count, folder in product(range(1, MOST_GOALS + 1), buildings(stride)):
-        yield Job((str(count),), folder, "observant", "fixed", 1, count, *within)
+    for count, folder in product(range(1, MOST_GOALS + 1), _buildings(stride)):
+        yield Job((str(count),), folder, "observant", "fixed", 1, count, deadline)
 
 
 JOBS = {"people": _people, "domains": _domains, "goals": _goals}
 NAMES = {"people": ("person", "plans"), "domains": ("domain", "person", "plans"), "goals": ("goals",)}
 
 
-def buildings(stride: int) -> list[Path]:
+def _buildings(stride: int) -> list[Path]:
     """Every so many of the 200."""
     suite = PROBLEMS / "usar200"
     return folders(suite, stride) if suite.is_dir() else []
 
 
-def smallest(domain: str) -> list[tuple[Problem, Roles]]:
+def _smallest(domain: str) -> list[tuple[Problem, Roles]]:
     """A domain's smallest problems that somebody can do alone; none where the domain is not there."""
     suite = PROBLEMS / "codmap15"
     found = problems(suite, [domain]) if suite.is_dir() else []
@@ -204,7 +192,9 @@ def smallest(domain: str) -> list[tuple[Problem, Roles]]:
 def _can_alone(problem: Problem, who: Roles) -> bool:
     """Whether a human can reach two of the goals alone."""
     try:
-        return serendipity.plan(task_of((problem, who, 0)), mode="individual", time_limit=60).cost is not None
+        return (
+            serendipity.plan(_task_of((problem, who, 0)), mode="individual", time_limit=60).cost is not None
+        )
     except (SerendipityError, ValueError):
         return False
 

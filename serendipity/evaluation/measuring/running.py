@@ -12,7 +12,7 @@ T = TypeVar("T")
 
 
 def measured(
-    jobs: Iterable[J], work: Callable[[J], Any], record: Record, *, processes: int = 1, begin: bool = True
+    jobs: Iterable[J], work: Callable[[J], Any], record: Record, *, processes: int = 1
 ) -> Iterator[tuple[J, Any]]:
     """Each job and what it came to: plain values, as JSON has them.
 
@@ -21,15 +21,14 @@ def measured(
         work: a function of a module.
         record: of what is done.
         processes: how many; with several, jobs come as they are finished.
-        begin: whether jobs are done that are not in the record.
     """
     todo = []
     for job in jobs:
         if repr(job) in record:
             yield job, record[repr(job)]
-        elif begin and processes > 1:
+        elif processes > 1:
             todo.append(job)
-        elif begin:
+        else:
             yield _noted(record, job, work(job))
     for job, found in in_processes(partial(_with_job, work), todo, processes):
         yield _noted(record, job, found)

@@ -27,13 +27,6 @@ def test_a_record_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
     assert seen == [0, 1, 2, 2, 3]
 
 
-def test_only_what_is_there(tmp_path: Path) -> None:
-    file, seen = tmp_path / "record.jsonl", list[int]()
-    list(measured([1], squares(seen), Record(file)))
-    assert list(measured([0, 1], squares(seen), Record(file), begin=False)) == [(1, 1)]
-    assert seen == [1]
-
-
 def test_processes_do_the_same(tmp_path: Path) -> None:
     record = Record(tmp_path / "record.jsonl")
     assert sorted(measured([-1, 2, -3], abs, record, processes=2)) == [(-3, 3), (-1, 1), (2, 2)]
