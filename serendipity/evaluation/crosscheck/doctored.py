@@ -11,20 +11,16 @@ from serendipity.evaluation.crosscheck.other_tasks import TRIFLES
 from serendipity.model import Result
 from serendipity.model.numbers import as_written, figure
 
-_NO_FIGURES: Final = dict.fromkeys(("cost", "objective", "lower_bound", "saving", "saving_alone"))
+_NOT_THERE: Final = (
+    *("plan", "policy", "window", "ties", "bounds"),
+    *("cost", "objective", "lower_bound", "saving", "saving_alone"),
+)
 _REASONS: Final = ("no-human-plan", "no-plan", "no-plan-within-horizon")
 
 
 def without_plan(result: Result, status: str, reason: str | None, bound: float | None = None) -> Result:
     """The same call, answered that there is no plan, or that none is known yet."""
-    nothing: dict[str, Any] = {
-        **_NO_FIGURES,
-        "plan": None,
-        "policy": None,
-        "window": None,
-        "ties": None,
-        "bounds": None,
-    }
+    nothing: dict[str, Any] = dict.fromkeys(_NOT_THERE)
     nothing |= {"status": status, "reason": reason, "lower_bound": bound, "opportunity": False}
     return replace(result, agent_costs={}, realised={}, **nothing)
 
@@ -63,7 +59,8 @@ def _figures(right: Result, dice: Random) -> Iterator[Result]:
         more = trifle * dice.choice((1, max(1, int(right.objective or 0)))) * dice.choice((-1, -1, 1))
         yield _moved(right, more)
         name = dice.choice(("cost", "objective", "saving", "saving_alone", "human_cost"))
-        yield _but(right, {name: _plus(getattr(right, name), more)})
+        named: dict[str, Any] = {name: _plus(getattr(right, name), more)}
+        yield replace(right, **named)
 
 
 def _plus(said: float | None, more: Fraction) -> float:
@@ -73,11 +70,7 @@ def _plus(said: float | None, more: Fraction) -> float:
 def _moved(right: Result, more: Fraction, **fields: Any) -> Result:
     """The same at another cost, all figures following it."""
     figures = {name: _plus(getattr(right, name), more) for name in ("cost", "objective", "lower_bound")}
-    return _but(right, {**figures, "saving": _plus(right.saving, -more), **fields})
-
-
-def _but(right: Result, fields: dict[str, Any]) -> Result:
-    return replace(right, **fields)
+    return replace(right, **{**figures, "saving": _plus(right.saving, -more), **fields})
 
 
 def _ties(right: Result, dice: Random) -> Iterator[Result]:

@@ -128,20 +128,12 @@ class FalseCertificates:
     def lines(self) -> Iterator[str]:
         """The counts as a table: by kind, by mode, by method."""
         yield f"{'':30}{'presented':>10}" + "".join(f"{verdict:>10}" for verdict in VERDICTS)
-        for part, name in enumerate(("kind", "mode", "method")):
+        for form in ("{0}", "mode {1}", "method {2}", "all"):
             found: dict[str, Counter[str]] = {}
             for key, number in sorted(self.counts.items()):
-                found.setdefault(f"{name} {key[part]}" if part else key[part], Counter())[key[3]] += number
-            for label, verdicts in found.items():
-                yield _line(label, verdicts)
-        totals: Counter[str] = Counter()
-        for key, number in self.counts.items():
-            totals[key[3]] += number
-        yield _line("all", totals)
-
-
-def _line(label: str, verdicts: Counter[str]) -> str:
-    return f"{label:30}{verdicts.total():>10,}" + "".join(f"{verdicts[verdict]:>10,}" for verdict in VERDICTS)
+                found.setdefault(form.format(*key), Counter())[key[-1]] += number
+            for label, of in found.items():
+                yield f"{label:30}{of.total():>10,}" + "".join(f"{of[verdict]:>10,}" for verdict in VERDICTS)
 
 
 def _named(way: Way) -> str:

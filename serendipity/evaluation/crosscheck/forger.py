@@ -96,14 +96,9 @@ def _asked(call: PlanCall, dice: Random) -> _Asked:
         options = {
             name: value for name, value in call.options.items() if name in ("discount", "window_weight")
         }
-        fact, prior = (
-            dice.randrange(len(task.facts)),
-            dice.choice((Fraction(1, 2), Fraction(1, 3), Fraction(9, 10))),
-        )
-        own = [
-            *(task.facts[f] for f in task.goal.positive),
-            *(f"!{task.facts[f]}" for f in task.goal.negative),
-        ]
+        fact = dice.randrange(len(task.facts))
+        prior = dice.choice((Fraction(1, 2), Fraction(1, 3), Fraction(9, 10)))
+        own = [task.facts[f] for f in task.goal.positive] + [f"!{task.facts[f]}" for f in task.goal.negative]
         other = f"!{task.facts[fact]}" if fact in task.init else task.facts[fact]
         goals = {"own": (own, prior), other: ([other], 1 - prior)}
         given = tuple({"name": name, "goal": goal, "prior": str(p)} for name, (goal, p) in goals.items())

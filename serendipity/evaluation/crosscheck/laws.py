@@ -142,12 +142,8 @@ def _same_rank(task: Task, found: Result, expected: Result) -> Result:
 
     A session keeps variables that a fresh call doesn't find, which may decide between the two.
     """
-    alike = (found.cost, found.window, len(found.plan or ())) == (
-        expected.cost,
-        expected.window,
-        len(expected.plan or ()),
-    )
-    if not alike or check(task, found).refuted is not None:
+    one, other = ((each.cost, each.window, len(each.plan or ())) for each in (found, expected))
+    if one != other or check(task, found).refuted is not None:
         return found
     return _with(found, expected, "plan", "agent_costs", "realised")
 
