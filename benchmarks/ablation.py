@@ -1,4 +1,4 @@
-"""What each strategy, technique and bound of the search is good for: calls with all, and without each.
+"""Ablation of the search: calls with all strategies, techniques and bounds, and without each.
 
     python -m benchmarks.ablation -o FILE.jsonl [--limits 2,10] [--suites families,buildings,competition]
         [--stride N] [--calls individual,composite-inf] [--techniques]
@@ -147,7 +147,7 @@ def _which(row: Row) -> Sequence[str]:
 
 
 def _useful(part: Row) -> bool:
-    """Whether a strategy made an answer better, raised its bound, or settled it."""
+    """True if a strategy made an answer better, raised its bound, or settled it."""
     return bool(part["better"] or part["bound"] is not None or part["settled"])
 
 
@@ -193,7 +193,7 @@ def _pairs(without: str, whole: Rows, rows: Rows) -> list[Pair]:
 
 
 def _columns(gaps: float) -> dict[str, Callable[[Sequence[Pair]], object]]:
-    """What a strategy comes to, where ``gaps`` is the sum over all calls with it."""
+    """Columns of the table of strategies, where ``gaps`` is the sum over all calls with it."""
 
     def change(of: Sequence[Pair]) -> str:
         more = sum(each.other["gap"] - each.whole["gap"] for each in of if each.other is not None)
@@ -210,7 +210,7 @@ def _columns(gaps: float) -> dict[str, Callable[[Sequence[Pair]], object]]:
 
 
 def _lost(one: Row | None, other: Row | None) -> bool:
-    """Whether only the first of two calls is decided, where both were asked."""
+    """True if only the first of two calls is decided, and both were asked."""
     return one is not None and other is not None and _decided(one) and not _decided(other)
 
 
@@ -219,7 +219,7 @@ def _decided(row: Row) -> bool:
 
 
 def _told(calls: Iterable[Row]) -> str:
-    """How many, in all and by family."""
+    """Number of calls, in all and by family."""
     counts = Counter(call["family"] for call in calls)
     named = ", ".join(f"{family} {count}" for family, count in sorted(counts.items()))
     return f"{counts.total()}: {named}" if counts else "0"

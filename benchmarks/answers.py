@@ -27,7 +27,7 @@ from serendipity import Result, SerendipityError, Task
 from serendipity.testing.generator.calls import PlanCall, random_call
 
 TIMED = ("elapsed_seconds", "seconds", "gap")
-"""What depends on the clock: improvements are told of now and then."""
+"""Fields that depend on the clock: improvements are told of now and then."""
 
 Ask = Callable[[], Any]
 
@@ -49,7 +49,7 @@ def main(
 
 
 def _random(seed: int) -> Iterator[tuple[str, Ask]]:
-    """What is asked of one random task."""
+    """Questions about one random task."""
     call = random_call(seed)
     task, dice = call.task, Random(f"answers {seed}")
     result = None

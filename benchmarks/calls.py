@@ -101,7 +101,7 @@ def counted(judge: OutsideJudge, seen: Counter[str]) -> OutsideJudge:
 
 
 def asked(seed: int, judge: OutsideJudge, time_limit: float, folder: Path) -> bool:
-    """Whether a judge and the search disagree on a call."""
+    """True if a judge and the search disagree on a call."""
     found = compare(random_call(seed), SEARCH, outside=[judge], time_limit=time_limit)
     if found is None:
         return False

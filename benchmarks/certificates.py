@@ -52,7 +52,7 @@ Row = Mapping[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What is planned for: a task of a group, by what makes it, and options.
+    """A planning call: a task of a group, by what makes it, and options.
 
     Attributes:
         source: a folder and the human; rooms, medkits, robots and seed; or files, human and robots.
@@ -79,7 +79,7 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """How an answer is verified."""
+    """A certificate to be made: of which answer, and how."""
 
     asked: Asked
     how: tuple[tuple[str, Any], ...]
@@ -138,7 +138,7 @@ def main(
 
 
 def _once(record: Record, job: Any, work: Callable[[Any], Any], separate: bool) -> Any:
-    """What a job comes to, in a process of its own where that is asked for."""
+    """Result of a job, in a process of its own where that is asked for."""
     ((_, found),) = measured([job], partial(apart, work) if separate else work, record)
     return found
 
@@ -169,7 +169,7 @@ def planned(asked: Asked) -> dict[str, Any]:
 
 
 def verified(job: Job, answer: dict[str, Any]) -> dict[str, Any]:
-    """What comes of a certificate."""
+    """Verdict and figures of a certificate."""
     result, how = Result.from_dict(answer), dict(job.how)
     if job.proofs:
         return _proof(job.asked.load, result, how["time_limit"])

@@ -1,4 +1,4 @@
-"""What becomes of help while it happens: many executions with people who do as they like.
+"""Outcomes of help while it happens: many executions with people who do as they like.
 
     python -m benchmarks.execution [--tables people,domains,goals] [--stride N] [--seeds N] [--jobs N]
         [--deadline S] [--record FILE]
@@ -82,7 +82,7 @@ class Of:
 
     @property
     def saved(self) -> float:
-        """What the team saved, where the person got there."""
+        """Saving of the team, where the person got there."""
         return (self.run.alone or 0) - self.run.cost if self.run.reached else 0
 
 
@@ -124,7 +124,7 @@ def done(job: Job) -> dict[str, Any] | None:
 
 @lru_cache(maxsize=1)
 def _promised(source: Source) -> float | None:
-    """What the paper's plan saves on a task; None where the person has no plan alone, or nobody knows."""
+    """Saving of the paper's plan on a task; None where the person has no plan alone, or nobody knows."""
     result = serendipity.plan(_task_of(source), discount=DISCOUNT, time_limit=2)
     return None if result.human_plan is None else result.saving
 
@@ -149,14 +149,14 @@ def _candidates(task: Task, count: int) -> list[dict[str, object]]:
 
 
 def _people(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
-    """Who the person is, over the buildings."""
+    """Jobs of different people, over the buildings."""
     for human, ties, folder in product(PEOPLE, ("fixed", "drawn"), _buildings(stride)):
         runs = seeds if human.startswith("noisy") or ties == "drawn" else 1
         yield Job((human, ties), folder, human, ties, runs, 1, deadline)
 
 
 def _domains(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
-    """Other domains."""
+    """Jobs in other domains."""
     known = {name: _smallest(name) for name in DOMAINS}
     for number, name in product(range(0, DRAWS, stride), filter(known.get, DOMAINS)):
         problem, able = known[name][number // stride % len(known[name])]
@@ -165,7 +165,7 @@ def _domains(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
 
 
 def _goals(stride: int, _seeds: int, deadline: float) -> Iterator[Job]:
-    """How many goals are possible, over the buildings."""
+    """Jobs with several possible goals, over the buildings."""
     for count, folder in product(range(1, MOST_GOALS + 1), _buildings(stride)):
         yield Job((str(count),), folder, "observant", "fixed", 1, count, deadline)
 
@@ -190,7 +190,7 @@ def _smallest(domain: str) -> list[tuple[Problem, Roles]]:
 
 
 def _can_alone(problem: Problem, who: Roles) -> bool:
-    """Whether a human can reach two of the goals alone."""
+    """True if a human can reach two of the goals alone."""
     try:
         return (
             serendipity.plan(_task_of((problem, who, 0)), mode="individual", time_limit=60).cost is not None

@@ -41,7 +41,7 @@ def _doctored() -> list[Line | Grid]:
 
 
 def _refutation(doctored: Doctored) -> tuple[str, str, bool]:
-    """What falls, why, and whether that is what should."""
+    """The claim that falls, the reason, and True where it is the one that should."""
     task, result = doctored.make()
     rule = check(task, result).first if doctored.rule else None
     named = rule is not None and rule.rule == doctored.rule

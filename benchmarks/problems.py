@@ -37,7 +37,7 @@ def silent_task(prime: Pair, supporter: Pair) -> Task:
 
 
 def can_alone(problem: Problem, who: Roles) -> bool:
-    """Whether a human is found to have a plan alone, in three seconds."""
+    """True if a human is found to have a plan alone, in three seconds."""
     try:
         return serendipity.plan(problem.task(who), mode="individual", time_limit=3).cost is not None
     except SerendipityError:

@@ -1,4 +1,4 @@
-"""How much of the promised help happens with people who replan, over a folder of tasks.
+"""Share of the promised help that happens with people who replan, over a folder of tasks.
 
     python -m benchmarks.realisation FOLDER [--human NAME] [--discounts 0,0.5,0.9] [--limit N] [--certify]
 
@@ -24,7 +24,7 @@ from serendipity.facade.simulation import HUMAN_MODELS
 from serendipity.model.telling import Grid
 
 Figures = defaultdict[str, list[float]]
-"""What was found on each task, by what it is called."""
+"""Figures of each task, by name."""
 
 
 def main(

@@ -1,4 +1,4 @@
-"""What a session with a short deadline for each epoch keeps of one long call, over whole executions.
+"""Savings of sessions with a short deadline for each epoch, beside one long call, over whole executions.
 
     python -m benchmarks.sessions [--tasks 20] [--long 5] [--limits 0.05,0.1,0.5] [--only WORD]
 
@@ -54,7 +54,7 @@ class Row:
     over: float
 
     def saving(self, cost: float | None) -> float:
-        """What a cost saves, where the execution has arrived and all of it is known."""
+        """Saving of a cost, where the execution has arrived and all of it is known."""
         if self.alone is None or self.known is None or self.paid is None or cost is None:
             return 0.0
         return self.alone - cost
@@ -120,7 +120,7 @@ def _asked(session: Session, limit: float) -> tuple[Result, float]:
 
 
 def _value(answer: Result) -> float | None:
-    """What an answer comes to: a human whose plan is not optimal may yet find a better one alone."""
+    """Cost of an answer: a human whose plan is not optimal may yet find a better one alone."""
     return None if answer.cost is None else answer.cost - (answer.saving_alone or 0)
 
 

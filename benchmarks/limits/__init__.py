@@ -1,1 +1,1 @@
-"""How well limits are kept: commands on tasks."""
+"""Limits of time and memory, and how well commands keep them."""

@@ -1,4 +1,4 @@
-"""How well every command keeps ``--time-limit`` and ``--memory-limit``, as a process.
+"""Overruns of ``--time-limit`` and ``--memory-limit``, command by command, as processes.
 
     python -m benchmarks.limits plan|verify|memory|commands [--suite FOLDER] [--record FILE] [--jobs N]
         [--limits 0.1,1,10] [--memory MIB] [--rotate N] [--stride N]
@@ -47,7 +47,7 @@ from serendipity.model.telling import Grid, Line
 
 
 class Study(NamedTuple):
-    """What is measured, unless options say otherwise.
+    """Commands and limits of a study, unless options say otherwise.
 
     Attributes:
         commands: by what the table calls them.
@@ -82,7 +82,7 @@ CONFINED_FOR: Final = 20.0
 """Seconds with a limit on memory."""
 
 SHARE, EXTRA = 0.1, 0.05
-"""What may be added to a limit: of it, and seconds."""
+"""Tolerance: a share of the limit, and seconds."""
 
 _PROGRAM: Final = """
 import runpy, sys, time
@@ -121,7 +121,7 @@ class Job:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """What came of a job: exit code (None where it was killed), seconds over the limit, memory in MiB."""
+    """Outcome of a job: exit code (None where it was killed), seconds over the limit, memory in MiB."""
 
     job: Job
     code: int | None
@@ -136,7 +136,7 @@ class Row:
 
     @property
     def kept(self) -> bool:
-        """Whether the time limit was kept, and the process was not killed."""
+        """True if the time limit was kept, and the process was not killed."""
         return self.code is not None and self.beyond <= 0
 
     @property
@@ -194,13 +194,13 @@ def done(job: Job) -> dict[str, float | None]:
 
 @cache
 def _start(folder: Path, line: tuple[str, ...]) -> dict[str, Any]:
-    """How a command starts, loads its modules, and ends at once: the quickest of five."""
+    """The quickest of five runs in which a command starts, loads its modules, and ends at once."""
     runs = [_ended(folder, [*line, "--time-limit", "0"], PATIENCE) for _ in range(5)]
     return min(runs, key=lambda ended: ended["seconds"])
 
 
 def _ended(folder: Path, words: Sequence[str], patience: float) -> dict[str, Any]:
-    """How a command ends, which is killed after some seconds.
+    """The end of a command, which is killed after some seconds.
 
     Returns:
         ``code``, None where it was killed; ``seconds``, from when its limits began, or else from its start;

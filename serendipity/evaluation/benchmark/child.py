@@ -22,7 +22,7 @@ from serendipity.pddl import read_folder, read_pddl
 
 
 def in_child(kind: str, *, most: float | None = None, **asked: Any) -> dict[str, Any]:
-    """What a call gives in a process of its own.
+    """Result of a call in a process of its own.
 
     Args:
         kind: ``suite`` or ``series``.

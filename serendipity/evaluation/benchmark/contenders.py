@@ -1,4 +1,4 @@
-"""Who answers the calls of a benchmark, and what a contender says to one."""
+"""Contenders of a benchmark, and their answers to its calls."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ MODES: Final[dict[str, dict[str, Any]]] = {
 
 @dataclass(frozen=True, slots=True)
 class Outcome(Answered):
-    """What a contender says, and what it took.
+    """A contender's answer, and the time and memory it took.
 
     Attributes:
         status: as in results; ``failed`` where it could not be asked, ``error`` where the task is broken.
@@ -71,7 +71,7 @@ class Contender:
 
 
 def chosen(names: Iterable[str], known: Mapping[str, T], what: str, where: str = "") -> dict[str, T]:
-    """What names stand for.
+    """Values by their names, in the order in which they are named.
 
     Raises:
         UsageError: for nothing; it says ``what`` they are names of, and ``where``.

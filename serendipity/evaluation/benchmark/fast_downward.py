@@ -75,7 +75,7 @@ class Found(Outcome):
 
 
 def run(files: ClassicalFiles, search: str, time_limit: float | None, *, invariants: bool = True) -> Found:
-    """What it finds.
+    """Fast Downward's answer to a problem.
 
     Args:
         files: the problem.
@@ -120,7 +120,7 @@ def _failed(who: str, text: str) -> SerendipityError:
 
 
 def _read(status: str, text: str, scale: int, seconds: float) -> Found:
-    """What the search has printed.
+    """Answer of the search, from its output.
 
     Raises:
         SerendipityError: something is missing in it.

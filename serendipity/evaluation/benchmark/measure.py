@@ -145,7 +145,7 @@ def measure(
 
 
 def broken(task: str, error: Exception) -> Timing:
-    """What stands for all calls of a task that can't be read."""
+    """The row that stands for all calls of a task that can't be read."""
     return Timing(task, "", "", "", 0.0, 0.0, 0.0, 0, "error", None, None, None, told(error))
 
 

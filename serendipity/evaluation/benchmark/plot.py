@@ -35,7 +35,7 @@ def check_suffix(suffix: str) -> None:
 
 
 def side_by_side(timings: Sequence[Timing], suffix: str) -> bytes:
-    """What each contender takes over what the search takes, a point a call; crosses met the limit."""
+    """Time of each contender over that of the search, a point a call; crosses met the limit."""
     modes = grouped(timings, lambda timing: timing.mode)
     drawn = figure(5 * len(modes), 4.6)
     for i, (mode, members) in enumerate(modes.items()):

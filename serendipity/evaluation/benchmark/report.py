@@ -28,7 +28,7 @@ class _Figure:
 
 
 def ratios(timings: Sequence[Timing]) -> Grid:
-    """What each contender takes as a multiple of each way to call the search, on the same calls.
+    """Times of each contender as multiples of each way to call the search, on the same calls.
 
     First the ratios of medians and of 95th percentiles, then percentiles of the ratios of
     single calls.  Calls that met the limit count with what they had taken by then.  Calls that the

@@ -1,4 +1,4 @@
-"""How time and memory grow along one axis while the others stay: generated buildings.
+"""Growth of time and memory along one axis while the others stay: generated buildings.
 
 Each task is answered from its PDDL files in a process of its own.
 """
@@ -26,7 +26,7 @@ _LONG_CORRIDORS: Final = 16
 
 @dataclass(frozen=True, slots=True)
 class Size:
-    """What a task is generated from, and what is asked of it."""
+    """Size of a generated task, and the mode and discount that it is planned with."""
 
     rooms: int = 210
     medkits: int = 2
@@ -55,7 +55,7 @@ class Axis:
 
     @property
     def numeric(self) -> bool:
-        """Whether its values are numbers with a power law."""
+        """True if its values are numbers with a power law."""
         return not self.labels
 
 
@@ -94,7 +94,7 @@ AXES: Final[dict[str, Axis]] = {
         labels=_DISCOUNTS,
     ),
 }
-"""What ``bench --scaling`` can vary."""
+"""Axes of ``bench --scaling``."""
 
 _MORE_SEEDS: Final = 4
 """Tasks of one size differ in length by chance, so it takes more of them to see a trend."""

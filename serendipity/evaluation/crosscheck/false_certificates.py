@@ -20,7 +20,7 @@ from verify.certificate.certify import certify
 from verify.limits import VerifierLimits, limited
 
 FALSE_CERTIFICATES: Final = "false-certificates"
-"""What this judge is called."""
+"""Name of this judge."""
 
 VERDICTS: Final = ("refuted", "undecided", "refused", "proved")
 """``refused``: no answer to such a call at all, or of another task."""
@@ -41,7 +41,7 @@ _SIZES: Final = (0, 1, 2, 3, 10, 50)
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """How a result is verified.
+    """A way to verify a result.
 
     Attributes:
         method: of ``verify``; or ``proof``: the proof of what it was made from is checked against it.
@@ -107,11 +107,11 @@ class FalseCertificates:
         return None
 
     def shows(self, call: PlanCall) -> bool:
-        """Whether something false is proved."""
+        """True if something false is proved."""
         return self(call) is not None
 
     def _verdict(self, forgery: Forgery, way: Way) -> str | None:
-        """What is said of a false result; None where it can't be asked so."""
+        """Verdict on a false result; None where it can't be asked so."""
         seconds = _SECONDS if self.time_limit is None else self.time_limit
         with limited(**way.sizes):
             try:

@@ -21,7 +21,7 @@ from verify.calls.solve import solve
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """What judges have to agree on; ``error`` where the call is refused."""
+    """The figures that judges have to agree on; ``error`` where the call is refused."""
 
     status: str = "error"
     cost: float | None = None
@@ -160,7 +160,7 @@ def shows_it_too(
 def _asked(
     call: PlanCall, judge: Judge, proved: Collection[Figures], limits: Callable[[], Deadline]
 ) -> tuple[Figures | None, str, Result | None]:
-    """What a judge says, as figures (None: what can't be so), in words, and as an answer if it is one."""
+    """A judge's answer: as figures (None: it can't be so), in words, and as a result if it is one."""
     refuted = None
     try:
         result = judge(call, limits())
@@ -181,7 +181,7 @@ def _asked(
 def _asked_outside(
     call: PlanCall, judge: OutsideJudge, proved: Result | None, limits: Callable[[], Deadline]
 ) -> tuple[str, bool, dict[str, str]]:
-    """What a judge from outside says, whether it can be so, and its plan if that can't."""
+    """An outside judge's answer in words, True if it can be so, and its plan if that can't."""
     try:
         claim = judge.answer(call, limits())
         wrong = fault(call, claim, proved)

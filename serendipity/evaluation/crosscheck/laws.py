@@ -57,7 +57,7 @@ def anytime(call: PlanCall, answer: Result) -> Iterator[str]:
 
 
 def repeated(call: PlanCall, answer: Result) -> Iterator[str]:
-    """What other calls have left with a task changes nothing."""
+    """Tables that other calls have left with a task change nothing."""
     task, dice = replace(call.task), Random(f"other options {call.seed}")
     for _ in range(2):
         with suppress(UsageError):
@@ -131,7 +131,7 @@ def _differences(where: str, found: Result, expected: Result) -> Iterator[str]:
 
 
 def _told(answer: Result) -> dict[str, Any]:
-    """What an answer says, without the figures of its call."""
+    """Fields of an answer, without the figures of its call."""
     data = answer.to_dict()
     exact = {name: texts for name, texts in data.get("exact", {}).items() if name != "statistics"}
     return data | {"statistics": {}, "exact": exact}
@@ -149,7 +149,7 @@ def _same_rank(task: Task, found: Result, expected: Result) -> Result:
 
 
 def _faults(call: PlanCall, early: Result, final: Result) -> Iterator[str]:
-    """What an answer that a limit may have cut short claims, and is not so."""
+    """False claims of an answer that a limit may have cut short."""
     refuted = check(call.task, early).refuted
     if refuted is not None:
         yield f"refuted: {refuted.claim}: {refuted.reason}"
@@ -185,7 +185,7 @@ def _with(answer: Result, other: Result, *names: str) -> Result:
 
 
 def _is_shared(task: Task) -> bool:
-    """Whether actions without the human change what goals ask for."""
+    """True if actions without the human change what goals ask for."""
     wanted = {f for goal in (task.goal, task.robot_goal) for f in (*goal.positive, *goal.negative)}
     others = (action for action in task.actions if task.human not in action.participants)
     return any(wanted.intersection((*action.add, *action.delete)) for action in others)
@@ -201,7 +201,7 @@ def _opportunity_faults(early: Result, final: Result) -> Iterator[str]:
 
 
 def _comparable(call: PlanCall) -> bool:
-    """Whether objectives with and without a window can be set against each other."""
+    """True if objectives with and without a window can be set against each other."""
     options = options_from(call.keywords())
     means = options.ties != "fixed" and options.mode in ("serendipity", "communication")
     return not (options.windowed and (call.task.robot_goal or means))
@@ -217,5 +217,5 @@ def _rank(answer: Result) -> float | None:
 
 
 def _above(one: float | None, other: float | None) -> bool:
-    """Whether a figure exceeds another by more than rounding."""
+    """True if a figure exceeds another by more than rounding."""
     return one is not None and other is not None and one > other + 1e-9 * max(1.0, abs(other))

@@ -1,4 +1,4 @@
-"""Which calls may be refused: judges that agree to refuse any other are both wrong."""
+"""Calls that may be refused: judges that agree to refuse any other are both wrong."""
 
 from itertools import islice
 
@@ -9,7 +9,7 @@ from verify.base.optimal_plans import OptimalPlans
 
 
 def may_be_refused(call: PlanCall) -> bool:
-    """Whether an option has no legal value, a plan does not work, or a horizon is missing or too short."""
+    """True if an option has no legal value, a plan does not work, or a horizon is missing or too short."""
     try:
         options = options_from(call.keywords())
         given = None if call.human_plan is None else call.task.plan_from_names(call.human_plan)

@@ -1,4 +1,4 @@
-"""Whether what a result claims is so, by brute force, which knows neither search nor verifier."""
+"""Truth of a result's claims, by brute force, which knows neither search nor verifier."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -20,7 +20,7 @@ _MOST_POLICIES: Final = 400
 _MOST_FACTS: Final = 9
 _MOST_PLANS: Final = 300
 _MOST_TIES: Final = 12
-"""What brute force is patient enough for: policies and facts of a game, robots' plans, the human's plans."""
+"""Limits of brute force: policies and facts of a game, robots' plans, the human's plans."""
 
 _ROUNDING: Final = Fraction(1, 10**8)
 """Of means over goals."""
@@ -31,7 +31,7 @@ _OVER: Final[Mapping[str, Callable[[list[Fraction]], Fraction]]] = {
     "robust": max,
     "expected": lambda amounts: sum(amounts, Fraction(0)) / len(amounts),
 }
-"""What ties make of the answers beside each of the human's optimal plans."""
+"""Aggregates over the human's optimal plans, by how ties are broken."""
 
 
 class UnknownTruthError(Exception):
@@ -48,7 +48,7 @@ class _Belief:
 
 
 class Truth:
-    """What is so of calls about one task.
+    """True answers to calls about one task.
 
     Args:
         task: the task.
@@ -62,7 +62,7 @@ class Truth:
         self._canonical = self._names(optimal_human_plan(task))
 
     def fault(self, result: Result) -> str | None:
-        """What of a result is not so; None if nothing was found.
+        """A false claim of a result, in words; None if none was found.
 
         Whether its plan works is not looked at: only what it is said to be worth, and what is said of others.
 
@@ -98,7 +98,7 @@ class Truth:
                 yield f"{name} is {true}, not {said}"
 
     def _same(self, said: float | None, true: Fraction | bool) -> bool:
-        """Whether a figure is right; means over goals are as exact as the probabilities they rest on."""
+        """True if a figure is right; means over goals are as exact as the probabilities they rest on."""
         if isinstance(true, bool):
             return said is true
         if self.beliefs and said is not None:
@@ -191,7 +191,7 @@ def _beliefs(task: Task, recognition: Recognition) -> list[_Belief]:
 
 
 def _least(result: Result, right: Optimum) -> Fraction:
-    """What no plan's objective is below, net of an epoch of the window where none is claimed."""
+    """Greatest lower bound of the objective, net of an epoch of the window where none is claimed."""
     weight = result.options.window_weight
     least = (right.cost if right.objective is None else right.objective) or Fraction(0)
     if right.window is not None and not result.opportunity:

@@ -1,1 +1,1 @@
-"""What everything that is measured has in common: figures, tables, jobs and their record, tasks of others."""
+"""The common ground of measurements: figures, tables, plots, jobs and their record, tasks of others."""

@@ -32,7 +32,7 @@ def children_seconds() -> float:
 
 
 def timed(work: Callable[[], T]) -> tuple[T, float]:
-    """What work gives, and its processor seconds; without garbage collection, as `plan` does."""
+    """Result of some work, and its processor seconds; without garbage collection, as `plan` does."""
     with no_collection():
         start = processor_seconds()
         done = work()
@@ -56,7 +56,7 @@ def children_memory() -> float:
 
 
 def machine() -> str:
-    """What figures are measured on."""
+    """Machine, Python and kernel that figures are measured on, in one line."""
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
     processor = _line_of(_CPU_INFO, "model name").lstrip("\t: ") or platform.machine()
     return (

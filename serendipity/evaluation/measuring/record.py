@@ -26,7 +26,7 @@ class Lines:
         self.path, self._what, self._begins = path, what, begins
 
     def read(self, decoded: Callable[[Any, int], T]) -> list[T]:
-        """What is there already.
+        """The values that are there already.
 
         Args:
             decoded: what a value on a line of some number stands for; it may fail like a look-up.
@@ -66,7 +66,7 @@ class Lines:
 
 
 class Record:
-    """What jobs have come to, each found again by its key.
+    """Results of jobs, each found again by its key.
 
     Args:
         file: where it stands; None: nowhere but in memory.

@@ -44,7 +44,7 @@ def _with_job(work: Callable[[J], Any], job: J) -> tuple[J, Any]:
 
 
 def apart(work: Callable[..., T], *given: Any) -> T:
-    """What a function of a module gives in a process of its own, whose memory is its own."""
+    """Result of a function of a module in a process of its own, whose memory is its own."""
     (found,) = in_processes(partial(_called, work), [given], 1)
     return found
 

@@ -42,7 +42,7 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class Roles:
-    """Who is who in a problem.
+    """Roles of a problem's agents.
 
     Attributes:
         human: the human.
@@ -62,7 +62,7 @@ def folders(suite: Path, stride: int = 1, limit: int | None = None) -> list[Path
 
 
 def is_suite(folder: Path) -> bool:
-    """Whether a folder holds domains with their problems."""
+    """True if a folder holds domains with their problems."""
     return any(_problem_files(path) for path in _domains(folder))
 
 
@@ -120,7 +120,7 @@ def roles(problem: Problem, robots: int, can_alone: Callable[[Problem, Roles], b
 
 
 def may_alone(problem: Problem, who: Roles) -> bool:
-    """Whether the human alone may reach the goal, if nothing is ever deleted."""
+    """True if the human alone reaches the goal of the delete relaxation."""
     task = problem.task(who)
     known = set(task.init)
     waiting = [task.actions[i] for i in task.human_actions]

@@ -20,7 +20,7 @@ class Answered:
 
     @property
     def proved(self) -> bool:
-        """Whether no limit came before the proof."""
+        """True if no limit came before the proof."""
         return self.status in ("optimal", "infeasible")
 
 

@@ -29,7 +29,7 @@ class Journal:
         self._lines = Lines(path, "a journal of `serendipity reproduce`", _BEGINS)
 
     def read(self) -> list[TaskRows]:
-        """What is there already; errors as of :meth:`Lines.read`."""
+        """The finished tasks that are there already; errors as of :meth:`Lines.read`."""
         return self._lines.read(self._record)
 
     def append(self, record: TaskRows) -> None:

@@ -1,4 +1,4 @@
-"""Where assignments are worked on beside processes of this machine: a Dask cluster."""
+"""A Dask cluster, on which assignments are worked on instead of processes of this machine."""
 
 import logging
 from collections.abc import Callable, Iterator, Sequence
@@ -48,7 +48,7 @@ def on_dask(work: Work, assignments: Sequence[Assignment], address: str, jobs: i
 
 @contextmanager
 def _hushed() -> Iterator[None]:
-    """What Dask logs of workers and schedulers that are gone, tracebacks and all, is for those who debug."""
+    """Silence about workers and schedulers that are gone: Dask's tracebacks are for those who debug."""
     if log.isEnabledFor(logging.DEBUG):
         yield
         return

@@ -1,4 +1,4 @@
-"""What the paper printed: Table I and Table II of Chakraborti et al., IROS 2015."""
+"""Figures of the paper: Table I and Table II of Chakraborti et al., IROS 2015."""
 
 from fractions import Fraction
 from typing import Final, NamedTuple

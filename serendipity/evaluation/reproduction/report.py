@@ -135,7 +135,7 @@ def _by_discount(title: str, y: str, entries: Sequence[Entry], figure: Callable[
 
 
 def _chart_of_savings(run: Reproduction) -> str:
-    """How much is saved where something is, at the greatest discount."""
+    """Histogram of savings at the greatest discount, where something is saved."""
     most = max(run.discounts)
     saved: dict[str, list[Fraction]] = {}
     for row in run.rows:

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
-from serendipity.evaluation.measuring.tables import Answered
 from serendipity.model import Window
 from serendipity.model.numbers import as_written, rounded
 
@@ -27,11 +26,11 @@ KINDS: Final = {
 
 COLUMNS: Final = tuple(KINDS)
 SHORT: Final = COLUMNS.index("best_tie")
-"""How many of them are printed."""
+"""Number of columns that are printed."""
 
 
 @dataclass(frozen=True, slots=True)
-class Row(Answered):
+class Row:
     """An answer in short.
 
     Attributes:
@@ -62,6 +61,11 @@ class Row(Answered):
     best_tie: Fraction | None
     worst_tie: Fraction | None
     reason: str | None = None
+
+    @property
+    def proved(self) -> bool:
+        """True if no limit came before the proof."""
+        return self.status in ("optimal", "infeasible")
 
     def cells(self) -> tuple[str, ...]:
         """The texts of ``COLUMNS``; empty where there is no value."""

@@ -38,7 +38,7 @@ DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far a run is, in tasks.
+    """Progress of a run, in tasks.
 
     Attributes:
         done: finished, those of an earlier run included.
@@ -78,7 +78,7 @@ class Reproduction(Tabular):
 
     @property
     def complete(self) -> bool:
-        """Whether every row is proved."""
+        """True if every row is proved."""
         return all(row.proved for row in self.rows)
 
 
@@ -186,7 +186,7 @@ def _by_call(records: Iterable[TaskRows], *, proved: bool = False) -> dict[_Key,
 def _left(
     task: TaskFolder, calls: Sequence[Call], known: dict[_Key, Row], limits: Limits
 ) -> Assignment | None:
-    """What is still to be done for a task."""
+    """The calls that are still to be made for a task; None without any."""
     missing = tuple(call for call in calls if _key(task, call) not in known)
     return Assignment(task.test, task.path, task.fingerprint, missing, limits) if missing else None
 

@@ -73,7 +73,7 @@ class ExampleAnswer:
 
 @dataclass(frozen=True, slots=True)
 class Tables:
-    """What a run comes to: Table I, Table II, and the paper's examples beside them."""
+    """The tables of a run: Table I, Table II, and the paper's examples beside them."""
 
     costs: tuple[Entry, ...]
     times: tuple[Times, ...]

@@ -25,7 +25,7 @@ _BEST_AND_WORST: Final[tuple[Ties, ...]] = ("optimistic", "robust")
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """What to solve a task with."""
+    """Mode and discount of a planning call."""
 
     mode: str
     discount: Fraction
@@ -68,7 +68,7 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True)
 class TaskRows:
-    """What an assignment came to."""
+    """The rows of an assignment."""
 
     test: str
     fingerprint: str

@@ -1,4 +1,4 @@
-"""How many tasks of a suite are decided, and how soon: the search, and Fast Downward beside it.
+"""Coverage of a suite's tasks over time: the search, and Fast Downward beside it.
 
 A suite is a folder of domains in MA-PDDL with their problems, as competitions give them.  Every
 call is a process of its own, under a limit by the clock; times leave out reading and grounding on

@@ -20,7 +20,7 @@ _Cell = Callable[[Sequence[Row]], str]
 
 
 def contenders_in(rows: Iterable[Row]) -> list[str]:
-    """Who is there, in order."""
+    """Names of contenders, in the order of the rows."""
     return list(dict.fromkeys(row.contender for row in rows))
 
 
@@ -63,7 +63,7 @@ def expansions(rows: Sequence[Row]) -> Grid:
 
 
 def over_time(rows: Sequence[Row]) -> Grid:
-    """How many calls are decided after some seconds, and how many have a plan by then; peak memory."""
+    """Numbers of calls that are decided after some seconds, and that have a plan by then; peak memory."""
     header = ("mode", "contender", "calls", "", *(f"{moment:g} s" for moment in MOMENTS), "most MiB")
     lines: list[tuple[str, ...]] = []
     for mode, asked in grouped(rows, lambda row: row.mode).items():
@@ -86,7 +86,7 @@ def plan_times(rows: Iterable[Row]) -> list[float]:
 
 
 def failures(rows: Iterable[Row]) -> list[str]:
-    """What could not be asked, and why, once for each reason."""
+    """Calls that could not be asked, and why, once for each reason."""
     return list(
         dict.fromkeys(
             f"{row.contender} fails on {row.domain} {row.task}, {row.mode}: {row.outcome.reason}"

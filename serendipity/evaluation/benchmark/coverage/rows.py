@@ -30,7 +30,7 @@ _START: Final = 10.0
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """What is asked: a problem, who is who, a mode in :data:`MODES`, and seconds for an answer."""
+    """A planning call: a problem, its roles, a mode in :data:`MODES`, and seconds for an answer."""
 
     problem: Problem
     roles: Roles
@@ -41,7 +41,7 @@ class Call:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """What a contender says to a call.
+    """A call and a contender's answer.
 
     Attributes:
         domain: of the problem.
@@ -109,7 +109,7 @@ CONTENDERS: Final[dict[str, Contender]] = {
 
 
 def can_alone(problem: Problem, who: Roles, time_limit: float) -> bool:
-    """Whether the human is found to have a plan alone: by the search, else by Fast Downward.
+    """True if the human is found to have a plan alone: by the search, else by Fast Downward.
 
     Args:
         problem: the problem.
