@@ -1,6 +1,5 @@
 """Search, integer programs and certificates agree on random calls; a disagreement is found and shrunk."""
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,6 +23,8 @@ from serendipity.evaluation.crosscheck import (
 from serendipity.evaluation.crosscheck import judges as judging
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_4
+
+SEARCH = JUDGES["search"]
 
 seeds = st.integers(0, 10**9)
 
@@ -98,14 +99,14 @@ def test_a_program_whose_presolve_lost_the_best_plan() -> None:
 
 def _blind(call: PlanCall, deadline: Deadline) -> Result:
     """A judge that overlooks every opportunity."""
-    answer = JUDGES["search"](call, deadline)
+    answer = SEARCH(call, deadline)
     if not answer.opportunity or answer.human_cost is None:
         return answer
     return replace(answer, opportunity=False, cost=answer.human_cost, saving=0.0)
 
 
 def test_a_blind_judge_is_found_out_and_the_case_shrunk(tmp_path: Path) -> None:
-    judges = {"search": JUDGES["search"], "blind": _blind}
+    judges = {"search": SEARCH, "blind": _blind}
     call = PlanCall(case_4(), {"mode": "communication", "discount": "0.9", "interference": "strict"})
     found = compare(call, judges)
     assert found is not None
@@ -118,8 +119,7 @@ def test_a_blind_judge_is_found_out_and_the_case_shrunk(tmp_path: Path) -> None:
     commands = write_case(found, tmp_path / "case")
     assert f"serendipity plan {tmp_path / 'case'} --human h" in commands.read_text()
     task = load(tmp_path / "case", human="h")
-    search = JUDGES["search"]
-    assert search(replace(smallest, task=task), Deadline()).cost == search(smallest, Deadline()).cost
+    assert SEARCH(replace(smallest, task=task), Deadline()).cost == SEARCH(smallest, Deadline()).cost
 
 
 def test_a_session_keeps_the_places_of_a_local_human() -> None:
@@ -139,12 +139,12 @@ def test_a_session_keeps_the_places_of_a_local_human() -> None:
         },
     )
     call = PlanCall(task, {"mode": "serendipity", "human_model": "local"})
-    assert compare(call, {"search": JUDGES["search"]}) is None
+    assert compare(call, {"search": SEARCH}) is None
 
 
 def test_judges_without_time_agree_with_everybody() -> None:
     call = PlanCall(case_4(), {"mode": "communication", "discount": "0.9"})
-    assert compare(call, {"search": JUDGES["search"], "automata": JUDGES["automata"]}, time_limit=0) is None
+    assert compare(call, {"search": SEARCH, "automata": JUDGES["automata"]}, time_limit=0) is None
 
 
 def test_command_lines_quote_nothing_away() -> None:
@@ -195,31 +195,9 @@ def test_command_with_an_unknown_judge(capsys: pytest.CaptureFixture[str]) -> No
 def test_command_writes_a_disagreement(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setitem(judging.JUDGES, "search", _blind_of(judging.JUDGES["search"]))
+    monkeypatch.setitem(judging.JUDGES, "search", _blind)
     folder = tmp_path / "case"
     words = ["crosscheck", "--seed", "0", "--count", "200", "--judges", "search,automata", "-o", str(folder)]
     assert main(words) == 1
     assert "a disagreement" in capsys.readouterr().out
     assert "serendipity crosscheck --count 1 --seed " in (folder / "commands.txt").read_text()
-
-
-def _blind_of(judge: judging.Judge) -> judging.Judge:
-    def blind(call: PlanCall, deadline: Deadline) -> Result:
-        answer = judge(call, deadline)
-        if not answer.opportunity or answer.human_cost is None:
-            return answer
-        return replace(answer, opportunity=False, cost=answer.human_cost, saving=0.0)
-
-    return blind
-
-
-@pytest.mark.parametrize("encoding", ["automata", "paper"])
-def test_solve_answers_like_plan(encoding: str, tmp_path: Path) -> None:
-    answers = []
-    for command in ("plan", f"solve --encoding {encoding} --solver highs"):
-        file = tmp_path / "answer.json"
-        words = [*command.split(), "--example", "room2", "--discount", "0.6", "--mode", "individual"]
-        assert main([*words, "--format", "json", "-o", str(file)]) == 0
-        answers.append(Result.from_dict(json.loads(file.read_text())))
-    assert answers[0].plan == answers[1].plan
-    assert answers[0].cost == answers[1].cost == 13.0

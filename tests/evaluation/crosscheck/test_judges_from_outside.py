@@ -154,31 +154,25 @@ def command(tmp_path: Path, body: str) -> OutsideJudge:
     return by_command(f"{sys.executable} {script}")
 
 
-@pytest.mark.parametrize(
-    "body",
-    [
-        "open(plan, 'w').write('; found\\n(x_h)\\n(y_r)\\n')",
-        "open(plan + '.1', 'w').write('(z_h)'); open(plan + '.2', 'w').write('0.0: (X_H )\\n1.0: (Y_R)')",
-        "print('Solution:'); print('(x_h)'); print('(y_r) ; cost 2')",
-        'print(\'{"status": "optimal", "plan": ["x_h", {"action": "y_r"}]}\')',
-    ],
-    ids=["file", "numbered", "output", "json"],
-)
-def test_a_command_is_read(body: str, tmp_path: Path) -> None:
-    assert command(tmp_path, body).answer(CALL, Deadline()) == Proposal("optimal", (X, Y))
+BEST = Proposal("optimal", (X, Y))
+NONE = Proposal("infeasible")
+NUMBERED = "open(plan + '.1', 'w').write('(z_h)'); open(plan + '.2', 'w').write('0.0: (X_H )\\n1.0: (Y_R)')"
 
 
 @pytest.mark.parametrize(
     ("body", "claim"),
     [
-        ("sys.exit(12)", Proposal("infeasible")),
-        ("print('{\"plan\": null}')", Proposal("infeasible")),
+        pytest.param("open(plan, 'w').write('; found\\n(x_h)\\n(y_r)\\n')", BEST, id="file"),
+        pytest.param(NUMBERED, BEST, id="numbered"),
+        pytest.param("print('Solution:'); print('(x_h)'); print('(y_r) ; cost 2')", BEST, id="output"),
+        ('print(\'{"status": "optimal", "plan": ["x_h", {"action": "y_r"}]}\')', BEST),
+        pytest.param("sys.exit(12)", NONE, id="exit code"),
+        ("print('{\"plan\": null}')", NONE),
         ('print(\'{"plan": null, "status": "unknown"}\')', Proposal("unknown")),
-        ("open(plan, 'w')", Proposal("optimal", ())),
+        pytest.param("open(plan, 'w')", Proposal("optimal", ()), id="empty"),
     ],
-    ids=["exit code", "json", "unknown", "empty"],
 )
-def test_a_command_without_a_plan_is_read(body: str, claim: Proposal, tmp_path: Path) -> None:
+def test_a_command_is_read(body: str, claim: Proposal, tmp_path: Path) -> None:
     assert command(tmp_path, body).answer(CALL, Deadline()) == claim
 
 

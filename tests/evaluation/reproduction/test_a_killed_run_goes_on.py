@@ -11,7 +11,6 @@ from pathlib import Path
 
 import pytest
 
-import serendipity
 from serendipity.evaluation.reproduction import Progress, Row, reproduce, run
 from serendipity.model import InputError
 from serendipity.model.resources.processes import in_processes
@@ -74,7 +73,11 @@ def test_a_line_that_was_cut_off_is_done_again(suite: Path, tmp_path: Path, solv
 
 
 @pytest.mark.parametrize(
-    "text", ['{"schema": "serendipity.result/1", "status"', '{"a": 1}', "{}", "[", "{" * 99_999]
+    "text",
+    [
+        *('{"schema": "serendipity.result/1", "status"', '{"a": 1}', "{}", "[", "{" * 99_999),
+        *("a\nb", "no line break", '{"test": 1}\n'),
+    ],
 )
 def test_what_is_no_journal_stays_as_it_is(text: str, suite: Path, tmp_path: Path) -> None:
     journal = tmp_path / "other.json"
@@ -96,15 +99,6 @@ def test_a_task_that_changed_is_done_again(suite: Path, tmp_path: Path, solved: 
     assert [row.cost for row in changed.rows if row.test == "2"] == [
         row.cost for row in changed.rows if row.test == "1"
     ]
-
-
-def test_other_files_are_no_journals(suite: Path, tmp_path: Path) -> None:
-    other = tmp_path / "notes.txt"
-    for text in ("a\nb\n", "no line break", '{"test": 1}\n'):
-        other.write_text(text)
-        with pytest.raises(serendipity.InputError, match="expected a journal"):
-            reproduce(suite, **CALLS, journal=other)
-        assert other.read_text() == text
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="needs /proc to find a process's children")
