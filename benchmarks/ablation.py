@@ -19,7 +19,6 @@ from itertools import product
 from math import log
 from pathlib import Path
 from random import Random
-from tempfile import TemporaryDirectory
 from types import SimpleNamespace
 from typing import Annotated, Any, Final, NamedTuple
 
@@ -27,7 +26,7 @@ import typer
 
 import serendipity
 from benchmarks.families import FAMILIES
-from benchmarks.problems import PROBLEMS, can_alone
+from benchmarks.problems import PROBLEMS, building, can_alone
 from benchmarks.techniques import NAMES
 from benchmarks.techniques import without as doing_without
 from search.strategies.portfolio import STRATEGIES, TURNS
@@ -37,7 +36,6 @@ from serendipity.evaluation.measuring.suites import problems, roles
 from serendipity.evaluation.measuring.tables import as_markdown, table
 from serendipity.model.resources import deadline
 from serendipity.model.telling import Line
-from serendipity.scenarios.generate import generate_usar
 
 CALLS: dict[str, dict[str, Any]] = {
     "serendipity": {"discount": "0.9"},
@@ -109,9 +107,7 @@ def _buildings(_: int) -> Iterator[tuple[str, str, Task]]:
     for rooms, medkits, robots in ((13, 2, 1), (21, 3, 1), (42, 3, 2), (84, 4, 2), (84, 4, 3), (210, 6, 1)):
         for seed in (1, 2):
             name = f"{rooms} rooms, {medkits} medkits, {robots} robots, seed {seed}"
-            with TemporaryDirectory() as folder:
-                generate_usar(Path(folder), rooms=rooms, medkits=medkits, robots=robots, seed=seed)
-                yield "buildings", name, serendipity.load(folder)
+            yield "buildings", name, building(rooms, medkits, robots, seed)
 
 
 def _families(_: int) -> Iterator[tuple[str, str, Task]]:

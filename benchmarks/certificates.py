@@ -34,6 +34,7 @@ from typing import Annotated, Any
 import typer
 
 import serendipity
+from benchmarks.problems import building
 from serendipity import Result, SerendipityError, Task
 from serendipity.evaluation.benchmark.coverage.rows import MODES
 from serendipity.evaluation.measuring.figures import children_memory, peak_memory, percentile, timed
@@ -67,10 +68,7 @@ class Asked:
     def load(self) -> Task:
         """The task."""
         if isinstance(self.source[0], int):
-            rooms, medkits, robots, seed = self.source
-            with TemporaryDirectory() as place:
-                serendipity.generate_usar(place, rooms=rooms, medkits=medkits, robots=robots, seed=seed)
-                return serendipity.load(place)
+            return building(*self.source)
         if len(self.source) == 2:
             return serendipity.load(self.source[0], human=self.source[1])
         domain, problem, human, *robots = self.source

@@ -4,6 +4,7 @@ import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import serendipity
 from serendipity import SerendipityError, Task
@@ -34,6 +35,13 @@ def silent(folder: Path = PROBLEMS / "spa") -> Iterator[tuple[str, Pair, Pair]]:
 def silent_task(prime: Pair, supporter: Pair) -> Task:
     """The task of such a problem."""
     return serendipity.load_agents({"prime": prime, "supporter": supporter}, human="prime")
+
+
+def building(rooms: int, medkits: int, robots: int, seed: int) -> Task:
+    """A generated building as a task."""
+    with TemporaryDirectory() as folder:
+        serendipity.generate_usar(folder, rooms=rooms, medkits=medkits, robots=robots, seed=seed)
+        return serendipity.load(folder)
 
 
 def can_alone(problem: Problem, who: Roles) -> bool:

@@ -11,14 +11,13 @@ What is measured, unless options say otherwise:
 - ``commands``: every command on ten tasks of the suite and four of our own, 0.05, 0.5 and 2 s; and on
   all of them 40 MiB above what the process has when it starts
 
-Tasks are those of ``benchmarks.limits.tasks``; with ``--rotate`` each task
-gets N of the commands, in turn.
+Commands and tasks are those of ``benchmarks.limits.tasks``; with ``--rotate`` each task gets N of the
+commands, in turn.
 
-A command starts when the interpreter and its modules are loaded, which it tells itself (``reproduce`` does
-not, so the same command with a limit of 0 is taken off).  What is over the limit is the *overrun*; a limit
-is *kept* if that is at most 10 % of it and 50 ms.  ``reproduce`` has the limit twice: for reading,
-and for its row.  A process that is late by 15 s is killed.  On a busy machine the deadline also counts what
-others do: rows that are late by little are worth a second look.
+A command starts when the interpreter and its modules are loaded, which it tells itself.  What is over the
+limit is the *overrun*; a limit is *kept* if that is at most 10 % of it and 50 ms.  A process that is late by
+15 s is killed.  On a busy machine the deadline also counts what others do: rows that are late by little are
+worth a second look.
 
 With ``--record`` rows are written as they come, and what is there already is not measured again; answers to
 check are kept in a folder beside it.
@@ -34,7 +33,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from threading import Timer
-from typing import Any, Final, Literal, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 import typer
 
@@ -184,30 +183,25 @@ def done(job: Job) -> dict[str, float | None]:
     """The fields of a row."""
     words, memory = [*job.line, "--time-limit", f"{job.seconds:g}"], None
     if job.confined is not None:
-        memory = job.confined or round(_start(job.folder, job.line)["peak"] + ABOVE)
+        memory = job.confined or round(_at_start(job.folder, job.line) + ABOVE)
         words += ["--memory-limit", f"{memory:g}"]
-    allowed = job.seconds * (2 if job.command == "reproduce" else 1)
-    ended = _ended(job.folder, words, allowed + PATIENCE)
-    over = ended["seconds"] - allowed - (0.0 if ended["begun"] else _start(job.folder, job.line)["seconds"])
-    return {"code": ended["code"], "over": over, "peak": ended["peak"], "memory": memory}
+    code, seconds, peak = _ended(job.folder, words, job.seconds + PATIENCE)
+    return {"code": code, "over": seconds - job.seconds, "peak": peak, "memory": memory}
 
 
 @cache
-def _start(folder: Path, line: tuple[str, ...]) -> dict[str, Any]:
-    """The quickest of five runs in which a command starts, loads its modules, and ends at once."""
-    runs = [_ended(folder, [*line, "--time-limit", "0"], PATIENCE) for _ in range(5)]
-    return min(runs, key=lambda ended: ended["seconds"])
+def _at_start(folder: Path, line: tuple[str, ...]) -> float:
+    """Peak memory, in MiB, of a command that starts, loads its modules, and ends at once."""
+    return _ended(folder, [*line, "--time-limit", "0"], PATIENCE)[-1]
 
 
-def _ended(folder: Path, words: Sequence[str], patience: float) -> dict[str, Any]:
+def _ended(folder: Path, words: Sequence[str], patience: float) -> tuple[int | None, float, float]:
     """The end of a command, which is killed after some seconds.
 
     Returns:
-        ``code``, None where it was killed; ``seconds``, from when its limits began, or else from its start;
-        ``begun``, whether they did; ``peak``, most memory in MiB.
+        Its exit code, None where it was killed; seconds since its limits began; most memory in MiB.
     """
     with tempfile.NamedTemporaryFile(mode="r", dir=folder) as said:
-        started = time.perf_counter()
         process = subprocess.Popen(
             [sys.executable, "-c", _PROGRAM, said.name, *words, "--quiet"],
             cwd=folder,
@@ -220,13 +214,9 @@ def _ended(folder: Path, words: Sequence[str], patience: float) -> dict[str, Any
         ended = time.perf_counter()
         late.cancel()
         process.returncode = os.waitstatus_to_exitcode(status)
-        began = said.read().strip()
-    return {
-        "code": None if process.returncode < 0 else process.returncode,
-        "seconds": ended - (float(began) if began else started),
-        "begun": bool(began),
-        "peak": used.ru_maxrss / 1024,
-    }
+        began = float(said.read() or ended)
+    code = None if process.returncode < 0 else process.returncode
+    return code, ended - began, used.ru_maxrss / 1024
 
 
 def _tables(rows: Sequence[Row]) -> Iterator[Line | Grid]:

@@ -56,7 +56,6 @@ OTHERS: Final = {
     "recognise": "recognise {task} --goals {goals}",
     "simulate": "simulate {task} {plan}",
     "solve": "solve {task} --discount 0.9",
-    "reproduce": "reproduce {suite} --modes serendipity --discounts 0.9",
 }
 
 
@@ -90,7 +89,7 @@ class Named:
 
     Attributes:
         name: of the task.
-        words: ``task``; with one robot only, ``alone``; ``suite``, a folder of tasks; files to
+        words: ``task``; with one robot only, ``alone``; files to
             read: ``goals``; answers, by what answered in ``MODES``.
         load: gives the task.
         size: number of ground actions, where it was looked at.
@@ -128,9 +127,8 @@ def _own_tasks(scratch: Path) -> Iterator[Named]:
     """Buildings, and what has millions of ground actions."""
     for rooms, medkits in ((2100, 10), (840, 2)):
         place = scratch / f"rooms{rooms}"
-        serendipity.generate_usar(place / "test1", rooms=rooms, medkits=medkits)
-        named = _in_folder(f"{rooms} rooms", place / "test1", robots=1)
-        yield Named(named.name, named.words | {"suite": str(place)}, named.load)
+        serendipity.generate_usar(place, rooms=rooms, medkits=medkits)
+        yield _in_folder(f"{rooms} rooms", place, robots=1)
     objects, clean = (" ".join(word.format(i) for i in range(46)) for word in ("o{}", "(clean o{})"))
     domain, problem = scratch / "large-domain.pddl", scratch / "large-problem.pddl"
     domain.write_text(_LARGE_DOMAIN)

@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from itertools import pairwise
-from typing import Final
+from typing import Any, Final
 
 from serendipity.evaluation.benchmark.child import in_child
 from serendipity.evaluation.benchmark.measure import MODES
@@ -17,8 +17,6 @@ from serendipity.evaluation.measuring.tables import Answered, grouped, table
 from serendipity.model.errors import SerendipityError, UsageError
 from serendipity.model.telling import Grid
 from serendipity.scenarios.generate import generate_usar
-
-_DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
 
 _LONG_CORRIDORS: Final = 16
 """A quarter of what chance makes of 840 rooms: plans come out from 13 to over 100 actions."""
@@ -59,39 +57,31 @@ class Axis:
         return not self.labels
 
 
+def _axis(title: str, field: str, values: Iterable[Any], **fixed: Any) -> Axis:
+    """An axis of the values of one field of :class:`Size`, the others ``fixed``."""
+    sizes = [(value, Size(**fixed, **{field: value})) for value in values]
+    if isinstance(sizes[0][0], str):
+        return Axis(title, field, tuple((i, size) for i, (_, size) in enumerate(sizes)), tuple(values))
+    return Axis(title, field, tuple(sizes))
+
+
 AXES: Final[dict[str, Axis]] = {
-    "rooms": Axis(
-        "rooms (2 medkits, 1 robot, 0.9)",
-        "rooms",
-        tuple((n, Size(rooms=n)) for n in (21, 42, 84, 210, 420, 840, 2100)),
-    ),
-    "medkits": Axis(
-        "medkits (210 rooms, 1 robot, 0.9)",
-        "medkits",
-        tuple((n, Size(medkits=n)) for n in (2, 4, 6, 8, 10)),
-    ),
-    "robots": Axis(
-        "robots (84 rooms, 4 medkits, 0.9)",
-        "robots",
-        tuple((n, Size(rooms=84, medkits=4, robots=n)) for n in (1, 2, 3)),
-    ),
+    "rooms": _axis("rooms (2 medkits, 1 robot, 0.9)", "rooms", (21, 42, 84, 210, 420, 840, 2100)),
+    "medkits": _axis("medkits (210 rooms, 1 robot, 0.9)", "medkits", (2, 4, 6, 8, 10)),
+    "robots": _axis("robots (84 rooms, 4 medkits, 0.9)", "robots", (1, 2, 3), rooms=84, medkits=4),
     "length": Axis(
         "length of his plan (840 rooms, 16 corridors, 2 medkits, 1 robot, 0.9)",
         "actions",
         ((0, Size(rooms=840, corridors=_LONG_CORRIDORS)),),
         measured=True,
     ),
-    "modes": Axis(
-        "modes (84 rooms, 2 medkits, 1 robot, 0.9)",
-        "mode",
-        tuple((i, Size(rooms=84, mode=mode)) for i, mode in enumerate(MODES)),
-        labels=tuple(MODES),
-    ),
-    "discounts": Axis(
+    "modes": _axis("modes (84 rooms, 2 medkits, 1 robot, 0.9)", "mode", MODES, rooms=84),
+    "discounts": _axis(
         "discounts (84 rooms, 2 medkits, communication)",
         "discount",
-        tuple((i, Size(rooms=84, mode="communication", discount=d)) for i, d in enumerate(_DISCOUNTS)),
-        labels=_DISCOUNTS,
+        ("0", "0.1", "0.3", "0.5", "0.7", "0.9"),
+        rooms=84,
+        mode="communication",
     ),
 }
 """Axes of ``bench --scaling``."""

@@ -43,29 +43,18 @@ def _by_search(call: PlanCall, deadline: Deadline) -> Result:
     return plan(call.task, human_plan=call.human_plan, deadline=deadline, **call.keywords())
 
 
-def _by_verifier(encoding: str = "automata", solver: str = "highs", method: str = "pruned") -> Judge:
-    def judge(call: PlanCall, deadline: Deadline) -> Result:
-        options = options_from(call.keywords())
-        return solve(
-            call.task,
-            options,
-            human_plan=call.human_plan,
-            encoding=encoding,
-            solver=solver,
-            method=method,
-            deadline=deadline,
-        )
-
-    return judge
+def _by_verifier(call: PlanCall, deadline: Deadline, **how: str) -> Result:
+    options = options_from(call.keywords())
+    return solve(call.task, options, human_plan=call.human_plan, deadline=deadline, **how)
 
 
 JUDGES: Final[dict[str, Judge]] = {
     "search": _by_search,
-    "automata": _by_verifier(),
-    "paper": _by_verifier("paper"),
-    "cbc": _by_verifier(solver="cbc"),
-    "program": _by_verifier(method="program"),
-    "exhaustive": _by_verifier(method="exhaustive"),
+    "automata": _by_verifier,
+    "paper": partial(_by_verifier, encoding="paper"),
+    "cbc": partial(_by_verifier, solver="cbc"),
+    "program": partial(_by_verifier, method="program"),
+    "exhaustive": partial(_by_verifier, method="exhaustive"),
 }
 """Judges by name; the first has to obey the laws, and is the only one that knows humans who replan."""
 
