@@ -1,6 +1,6 @@
 """Bugs planted in the planner make its certificates fall; without one, none does.
 
-``python -m benchmarks.mutations`` runs all of them on a larger corpus.
+The slow test runs all of them, on a larger corpus.
 """
 
 import pytest
