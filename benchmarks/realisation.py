@@ -1,12 +1,11 @@
 """Share of the promised help that happens with people who replan, over a folder of tasks.
 
-    python -m benchmarks.realisation FOLDER [--human NAME] [--discounts 0,0.5,0.9] [--limit N] [--certify]
+    python -m benchmarks.realisation FOLDER [--human NAME] [--discounts 0,0.5,0.9] [--limit N]
 
 For each discount, summed over the tasks: which of the paper's answers (serendipity, defaults) help, which
 of those an observant and a local human make happen, after which they miss their goal, what is saved in
 the end, and how much can be saved by planning for such a human in the first place; what becomes of help
-in communication mode that is not announced.  Milliseconds of the planning calls, and with ``--certify``
-of the certificates of answers for such humans (median, 95 %, longest).
+in communication mode that is not announced; and milliseconds of the planning calls (median, 95 %, longest).
 """
 
 from collections import defaultdict
@@ -32,25 +31,24 @@ def main(
     human: str | None = None,
     discounts: str = "0,0.1,0.3,0.5,0.7,0.9",
     limit: int | None = None,
-    certify: bool = False,
 ) -> None:
     """Measure and print a table, a column for each discount."""
     found: dict[str, Figures] = {discount: defaultdict(list) for discount in discounts.split(",")}
     for place in folders(folder, limit=limit):
         task = serendipity.load(place, human=human)
         for discount, figures in found.items():
-            _measure(task, discount, figures, certify=certify)
+            _measure(task, discount, figures)
     names = dict.fromkeys(name for figures in found.values() for name in figures)
     rows = [[name, *(_shown(name, figures[name]) for figures in found.values())] for name in names]
     print(as_markdown([Grid(["", *found], rows)]), end="")
 
 
-def _measure(task: Task, discount: str, figures: Figures, *, certify: bool) -> None:
+def _measure(task: Task, discount: str, figures: Figures) -> None:
     paper = _planned(task, discount, "omniscient", figures)
     told = serendipity.plan(task, mode="communication", discount=discount)
     figures["helped unannounced"].append(told.opportunity)
     for model in HUMAN_MODELS:
-        answer = _planned(task, discount, model, figures)
+        _planned(task, discount, model, figures)
         trace = serendipity.simulate(task, paper, model)
         figures[f"paper's plan realised, {model}"].append(paper.opportunity and trace.realised)
         figures[f"paper's plan misses the goal, {model}"].append(paper.opportunity and not trace.goals_hold)
@@ -58,10 +56,6 @@ def _measure(task: Task, discount: str, figures: Figures, *, certify: bool) -> N
         figures[f"paper's plan saves, {model}"].append(saved)
         happens = told.opportunity and serendipity.simulate(task, told, model).realised
         figures[f"unannounced realised, {model}"].append(happens)
-        if certify:
-            certificate, seconds = timed(lambda answer=answer: serendipity.verify(task, answer))
-            figures[f"proved, {model}"].append(certificate.verdict == "proved")
-            figures[f"ms of a proof, {model}"].append(seconds)
 
 
 def _planned(task: Task, discount: str, model: Any, figures: Figures) -> Result:
