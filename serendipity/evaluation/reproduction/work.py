@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 from time import perf_counter, time
-from typing import Any, Final
+from typing import Final, NamedTuple
 
 from serendipity.evaluation.reproduction.rows import Row, exact_cost
 from serendipity.facade.loading import load
@@ -23,16 +23,11 @@ _TIED: Final = ("serendipity",)
 _BEST_AND_WORST: Final[tuple[Ties, ...]] = ("optimistic", "robust")
 
 
-@dataclass(frozen=True, slots=True)
-class Call:
+class Call(NamedTuple):
     """Mode and discount of a planning call."""
 
     mode: str
     discount: Fraction
-
-    def keywords(self) -> dict[str, Any]:
-        """As the facade takes them."""
-        return {"mode": self.mode, "discount": self.discount}
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +88,7 @@ def solve(assignment: Assignment) -> TaskRows:
 
 def failed(assignment: Assignment, reason: str) -> TaskRows:
     """The rows of a task that could not be worked on."""
-    rows = tuple(_failed(assignment, call, reason) for call in assignment.calls)
+    rows = tuple(unknown(assignment.test, call, "error", reason) for call in assignment.calls)
     return TaskRows(assignment.test, assignment.fingerprint, rows)
 
 
@@ -102,30 +97,26 @@ def killed(assignment: Assignment) -> TaskRows:
     return failed(assignment, "its process was killed, and again when it was tried once more")
 
 
-def _failed(assignment: Assignment, call: Call, reason: str) -> Row:
-    return replace(unknown(assignment.test, call), status="error", reason=reason)
-
-
 def _logged(error: Exception) -> str:
     log.debug("the error came from here", exc_info=True)
     return told(error)
 
 
-def unknown(test: str, call: Call) -> Row:
-    """The row of a call that a limit left no time for."""
-    return Row(test, call.mode, call.discount, "unknown", None, None, False, None, 0.0, None, None)
+def unknown(test: str, call: Call, status: str = "unknown", reason: str | None = None) -> Row:
+    """The row of a call that a limit left no time for, or that has no answer for another reason."""
+    return Row(test, *call, status, None, None, False, None, 0.0, None, None, reason)
 
 
 def _row(assignment: Assignment, task: Task, call: Call) -> Row:
     start, limits = perf_counter(), assignment.limits.from_now()
     try:
-        result = plan(task, deadline=limits, **call.keywords())
+        result = plan(task, deadline=limits, **call._asdict())
         seconds = perf_counter() - start
         best, worst = _ties(task, call, result, limits)
     except LIMITS:
         return unknown(assignment.test, call)
     except Exception as error:  # see above
-        return _failed(assignment, call, _logged(error))
+        return unknown(assignment.test, call, "error", _logged(error))
     return replace(
         unknown(assignment.test, call),
         status=result.status,
@@ -145,7 +136,7 @@ def _ties(
     """Least and greatest cost over the human's optimal plans."""
     if call.mode not in _TIED or result.cost is None:
         return exact_cost(result.cost), exact_cost(result.cost)
-    best, worst = (plan(task, ties=ties, deadline=limits, **call.keywords()) for ties in _BEST_AND_WORST)
+    best, worst = (plan(task, ties=ties, deadline=limits, **call._asdict()) for ties in _BEST_AND_WORST)
     if best.status != "optimal" or worst.status != "optimal":
         return None, None
     return exact_cost(best.cost), exact_cost(worst.cost)
