@@ -148,16 +148,9 @@ def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> I
     """
     for name, value, size, seed in planned(axes, seeds):
         options = {"discount": size.discount, **MODES[size.mode]}
+        building = {name: getattr(size, name) for name in ("rooms", "medkits", "robots", "corridors")}
         with tempfile.TemporaryDirectory() as folder:
-            generate_usar(
-                folder,
-                rooms=size.rooms,
-                medkits=size.medkits,
-                robots=size.robots,
-                corridors=size.corridors,
-                seed=seed,
-                extra_edges=size.rooms // 20 if seed % 2 else 0,
-            )
+            generate_usar(folder, **building, seed=seed, extra_edges=size.rooms // 20 if seed % 2 else 0)
             try:
                 found = in_child("series", folder=folder, options=options, time_limit=time_limit)
             except SerendipityError as error:
