@@ -11,7 +11,7 @@ What is measured, unless options say otherwise:
 - ``commands``: every command on ten tasks of the suite and four of our own, 0.05, 0.5 and 2 s; and on
   all of them 40 MiB above what the process has when it starts
 
-Commands and tasks are those of ``benchmarks.limits.tasks``; with ``--rotate`` each task gets N of the
+Commands and tasks are those of ``benchmarks.limited_tasks``; with ``--rotate`` each task gets N of the
 commands, in turn.
 
 A command starts when the interpreter and its modules are loaded, which it tells itself.  What is over the
@@ -37,7 +37,7 @@ from typing import Final, Literal, NamedTuple
 
 import typer
 
-from benchmarks.limits.tasks import CERTIFICATES, FOUND, MODES, OTHERS, lines, tasks
+from benchmarks.limited_tasks import CERTIFICATES, FOUND, MODES, OTHERS, lines, tasks
 from benchmarks.problems import PROBLEMS
 from serendipity.evaluation.measuring.record import Record
 from serendipity.evaluation.measuring.running import measured

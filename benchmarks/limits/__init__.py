@@ -1,1 +1,0 @@
-"""Limits of time and memory, and how well commands keep them."""
