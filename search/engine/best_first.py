@@ -153,3 +153,10 @@ def best_first(
             known = best.key
             yield best
     progress.bound = best.key
+
+
+def solve_space(space: Space[N, Best], best: Best, deadline: Deadline) -> Best:
+    """The incumbent once :func:`best_first` has come to its end; see there."""
+    for _ in best_first(space, best, Progress(), deadline):
+        pass
+    return best

@@ -16,7 +16,8 @@ from search.engine.paths import path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 from search.spaces.fixed_window import FixedWindow, Weighed
-from search.strategies.left_alone import left_alone
+from search.strategies.call import Call
+from search.strategies.warm_start import WarmStart
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.plans import Step, Window
@@ -86,11 +87,17 @@ def interruptions(
         mode="serendipity", max_cost=None, max_window=None, keep_prefix=False, window_weight=0
     )
     context = SearchContext(prepared, asked, deadline or Deadline())
-    nothing = left_alone(context, human_plan)
-    if nothing is None:
-        return None
-    windows = _examined(context, nothing.plan, nothing.horizon, on_progress)
-    return Interruptions(nothing.plan, nothing.horizon, nothing.cost, windows)
+    plan = human_plan
+    if plan is None:
+        optimal = context.canonical_plan()
+        if optimal is None:
+            return None
+        plan = optimal.actions
+    call = Call(context, human_plan, WarmStart())
+    call.follow(plan, optimal=human_plan is None)
+    horizon, key = int(call.horizon), call.baseline.key
+    baseline = None if key >= INFINITE_KEY else call.keys.cost(key)
+    return Interruptions(plan, horizon, baseline, _examined(context, plan, horizon, on_progress))
 
 
 def _examined(

@@ -10,7 +10,7 @@ from fractions import Fraction
 from search.bounds.first_interaction import Bounds, no_bound, no_team_bound
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
-from search.engine.best_first import Incumbent, Progress, best_first
+from search.engine.best_first import Incumbent, solve_space
 from search.engine.dominance import ParetoFront
 from search.human.plan_graph import PlanGraph
 from search.spaces.factory import no_worse, suffix_rule
@@ -81,6 +81,5 @@ def _by_windows(
         relevant=context.relevant,
     )
     best = Incumbent(sum(option.weight for _, option in context.followed(plan)))
-    for _ in best_first(space, best, Progress(), deadline):
-        pass
+    solve_space(space, best, deadline)
     return context.keys.cost(best.key)

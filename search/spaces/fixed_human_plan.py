@@ -2,10 +2,12 @@
 
 from collections.abc import Iterator
 
-from search.engine.best_first import Incumbent, Node
+from search.call.context import SearchContext
+from search.engine.best_first import Incumbent, Node, solve_space
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal
 from search.packed.successor_generator import NOTHING, JointAction, Successors
+from serendipity.model.task.task import HumanPlan
 
 
 class FixedHumanPlan:
@@ -69,3 +71,29 @@ class FixedHumanPlan:
                 self._best[epoch, state] = key
                 bound = key + (self._rest[epoch] if epoch < len(self._steps) else 0)
                 yield bound, Node(key, epoch, state, 0, 0, node, option.actions)
+
+
+def follow_plan(context: SearchContext, plan: HumanPlan, horizon: int | None, best: Incumbent) -> None:
+    """Make an incumbent the best plan in which the human does exactly ``pi_H``.
+
+    Args:
+        context: of the call.
+        plan: ``pi_H``, which fits ``T``.
+        horizon: ``T``, or None where it is infinite.
+        best: the incumbent, of an infinite key.
+
+    Raises:
+        LimitReachedError: the deadline came.
+    """
+    steps = context.followed(plan)
+    if not context.task.robot_goal:
+        best.key = sum(option.weight for _, option in steps)
+        return
+    space = FixedHumanPlan(
+        initial=context.packed.init,
+        horizon=horizon,
+        steps=steps,
+        goals=context.goals,
+        successors=context.successors(),
+    )
+    solve_space(space, best, context.deadline)

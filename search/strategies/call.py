@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from search.bounds.first_interaction import no_team_bound
 from search.call.context import SearchContext
-from search.engine.best_first import Incumbent, Node, Progress, Space, best_first
+from search.engine.best_first import Incumbent, Node, Progress, Space
 from search.packed.cost_vector import INFINITE_KEY
 from search.spaces.factory import free_space, window_space
-from search.spaces.fixed_human_plan import FixedHumanPlan
+from search.spaces.fixed_human_plan import follow_plan
 from search.strategies.warm_start import WarmStart
 from serendipity.model.answers.answer import Tried
 from serendipity.model.keywords import Horizon
@@ -160,25 +160,11 @@ class Call:
         """The human follows ``pi_H``; robots, without the human, see to ``G_R``."""
         plan, epochs = self.plan, self.epochs
         if plan is not None and (epochs is None or len(plan) <= epochs):
-            if not self.task.robot_goal:
-                self.baseline.key = sum(option.weight for _, option in self.context.followed(plan))
-            else:
-                self._pursue_robot_goal(plan)
+            found = Incumbent(INFINITE_KEY)
+            follow_plan(self.context, plan, epochs, found)
+            self.baseline = found  # what savings are counted from has to be the least there is
         self.idle = replace(self.baseline, key=self.baseline.key + self.window_of_nothing)
         self.best = self.unhelped()
-
-    def _pursue_robot_goal(self, plan: HumanPlan) -> None:
-        space = FixedHumanPlan(
-            initial=self.context.packed.init,
-            horizon=self.epochs,
-            steps=self.context.followed(plan),
-            goals=self.context.goals,
-            successors=self.context.successors(),
-        )
-        found = Incumbent(INFINITE_KEY)
-        for _ in best_first(space, found, Progress(), self.context.deadline):
-            pass
-        self.baseline = found  # what savings are counted from has to be the least there is
 
     @property
     def window_of_nothing(self) -> int:

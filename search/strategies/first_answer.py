@@ -16,7 +16,7 @@ from serendipity.model.errors import LIMITS
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
-from serendipity.model.task.task import HumanPlan
+from serendipity.model.task.task import HumanPlan, Task
 
 _FIRST_BOUND: Final = 0.1
 """The share of the time that is left for what the team pays at least, beside a human who replans."""
@@ -29,16 +29,6 @@ def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None
         LimitReachedError: the deadline ran out.
     """
     return SearchContext(prepared, Options(), deadline or Deadline()).optimal_plans()
-
-
-def canonical_human_plan(prepared: PreparedTask, deadline: Deadline) -> HumanPlan | None:
-    """The canonical plan of the human alone (semantics 1), or None where they have none.
-
-    Raises:
-        LimitReachedError: the deadline ran out.
-    """
-    optimal = SearchContext(prepared, Options(), deadline).canonical_plan()
-    return None if optimal is None else optimal.actions
 
 
 class FirstAnswer:
@@ -92,15 +82,27 @@ class FirstAnswer:
             if self.least:
                 yield answer._replace(lower_bound=self.least)
 
-    def last(self, limit: str) -> Answer:
-        """The answer at a limit, beside the best plan that was come across; ``unknown`` without one.
+    def last(self, limit: str | None) -> Answer:
+        """The answer so far, at a limit beside the best plan that was come across; ``unknown`` without one.
 
         Args:
-            limit: the reason.
+            limit: the reason why it is the last one; None where others may follow.
         """
-        plan = self.best
+        plan = self.plan if limit is None else self.best
         answer = None if plan is None else self.beside(plan)
         return Answer("unknown", reason=limit) if answer is None else answer
+
+    def alone(self, limit: str | None) -> Answer:
+        """The answer of individual mode while no plan is known to be optimal; see :meth:`last`."""
+        context, plan = self._context, self.plan
+        if plan is None:
+            return Answer("unknown", reason=limit)
+        found, least = FoundPlan(plan, 0, 0), _least(context)
+        if limit is None:
+            return plan_alone(context.task, found, least, given=self._given)
+        found = _cheaper(context, plan)
+        proved = least >= context.task.cost_of(found.actions)
+        return plan_alone(context.task, found, least, given=self._given, proved=proved)
 
     @property
     def best(self) -> HumanPlan | None:
@@ -117,10 +119,8 @@ class FirstAnswer:
         context = self._context
         if context.task.robot_goal or not _fits(context.options, plan):
             return None
-        return _some(context, FoundPlan(plan, 0, 0), proved=False)._replace(
-            horizon=horizon_of(context.task, context.options, plan),
-            lower_bound=self.least,
-        )
+        horizon = horizon_of(context.task, context.options, plan)
+        return plan_alone(context.task, FoundPlan(plan, 0, 0), self.least)._replace(horizon=horizon)
 
     def _bound(self) -> None:
         """What the team pays where epochs don't count, in tables that are free on return.
@@ -155,17 +155,6 @@ def first_answer(prepared: PreparedTask, options: Options, deadline: Deadline) -
     return FirstAnswer(SearchContext(prepared, options, deadline), None)
 
 
-def some_plan_alone(context: SearchContext, given: HumanPlan | None, plan: HumanPlan) -> Answer:
-    """The answer of individual mode while no plan is known to be optimal."""
-    return _some(context, FoundPlan(plan, 0, 0), given, proved=False)
-
-
-def plan_alone_at_limit(context: SearchContext, given: HumanPlan | None, plan: HumanPlan) -> Answer:
-    """The answer of individual mode at a limit: some plan, or a better one that was come across."""
-    best = _cheaper(context, plan)
-    return _some(context, best, given, proved=_least(context) >= context.task.cost_of(best.actions))
-
-
 def _cheapest(context: SearchContext, plans: Iterable[HumanPlan | None]) -> HumanPlan | None:
     """The first one of the cheapest plans; None without any."""
     return min((plan for plan in plans if plan is not None), key=context.task.cost_of, default=None)
@@ -182,29 +171,6 @@ def _cheaper(context: SearchContext, plan: HumanPlan) -> FoundPlan:
     return best if cheaper else best._replace(actions=plan)
 
 
-def _some(
-    context: SearchContext, found: FoundPlan, human_plan: HumanPlan | None = None, *, proved: bool
-) -> Answer:
-    plan = found.actions
-    cost, bound = context.task.cost_of(plan), _least(context)
-    given = plan if human_plan is None else human_plan
-    baseline = context.task.cost_of(given)
-    return Answer(
-        "optimal" if proved else "feasible",
-        human_plan=given,
-        horizon=max(len(given), len(plan)),
-        steps=plan_steps(plan),
-        cost=cost,
-        objective=cost,
-        lower_bound=min(bound, cost),
-        baseline=baseline,
-        saving=Fraction(0),
-        saving_alone=baseline - cost if proved else None,
-        expanded=found.expanded,
-        generated=found.generated,
-    )
-
-
 def _least(context: SearchContext) -> Fraction:
     """No plan of the human's alone costs less; 0 where not even a bound fits into memory."""
     try:
@@ -213,33 +179,48 @@ def _least(context: SearchContext) -> Fraction:
         return Fraction(0)
 
 
-def optimal_plan_alone(
-    context: SearchContext, human_plan: HumanPlan | None, optimal: FoundPlan | None
+def plan_alone(
+    task: Task, found: FoundPlan, least: Fraction, *, given: HumanPlan | None = None, proved: bool = False
 ) -> Answer:
-    """The answer of individual mode.
+    """A plan of the human's with every robot idle.
 
     Args:
-        context: of the call.
-        human_plan: ``pi_H``, where it is given.
+        task: the task.
+        found: the plan, with what was searched for it.
+        least: no answer costs less.
+        given: ``pi_H``; None for the plan itself.
+        proved: whether the plan is known to be optimal.
+    """
+    plan = found.actions
+    human_plan = plan if given is None else given
+    cost, baseline = task.cost_of(plan), task.cost_of(human_plan)
+    return Answer(
+        "optimal" if proved else "feasible",
+        human_plan=human_plan,
+        horizon=max(len(human_plan), len(plan)),
+        steps=plan_steps(plan),
+        cost=cost,
+        objective=cost,
+        lower_bound=min(least, cost),
+        baseline=baseline,
+        saving=Fraction(0),
+        saving_alone=baseline - cost if proved else None,
+        expanded=found.expanded,
+        generated=found.generated,
+    )
+
+
+def optimal_plan_alone(task: Task, given: HumanPlan | None, optimal: FoundPlan | None) -> Answer:
+    """The answer of individual mode: the human's canonical plan, or the given one where it costs no more.
+
+    Args:
+        task: the task.
+        given: ``pi_H``, where it is given.
         optimal: the human's canonical plan; None where they have none.
     """
     if optimal is None:
         return Answer("infeasible", reason="no-human-plan")
-    best = optimal.actions
-    plan = best if human_plan is None else human_plan
-    cost, given = context.task.cost_of(best), context.task.cost_of(plan)
-    answer = plan if cost == given else best
-    return Answer(
-        "optimal",
-        human_plan=plan,
-        horizon=max(len(plan), len(answer)),
-        steps=plan_steps(answer),
-        cost=cost,
-        objective=cost,
-        lower_bound=cost,
-        baseline=given,
-        saving=Fraction(0),
-        saving_alone=given - cost,
-        expanded=optimal.expanded,
-        generated=optimal.generated,
-    )
+    cost = task.cost_of(optimal.actions)
+    if given is not None and task.cost_of(given) == cost:
+        optimal = optimal._replace(actions=given)
+    return plan_alone(task, optimal, cost, given=given, proved=True)

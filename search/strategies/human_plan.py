@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from search.engine.best_first import Incumbent, Progress, best_first
+from search.engine.best_first import Incumbent, solve_space
 from search.packed.cost_vector import INFINITE_KEY
 from search.strategies.call import Allowance, Call
 from search.strategies.conditions import is_for_team_first
@@ -65,8 +65,7 @@ def plan_alone(call: Call, part: Allowance) -> None:
     elif call.is_improvable:
         alone = call.unhelped()
         known = alone.key
-        for _ in best_first(call.space(part.deadline, known, idle=True), alone, Progress(), part.deadline):
-            pass
+        solve_space(call.space(part.deadline, known, idle=True), alone, part.deadline)
         if not call.task.robot_goal:
             call.idle = alone
         elif alone.key < known:

@@ -8,7 +8,7 @@ from search.engine.paths import path_sets, path_steps, plan_steps
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
 from search.strategies.call import Call
-from search.strategies.first_answer import optimal_plan_alone, plan_alone_at_limit, some_plan_alone
+from search.strategies.first_answer import optimal_plan_alone
 from serendipity.model.answers.answer import Answer, Status, saved
 from serendipity.model.errors import LIMITS
 from serendipity.model.task.plans import Step, Window
@@ -22,33 +22,14 @@ def answer_of(call: Call) -> Answer:
 def _answer_of(call: Call) -> Answer:
     if call.refusal is not None:
         return Answer("infeasible", reason=call.refusal)
-    if call.options.mode == "individual":
-        return _alone(call)
-    if not call.is_planned:
-        return _beside_some_plan(call)
+    first, is_alone = call.first, call.options.mode == "individual"
+    if is_alone and call.is_done:
+        return optimal_plan_alone(call.task, call.given, call.optimum)
+    if is_alone or not call.is_planned:
+        if first is None:
+            return Answer("unknown", reason=call.limit)
+        return first.alone(call.limit) if is_alone else first.last(call.limit)
     return _outcome(call, _status(call))
-
-
-def _alone(call: Call) -> Answer:
-    """The answer of individual mode."""
-    context, given = call.context, call.given
-    if call.is_done:
-        return optimal_plan_alone(context, given, call.optimum)
-    some = None if call.first is None else call.first.plan
-    if some is None:
-        return Answer("unknown", reason=call.limit)
-    if call.limit is None:
-        return some_plan_alone(context, given, some)
-    return plan_alone_at_limit(context, given, some)
-
-
-def _beside_some_plan(call: Call) -> Answer:
-    """Doing nothing beside a plan that may not be ``pi_H``."""
-    plan, first = None, call.first
-    if first is not None:
-        plan = first.plan if call.limit is None else first.best
-    answer = None if plan is None or first is None else first.beside(plan)
-    return Answer("unknown", reason=call.limit) if answer is None else answer
 
 
 def helps(call: Call) -> bool:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from search.call.prepared_task import PreparedTask
-from search.engine.best_first import Incumbent, Progress, best_first
+from search.engine.best_first import Incumbent, solve_space
 from search.engine.paths import path_steps, plan_steps
 from search.modes.simulation.human import Human
 from search.modes.simulation.simulator import Simulation, simulate_from, way_on
@@ -160,9 +160,7 @@ class Companion:
             keeps=keeps,
             begins=begins,
         )
-        for _ in best_first(space, best, Progress(), self._clock):
-            pass
-        return best
+        return solve_space(space, best, self._clock)
 
     def _replayed(
         self, start: Start, known: Sequence[Step], begins: Begins | None

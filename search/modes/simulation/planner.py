@@ -5,14 +5,15 @@ from fractions import Fraction
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
-from search.engine.best_first import Incumbent, Node, Progress, best_first
+from search.engine.best_first import Incumbent, Node, Progress, best_first, solve_space
 from search.engine.paths import path_steps, plan_steps
+from search.human.individual_planner import FoundPlan
 from search.modes.simulation.human import Human
 from search.modes.simulation.simulator import way_on
 from search.modes.simulation.space import Reactive, Start
 from search.packed.cost_vector import INFINITE_KEY
-from search.spaces.fixed_human_plan import FixedHumanPlan
-from search.strategies.first_answer import FirstAnswer
+from search.spaces.fixed_human_plan import follow_plan
+from search.strategies.first_answer import FirstAnswer, plan_alone
 from search.strategies.warm_start import WarmStart
 from serendipity.model.answers.answer import Answer, Status, saved
 from serendipity.model.errors import LIMITS, limit_reason
@@ -71,7 +72,9 @@ def solve_for_human(
     least = Fraction(0) if first is None else first.least
     try:
         if not task.robot_goal:
-            yield _left_alone(task, plan, epochs, least, given=human_plan is not None)
+            idle = plan_alone(task, FoundPlan(plan, 0, 0), least)
+            gain = Fraction(0) if human_plan is None else None  # known only of an optimal plan
+            yield idle._replace(horizon=epochs, saving_alone=gain)
         actions = human_plan or ()
         human = Human(
             prepared, options, deadline, human_model=options.human_model, actions=actions, visible=visible
@@ -91,26 +94,6 @@ def solve_for_human(
 def _not_below(least: Fraction, bound: Fraction | None) -> Fraction | None:
     """A lower bound that is no lower than an earlier one."""
     return None if bound is None else max(least, bound)
-
-
-def _left_alone(task: Task, plan: HumanPlan, epochs: int, least: Fraction, *, given: bool) -> Answer:
-    """Robots do nothing, and the human does what they were going to do.
-
-    What they gain alone is known only of an optimal plan.
-    """
-    cost = task.cost_of(plan)
-    return Answer(
-        "feasible",
-        human_plan=plan,
-        horizon=epochs,
-        steps=plan_steps(plan),
-        cost=cost,
-        objective=cost,
-        lower_bound=least,
-        baseline=cost,
-        saving=Fraction(0),
-        saving_alone=None if given else Fraction(0),
-    )
 
 
 class _Call:
@@ -151,8 +134,8 @@ class _Call:
     def answers(self) -> Iterator[Answer]:
         """Each better answer, then the last one with what is proved of it."""
         try:
-            self._follow()
-            self._search(self.idle, Progress(), idle=True)
+            follow_plan(self.human.context, self.plan, self.epochs, self.baseline)
+            solve_space(self._space(idle=True), self.idle, self.deadline)
             self.settled = True
             if not self.task.robot_goal:
                 self.best = Incumbent(self.idle.key, self.idle.node, self.idle.end, self.idle.tail)
@@ -184,27 +167,6 @@ class _Call:
     def _start(self) -> Start:
         init = self.human.packed.init
         return Start(init, init, self.human.intentions.of(self.plan))
-
-    def _follow(self) -> None:
-        """The plan in which the human does ``pi_H`` exactly, robots seeing to ``G_R`` beside them."""
-        context = self.human.context
-        steps = context.followed(self.plan)
-        if not self.task.robot_goal:
-            self.baseline.key = sum(option.weight for _, option in steps)
-            return
-        space = FixedHumanPlan(
-            initial=context.packed.init,
-            horizon=self.epochs,
-            steps=steps,
-            goals=context.goals,
-            successors=context.successors(),
-        )
-        for _ in best_first(space, self.baseline, Progress(), self.deadline):
-            pass
-
-    def _search(self, best: Incumbent, progress: Progress, *, idle: bool) -> None:
-        for _ in best_first(self._space(idle=idle), best, progress, self.deadline):
-            pass
 
     def _space(self, *, idle: bool) -> Reactive:
         return Reactive(

@@ -5,10 +5,9 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search import PreparedTask
+from search import PreparedTask, optimal_human_plans
 from search.modes.simulation.companion import Companion
 from search.modes.simulation.space import Start
-from search.strategies.first_answer import canonical_human_plan
 from serendipity.model import Deadline, Options, Task
 from serendipity.testing.builders import usar
 from serendipity.testing.strategies import tasks, usar_tasks
@@ -22,9 +21,9 @@ def _companion(task: Task) -> Companion:
 
 
 def _start(companion: Companion, task: Task) -> Start | None:
-    plan = canonical_human_plan(PreparedTask(task), Deadline())
+    plans = optimal_human_plans(PreparedTask(task), Deadline())
     init = companion.human.packed.init
-    return None if plan is None else Start(init, init, companion.human.intentions.of(plan))
+    return None if plans is None else Start(init, init, companion.human.intentions.of(plans.canonical()))
 
 
 def _corridor() -> Task:
