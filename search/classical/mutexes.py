@@ -111,12 +111,6 @@ class ReachablePairs:
             self._beside[number] & beside == beside for number in self._numbers(first.need_mask, first.need)
         )
 
-    def may_hold(self, mask: int, state: int) -> bool:
-        """Whether what some fields hold in a packed state may be true at once."""
-        numbers = self._numbers(mask, state)
-        held = _bits(numbers)
-        return all(self._beside[number] & held == held for number in numbers)
-
 
 def _bits(numbers: Iterable[int]) -> int:
     return sum(1 << number for number in numbers)

@@ -3,28 +3,16 @@
 from collections.abc import Iterator, Sequence
 from itertools import chain, combinations
 from math import prod
-from typing import NamedTuple
 
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal
 from serendipity.model import Deadline
 
+StateField = tuple[int, int]
+"""Mask of a field, and how many values it has."""
+
 Neighbours = list[dict[int, int]]
 """Per field those that its changers ask for or set as well, and how many of them do."""
-
-
-class StateField(NamedTuple):
-    """A field of the packed task.
-
-    Attributes:
-        mask: its bits.
-        shift: the place of the lowest of them.
-        size: how many values it has; their codes are ``0 .. size - 1``.
-    """
-
-    mask: int
-    shift: int
-    size: int
 
 
 def patterns(
@@ -33,11 +21,11 @@ def patterns(
     goal: PackedGoal,
     most_states: int,
     deadline: Deadline,
-) -> Iterator[tuple[StateField, ...]]:
+) -> Iterator[list[int]]:
     """Sets of fields that have something to say of the goal, none twice; each is worked out when asked for.
 
-    One is grown from each field of the goal; besides there are all single ones and pairs that can
-    say more than their parts (Pommerening, Roeger and Helmert 2013).
+    Fields go by their places, ascending.  One set is grown from each field of the goal; besides there are
+    all single ones and pairs that can say more than their parts (Pommerening, Roeger and Helmert 2013).
 
     Args:
         fields: of the packed task.
@@ -50,14 +38,14 @@ def patterns(
         LimitReachedError: the deadline came.
     """
     asked = _neighbours(fields, operators, deadline)
-    goals = [i for i, field in enumerate(fields) if field.mask & goal.mask]
+    goals = [i for i, (mask, _) in enumerate(fields) if mask & goal.mask]
     grown = (_grown(start, fields, asked, most_states) for start in goals)
     small = (chosen for chosen in _small(goals, asked, deadline) if _size(chosen, fields) <= most_states)
     seen = set()
     for chosen in chain(grown, small):
         if chosen not in seen:
             seen.add(chosen)
-            yield tuple(fields[i] for i in sorted(chosen))
+            yield sorted(chosen)
 
 
 def _neighbours(
@@ -69,8 +57,8 @@ def _neighbours(
         shapes[shape] = shapes.get(shape, 0) + 1
     found: Neighbours = [{} for _ in fields]
     for (need_mask, keep), count in deadline.each(shapes.items()):
-        changed = [i for i, field in enumerate(fields) if field.mask & ~keep]
-        asked = [i for i, field in enumerate(fields) if field.mask & need_mask]
+        changed = [i for i, (mask, _) in enumerate(fields) if mask & ~keep]
+        asked = [i for i, (mask, _) in enumerate(fields) if mask & need_mask]
         for i in changed:
             for j in {*changed, *asked} - {i}:
                 found[i][j] = found[i].get(j, 0) + count
@@ -79,17 +67,17 @@ def _neighbours(
 
 def _grown(start: int, fields: Sequence[StateField], asked: Neighbours, most_states: int) -> frozenset[int]:
     """A field, and of those near it again and again the one that most changers ask for."""
-    chosen, size = {start}, fields[start].size
+    chosen, size = {start}, fields[start][1]
     near = dict(asked[start])
     done = {start}  # chosen, or too large
     while near:
         best = max(near, key=lambda j: (near[j], -j))
         del near[best]
         done.add(best)
-        if size * fields[best].size > most_states:
+        if size * fields[best][1] > most_states:
             continue
         chosen.add(best)
-        size *= fields[best].size
+        size *= fields[best][1]
         for j, count in asked[best].items():
             if j not in done:
                 near[j] = near.get(j, 0) + count
@@ -107,4 +95,4 @@ def _small(goals: Sequence[int], asked: Neighbours, deadline: Deadline) -> Itera
 
 
 def _size(chosen: frozenset[int] | set[int], fields: Sequence[StateField]) -> int:
-    return prod(fields[i].size for i in chosen)
+    return prod(fields[i][1] for i in chosen)

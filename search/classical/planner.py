@@ -7,11 +7,11 @@ alone; tables of projections follow once a question turns out to be worth them.
 
 import ctypes
 from array import array
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Final
 
 from search.classical.encoded_problem import EncodedProblem, memory_for
-from search.classical.patterns import StateField, patterns
+from search.classical.patterns import patterns
 from search.classical.problem import ClassicalProblem
 from search.engine.astar import AStar
 from search.packed.cost_vector import INFINITE_KEY
@@ -337,10 +337,11 @@ class ClassicalPlanner:
     def _make_tables(self, deadline: Deadline) -> None:
         """Projections that add up, as many as there is time for."""
         kernel, planner = self._kernel, self._planner
-        part = deadline.part(_SHARE)
+        part, problem = deadline.part(_SHARE), self.problem
+        chosen = patterns(problem.fields, problem.operators, problem.goal, _MOST_STATES, part)
         room, made = _MOST_TRANSITIONS, 0
         try:
-            for pattern in self._patterns(part):
+            for pattern in chosen:
                 part.check()
                 part.require(_MOST_TRANSITIONS)
                 numbers = array("i", pattern)
@@ -356,12 +357,3 @@ class ClassicalPlanner:
                         break
         except LimitReachedError:
             deadline.check()
-
-    def _patterns(self, deadline: Deadline) -> Iterator[list[int]]:
-        problem = self.problem
-        fields = [
-            StateField(field, (field & -field).bit_length() - 1, values) for field, values in problem.fields
-        ]
-        places = {field: place for place, field in enumerate(fields)}
-        chosen = patterns(fields, problem.operators, problem.goal, _MOST_STATES, deadline)
-        return ([places[field] for field in pattern] for pattern in chosen)

@@ -4,7 +4,7 @@ Keys are those of ``search.packed.cost_vector``: one comparison orders objective
 start and length at once, so the first proof is already the answer of semantics 3.1.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol, TypeVar
 
@@ -109,9 +109,14 @@ class Ties(NamedTuple):
 
 
 def best_first(
-    space: Space[N, Best], best: Best, progress: Progress, deadline: Deadline, ties: Ties | None = None
-) -> Iterator[Best]:
-    """Yield each better incumbent, and now and then the same one where the bound has risen.
+    space: Space[N, Best],
+    best: Best,
+    progress: Progress,
+    deadline: Deadline,
+    ties: Ties | None = None,
+    is_enough: Callable[[], bool] | None = None,
+) -> Generator[None, None, bool]:
+    """Yield for each better incumbent, and now and then where the bound has risen.
 
     Of nodes with equal bounds the latest comes first.  On return ``best`` is optimal and the bound is
     its key, but for what ``ties`` leaves open.
@@ -122,6 +127,10 @@ def best_first(
         progress: what is known so far, which is brought up to date.
         deadline: polled.
         ties: how far incumbents of the best objective are told apart; None: all the way.
+        is_enough: asked before each node whether to end there, whatever has been found; None: never.
+
+    Returns:
+        Whether it was enough before the search had come to its end.
 
     Raises:
         LimitReachedError: the deadline ran out; ``best`` and ``progress.bound`` hold what is known.
@@ -137,9 +146,11 @@ def best_first(
         deadline.check()
         if ties is not None and progress.bound >> ties.shift >= best.key >> ties.shift:
             if not left:
-                return
+                return False
             left -= 1
         progress.expanded += 1
+        if is_enough is not None and is_enough():
+            return True
         for child_bound, child in space.expand(node, best):
             deadline.tick()
             progress.generated += 1
@@ -151,8 +162,9 @@ def best_first(
                     level.append(child)
         if best.key < known or progress.due(deadline):
             known = best.key
-            yield best
+            yield
     progress.bound = best.key
+    return False
 
 
 def solve_space(space: Space[N, Best], best: Best, deadline: Deadline) -> Best:

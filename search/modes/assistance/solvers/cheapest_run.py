@@ -81,9 +81,9 @@ class CheapestRun:
             LimitReachedError: the deadline ran out; ``lower``, ``upper`` and the solution stand.
         """
         known = self.upper
-        for best in best_first(self, self._best, self._progress, self._game.deadline):
-            if best.key < known:
-                known = best.key
+        for _ in best_first(self, self._best, self._progress, self._game.deadline):
+            if self.upper < known:
+                known = self.upper
                 yield
 
     def roots(self) -> Iterator[tuple[int, _RunNode]]:
