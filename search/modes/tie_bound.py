@@ -14,7 +14,7 @@ from search.engine.best_first import Incumbent, solve_space
 from search.engine.dominance import ParetoFront
 from search.human.plan_graph import PlanGraph
 from search.spaces.factory import no_worse, suffix_rule
-from search.spaces.windowed import InLayers, Windowed
+from search.spaces.windowed import InLayers, PrivateRest, Windowed
 from search.strategies.portfolio import solve
 from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options
@@ -70,12 +70,14 @@ def _by_windows(
         initial=context.packed.init,
         idle=(),
         horizon=horizon,
+        last=len(steps),
         max_window=most,
         most_cost=None,
         keys=context.keys,
         successors=context.successors(),
         bounds=Bounds(context.bound, context.steps, no_bound, context.interactions, no_team_bound),
-        prefix=InLayers(steps, context.bound, context.keys, horizon),
+        prefix=InLayers(steps),
+        on_the_way=PrivateRest(len(steps), context.bound, context.keys, horizon),
         suffix=suffix_rule(context, plan),
         labels=ParetoFront(no_worse(context.keys, free, None)),
         relevant=context.relevant,

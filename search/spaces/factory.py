@@ -23,7 +23,7 @@ from search.packed.operators import Operator
 from search.packed.packings import human_facts
 from search.packed.successor_generator import JointAction
 from search.spaces.unrestricted import Unrestricted
-from search.spaces.windowed import AnyOfPlan, InLayers, Prefix, Timetable, Windowed
+from search.spaces.windowed import AnyOfPlan, InLayers, Prefix, PrefixBound, PrivateRest, Windowed
 from serendipity.model.options import Options
 from serendipity.model.task.task import HumanPlan
 
@@ -52,31 +52,30 @@ def window_space(
     is_private = team is no_team_bound
     walks = None if idle or not is_private else context.walks(plan)
     successors = context.successors(idle=idle) if walks is None else context.folded(walks)
-    prefix: Prefix
     private, steps = (context.bound, context.steps) if is_private else (NOTHING_KNOWN, NOTHING_KNOWN)
     touches = context.interactions if is_private else None
+    prefix: Prefix = InLayers([[step] for step in context.followed(plan)])
+    on_the_way: PrefixBound = PrivateRest(len(plan), private, context.keys, horizon)
+    untouched: Timed = no_bound
     if options.keep_prefix:
-        untouched: Timed = no_bound
-        prefix = AnyOfPlan(successors, context.task, plan, private, context.keys, horizon)
-    elif not is_private:
-        untouched = no_bound
-        prefix = InLayers([[step] for step in context.followed(plan)], private, context.keys, horizon)
-    else:
+        prefix = AnyOfPlan(successors, context.task, plan)
+    elif is_private:
         keys = context.keys
         opened = [keys.of_start(t + 1, horizon) + keys.epoch_weight for t in range(len(plan))]
         along = bounds_along(context, plan, horizon, limit, opened, context.weights.robots, idle=idle)
-        untouched = along.off_plan or no_bound
-        prefix = Timetable(context.followed(plan), along.on_the_way)
+        on_the_way, untouched = along.on_the_way, along.off_plan or no_bound
     return Windowed(
         initial=context.packed.init,
         idle=() if walks is None else (0,) * len(walks.fields),
         horizon=horizon,
+        last=len(plan),
         max_window=options.max_window or horizon,
         most_cost=most_cost,
         keys=context.keys,
         successors=successors,
         bounds=Bounds(private, steps, untouched, touches, team),
         prefix=prefix,
+        on_the_way=on_the_way,
         suffix=suffix_rule(context, plan),
         labels=ParetoFront(no_worse(context.keys, options, most_cost)),
         relevant=context.relevant,

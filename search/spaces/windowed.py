@@ -10,7 +10,6 @@ from functools import partial
 from typing import NamedTuple, Protocol
 
 from search.bounds.first_interaction import Bounds
-from search.bounds.prefix_bounds import FirstInteractionOnTheWay
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
 from search.human.pattern_database import PatternDatabase
@@ -25,55 +24,53 @@ PREFIX, WINDOW, TOUCHED = 0, 1, 2
 
 
 class Prefix(Protocol):
-    """What the human may do before the window, and a bound on what follows.
-
-    Attributes:
-        last: the last epoch in which a window may open (``xi1 <= |pi_H|``).
-    """
-
-    last: int
+    """The human's part of the epochs before the window."""
 
     def options(self, epoch: int, state: int) -> Iterable[JointAction]:
-        """The human's part of ``epoch`` from a packed state."""
+        """What they may do in ``epoch`` from a packed state."""
 
-    def bound(self, epoch: int, state: int, idle: Idle) -> int:
-        """Least key increment from a prefix node after ``epoch``, window included."""
+
+class PrefixBound(Protocol):
+    """Lower bound of the key increment from a node of the prefix after ``epoch``, window included."""
 
     def opening(self, epoch: int, state: int, idle: Idle) -> int:
-        """The same, if the window opens in the next epoch."""
+        """The bound if the window opens in the next epoch."""
+
+    def later(self, epoch: int, state: int, idle: Idle) -> int:
+        """The bound if it opens then or later."""
 
 
-class Timetable:
-    """Rule 1: in epoch ``t`` the human does exactly ``pi_H[t]`` (Def. 3.0).
-
-    Their private variables follow ``pi_H``, so the bound is known per epoch in advance.
+class InLayers:
+    """Rule 1: in epoch ``t`` the human does ``pi_H[t]`` (Def. 3.0), or one of several actions that are due.
 
     Args:
-        steps: their packed actions and what they do, in order.
-        bound: lower bound after ``0 .. |pi_H| - 1`` epochs of the prefix.
+        layers: per epoch what they may do, packed actions and what they do.
     """
 
-    def __init__(self, steps: list[tuple[Operator, JointAction]], bound: FirstInteractionOnTheWay) -> None:
-        self.last = len(steps)
-        self._steps = steps
-        self._bound = bound
+    def __init__(self, layers: Sequence[Sequence[tuple[Operator, JointAction]]]) -> None:
+        self._layers = layers
 
     def options(self, epoch: int, state: int) -> Iterable[JointAction]:
         """See :class:`Prefix`."""
-        op, option = self._steps[epoch - 1]
-        return (option,) if applicable(op, state) else ()
+        return [option for op, option in self._layers[epoch - 1] if applicable(op, state)]
 
-    def bound(self, epoch: int, state: int, idle: Idle) -> int:
+
+class AnyOfPlan:
+    """The paper's second (7b): any actions of ``pi_H``, in any order, or noop (semantics 3.4)."""
+
+    def __init__(self, successors: Successors, task: Task, plan: HumanPlan) -> None:
+        self._successors = successors
+        self._actions = task.actions
+        self._planned = task.names(plan)
+
+    def options(self, epoch: int, state: int) -> Iterable[JointAction]:
         """See :class:`Prefix`."""
-        return self._bound.later(epoch, state, idle)
-
-    def opening(self, epoch: int, state: int, idle: Idle) -> int:
-        """See :class:`Prefix`."""
-        return self._bound.opening(epoch, state, idle)
+        own = self._successors.human(state)
+        return (NOTHING, *(o for o in own if self._actions[o.actions[0]].name in self._planned))
 
 
-class Unscheduled:
-    """A :class:`Prefix` whose epochs are not known in advance: the human's private distances bound the rest.
+class PrivateRest:
+    """A :class:`PrefixBound` where no touch is known in advance: what the human has to do themselves.
 
     Args:
         last: the last epoch in which a window may open.
@@ -83,66 +80,18 @@ class Unscheduled:
     """
 
     def __init__(self, last: int, bound: PatternDatabase, keys: CostLayout, horizon: int) -> None:
-        self.last = last
+        self._last = last
         self._bound = bound
         self._keys = keys
         self._horizon = horizon
 
-    def bound(self, epoch: int, state: int, idle: Idle) -> int:
-        """See :class:`Prefix`."""
-        return self._keys.of_start(self.last, self._horizon) + self._keys.epoch_weight + self._bound(state)
-
     def opening(self, epoch: int, state: int, idle: Idle) -> int:
-        """See :class:`Prefix`."""
+        """See :class:`PrefixBound`."""
         return self._keys.of_start(epoch + 1, self._horizon) + self._keys.epoch_weight + self._bound(state)
 
-
-class InLayers(Unscheduled):
-    """Rule 1 where one of several actions may be due in an epoch, or private distances say little.
-
-    Args:
-        layers: per epoch what the human may do, packed actions and what they do.
-        bound: their private distances to the goal.
-        keys: layout of keys.
-        horizon: number of epochs.
-    """
-
-    def __init__(
-        self,
-        layers: Sequence[Sequence[tuple[Operator, JointAction]]],
-        bound: PatternDatabase,
-        keys: CostLayout,
-        horizon: int,
-    ) -> None:
-        super().__init__(len(layers), bound, keys, horizon)
-        self._layers = layers
-
-    def options(self, epoch: int, state: int) -> Iterable[JointAction]:
-        """See :class:`Prefix`."""
-        return [option for op, option in self._layers[epoch - 1] if applicable(op, state)]
-
-
-class AnyOfPlan(Unscheduled):
-    """The paper's second (7b): any actions of ``pi_H``, in any order, or noop (semantics 3.4)."""
-
-    def __init__(
-        self,
-        successors: Successors,
-        task: Task,
-        plan: HumanPlan,
-        bound: PatternDatabase,
-        keys: CostLayout,
-        horizon: int,
-    ) -> None:
-        super().__init__(len(plan), bound, keys, horizon)
-        self._successors = successors
-        self._actions = task.actions
-        self._planned = task.names(plan)
-
-    def options(self, epoch: int, state: int) -> Iterable[JointAction]:
-        """See :class:`Prefix`."""
-        own = self._successors.human(state)
-        return (NOTHING, *(o for o in own if self._actions[o.actions[0]].name in self._planned))
+    def later(self, epoch: int, state: int, idle: Idle) -> int:
+        """See :class:`PrefixBound`."""
+        return self.opening(self._last - 1, state, idle)
 
 
 class _JudgedNode(NamedTuple):
@@ -168,12 +117,14 @@ class Windowed:
         initial: packed initial state.
         idle: per slot 0 where robots' walks are folded, else empty.
         horizon: number of epochs ``T``.
+        last: the last epoch in which a window may open (``xi1 <= |pi_H|``).
         max_window: most epochs of a window.
         most_cost: largest scaled cost of an acceptable plan, or None.
         keys: layout of keys.
         successors: what agents can do in an epoch.
         bounds: lower bounds on what still has to be paid.
         prefix: rule 1.
+        on_the_way: lower bound in the prefix.
         suffix: rule 3.
         labels: dominance among nodes of the window.
         relevant: the fields that matter to the human alone, and to goals: what robots do in the last epoch
@@ -186,12 +137,14 @@ class Windowed:
         initial: int,
         idle: Idle,
         horizon: int,
+        last: int,
         max_window: int,
         most_cost: int | None,
         keys: CostLayout,
         successors: Successors,
         bounds: Bounds,
         prefix: Prefix,
+        on_the_way: PrefixBound,
         suffix: Suffix,
         labels: ParetoFront,
         relevant: int,
@@ -200,22 +153,24 @@ class Windowed:
         self._initial = initial
         self._idle = idle
         self._horizon = horizon
+        self._last = last
         self._max_window = max_window
         self._most_cost = most_cost
         self._keys = keys
         self._successors = successors
         self._bounds = bounds
         self._prefix = prefix
+        self._on_the_way = on_the_way
         self._suffix = suffix
         self._labels = labels
         self._followed = ParetoFront()
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state, in the prefix."""
-        if self._prefix.last >= 1:
+        if self._last >= 1:
             self._followed.add((0, self._initial), 0, 0, self._idle)
             root = Node(0, 0, self._initial, PREFIX, 0, None, (), self._idle)
-            yield self._prefix.bound(0, self._initial, self._idle), root
+            yield self._on_the_way.later(0, self._initial, self._idle), root
 
     def alive(self, node: Node) -> bool:
         """Whether no better node makes this one superfluous."""
@@ -229,13 +184,13 @@ class Windowed:
             yield from self._inside(node, best)
             return
         yield from self._open(node)
-        if node.epoch + 1 < self._prefix.last:
+        if node.epoch + 1 < self._last:
             yield from self._follow(node, best)
 
     def _open(self, node: Node) -> Iterator[tuple[int, Node]]:
         start = node.epoch + 1
         key = node.key + self._keys.of_start(start, self._horizon)
-        bound = node.key + self._prefix.opening(node.epoch, node.state, node.idle)
+        bound = node.key + self._on_the_way.opening(node.epoch, node.state, node.idle)
         bound = max(bound, key + self._keys.epoch_weight + self._bounds.team(node.state))
         if not self._keys.exceeds(bound, self._most_cost) and self._labels.add(
             node.state, node.epoch, key, node.idle
@@ -248,14 +203,14 @@ class Windowed:
 
         def promising(option: JointAction) -> bool:
             after = node.state & option.keep | option.put
-            return node.key + option.weight + self._prefix.bound(epoch, after, sooner) < best.key
+            return node.key + option.weight + self._on_the_way.later(epoch, after, sooner) < best.key
 
         for part in self._prefix.options(epoch, node.state):
             for option in successors.beside(part, node.state, node.idle, promising):
                 state = node.state & option.keep | option.put
                 key = node.key + option.weight
                 idle = successors.rested(node.idle, option, state)
-                bound = key + self._prefix.bound(epoch, state, idle)
+                bound = key + self._on_the_way.later(epoch, state, idle)
                 if bound >= best.key or self._keys.exceeds(bound, self._most_cost):
                     continue
                 bound = max(bound, key + self._keys.epoch_weight + self._bounds.team(state))

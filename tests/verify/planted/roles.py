@@ -51,7 +51,7 @@ PLACES = {
     "distances in the pattern database": "search.human.pattern_database:backward",
     "actions in the pattern database": "search.human.pattern_database:_transitions",
     # spaces
-    "prefix that follows pi_H": "search.spaces.windowed:Timetable.options",
+    "prefix that follows pi_H": "search.spaces.windowed:InLayers.options",
     "prefix of actions of pi_H": "search.spaces.windowed:AnyOfPlan.options",
     "opening a window": "search.spaces.windowed:Windowed._open",
     "ending a window": "search.spaces.windowed:Windowed._end",
@@ -124,7 +124,7 @@ PARTS = {
     "whether the rest works": "search.human.suffix_rules:Preserved._works",
     "all plans": "search.human.individual_planner:PlanGraph.plans",
     "known costs alone": "search.human.individual_planner:IndividualPlanner._known",
-    "steps of pi_H": "search.spaces.windowed:Timetable._steps",
+    "steps of pi_H": "search.spaces.windowed:InLayers._layers",
     "successors": "search.spaces.windowed:AnyOfPlan._successors",
     "actions": "search.spaces.windowed:AnyOfPlan._actions",
     "names of pi_H": "search.spaces.windowed:AnyOfPlan._planned",

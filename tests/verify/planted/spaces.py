@@ -10,7 +10,7 @@ from tests.verify.planted.roles import part
 
 
 def _unchecked(self: Any, epoch: int, state: int) -> Iterable[Any]:
-    return (part(self, "steps of pi_H")[epoch - 1][1],)
+    return [option for _, option in part(self, "steps of pi_H")[epoch - 1]]
 
 
 def _own_actions(self: Any, epoch: int, state: int) -> Iterable[Any]:
