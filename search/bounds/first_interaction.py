@@ -195,9 +195,9 @@ class Bounds:
         self,
         private: PatternDatabase,
         steps: PatternDatabase,
-        untouched: Timed,
-        interactions: Interactions | None,
-        team: Callable[[int], int],
+        untouched: Timed = no_bound,
+        interactions: Interactions | None = None,
+        team: Callable[[int], int] = no_team_bound,
     ) -> None:
         self.private = private
         self.steps = steps

@@ -7,7 +7,7 @@ what each plan allows.  A window of n epochs is answered only if it saves at lea
 
 from fractions import Fraction
 
-from search.bounds.first_interaction import Bounds, no_bound, no_team_bound
+from search.bounds.first_interaction import Bounds
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, solve_space
@@ -75,7 +75,7 @@ def _by_windows(
         most_cost=None,
         keys=context.keys,
         successors=context.successors(),
-        bounds=Bounds(context.bound, context.steps, no_bound, context.interactions, no_team_bound),
+        bounds=Bounds(context.bound, context.steps, interactions=context.interactions),
         prefix=InLayers(steps),
         on_the_way=PrivateRest(len(steps), context.bound, context.keys, horizon),
         suffix=suffix_rule(context, plan),

@@ -1,7 +1,6 @@
 """Puts a windowed space together from the options (semantics 3.1, 3.3, 3.4)."""
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
 
 from search.bounds.achievers import Achievers, Provided
 from search.bounds.first_interaction import (
@@ -62,7 +61,7 @@ def window_space(
     elif is_private:
         keys = context.keys
         opened = [keys.of_start(t + 1, horizon) + keys.epoch_weight for t in range(len(plan))]
-        along = bounds_along(context, plan, horizon, limit, opened, context.weights.robots, idle=idle)
+        along = BoundsAlong(context, plan, horizon, limit, opened, context.weights.robots, idle=idle)
         on_the_way, untouched = along.on_the_way, along.off_plan or no_bound
     return Windowed(
         initial=context.packed.init,
@@ -132,30 +131,7 @@ def no_worse(keys: CostLayout, options: Options, most_cost: int | None) -> Calla
     return compared
 
 
-@dataclass(frozen=True, slots=True)
 class BoundsAlong:
-    """Bounds while the human follows ``pi_H``, and after a window has opened.
-
-    Attributes:
-        on_the_way: holds while they follow it.
-        off_plan: holds up to the first touch that is not on the plan; None where there is nothing
-            to tell apart.
-    """
-
-    on_the_way: FirstInteractionOnTheWay
-    off_plan: FirstInteraction | None
-
-
-def bounds_along(
-    context: SearchContext,
-    plan: HumanPlan,
-    horizon: int,
-    limit: int,
-    opened: Sequence[int],
-    robots: Sequence[int],
-    *,
-    idle: bool,
-) -> BoundsAlong:
     """Bounds along ``pi_H`` and off it, up to the first touch that is not on the plan.
 
     The human's private fields follow ``pi_H``, so their part of the first is known in advance.
@@ -168,21 +144,10 @@ def bounds_along(
         opened: key increment of opening a window after ``0 .. |pi_H| - 1`` epochs.
         robots: key increment of a robots' op by the index of its cost.
         idle: robots do nothing.
-    """
-    builder = _BoundsAlong(context, plan, horizon, limit, opened, robots)
-    builder.explore()
-    paying = None if idle else builder.price_needs()
-    if paying is None:
-        return BoundsAlong(builder.on_the_way(dict.fromkeys(builder.openings.least)), None)
-    provided = builder.refine(paying)
-    return BoundsAlong(builder.on_the_way({**provided}), builder.off_plan(provided))
-
-
-class _BoundsAlong:
-    """What :func:`bounds_along` puts together, step by step; its arguments are the same.
 
     Attributes:
-        openings: the human's totals, by need and by when the window opens.
+        on_the_way: holds while the human follows ``pi_H``.
+        off_plan: holds after a window has opened; None where there is nothing to tell apart.
     """
 
     def __init__(
@@ -193,6 +158,8 @@ class _BoundsAlong:
         limit: int,
         opened: Sequence[int],
         robots: Sequence[int],
+        *,
+        idle: bool,
     ) -> None:
         self._context = context
         self._horizon = horizon
@@ -205,7 +172,17 @@ class _BoundsAlong:
         self._costs: dict[int, int] = {}
         self._follow(steps, opened)
         floor = [base + context.bound(at) for base, at in self._sources]
-        self.openings = PrefixBounds(len(plan), _reach(context, horizon, limit), floor)
+        self._openings = PrefixBounds(len(plan), _reach(context, horizon, limit), floor)
+        """The human's totals, by need and by when the window opens."""
+        self._explore()
+        paying = None if idle else self._price_needs()
+        provided = None if paying is None else self._refine(paying)
+        needs: dict[int, Provided | None] = dict.fromkeys(self._openings.least)
+        if provided is not None:
+            needs = {**provided}
+        outside = context.interactions.outside
+        self.on_the_way = FirstInteractionOnTheWay(self._openings, self._spent, needs, outside)
+        self.off_plan = None if provided is None else self._off_plan(provided)
 
     def _follow(self, steps: Sequence[tuple[Operator, JointAction]], opened: Sequence[int]) -> None:
         """What following ``pi_H`` costs, and where the human is before each of its epochs."""
@@ -216,12 +193,12 @@ class _BoundsAlong:
             state = state & op.keep | op.put
             cost += option.weight
 
-    def explore(self) -> None:
+    def _explore(self) -> None:
         """The human's ways from each epoch of ``pi_H`` to touches, and on to the goal.
 
         Between two changes of ``pi_H`` to what others depend on, a need goes by one id.
         """
-        ways, providers, openings = self._context.ways, self._providers, self.openings
+        ways, providers, openings = self._context.ways, self._providers, self._openings
         for first, end in providers.phases(len(self._sources)):
             corridor = ways.explore(self._sources[first:end], self._limit)
             ids = {providers.at(need, first): need for need in corridor.totals}
@@ -231,9 +208,9 @@ class _BoundsAlong:
             i: self._horizon - 1 - ways.steps_after[providers.touched(i)] for i in openings.least
         }
 
-    def price_needs(self) -> list[int] | None:
+    def _price_needs(self) -> list[int] | None:
         """Ids of the needs that may pay with what robots need for them; None if there is no telling."""
-        openings, providers = self.openings, self._providers
+        openings, providers = self._openings, self._providers
         if not openings.least:
             return None
         self._costs = providers.costs(sorted(openings.least), self._pays)
@@ -243,9 +220,9 @@ class _BoundsAlong:
 
     def _pays(self, cost: int) -> bool:
         """Whether anything can pay for which robots need this cost, or more."""
-        return cost + self.openings.least_after(self._providers.epochs(cost)) < self._limit
+        return cost + self._openings.least_after(self._providers.epochs(cost)) < self._limit
 
-    def refine(self, paying: Collection[int]) -> dict[int, Provided]:
+    def _refine(self, paying: Collection[int]) -> dict[int, Provided]:
         """What robots can do about the needs that pay even with the human's totals epoch by epoch."""
         mask = self._context.interactions.mask
         for first, end, corridor, ids in self._corridors:
@@ -253,24 +230,18 @@ class _BoundsAlong:
             for i in ids.keys() & paying:
                 rest = corridor.through(ids[i])
                 totals = [base + rest.get(place, INFINITE_KEY) for base, place in at]
-                self.openings.refine(i, first, totals)
+                self._openings.refine(i, first, totals)
         left = [i for i in paying if self._total(i) < self._limit]
-        slack = {i: self._limit - self.openings.least[i] for i in left}
-        return self._providers.provided(left, self._horizon, slack, self.openings.latest)
+        slack = {i: self._limit - self._openings.least[i] for i in left}
+        return self._providers.provided(left, self._horizon, slack, self._openings.latest)
 
     def _total(self, i: int) -> int:
         """Least total of a plan that touches a need first."""
         cost = self._costs[i]
-        return self.openings.total(i, cost, self._providers.epochs(cost))
+        return self._openings.total(i, cost, self._providers.epochs(cost))
 
-    def on_the_way(self, provided: dict[int, Provided | None]) -> FirstInteractionOnTheWay:
-        """The bound while the human follows ``pi_H``, over some needs."""
-        return FirstInteractionOnTheWay(
-            self.openings, self._spent, provided, self._context.interactions.outside
-        )
-
-    def off_plan(self, provided: Mapping[int, Provided]) -> FirstInteraction:
-        """The bound where the human does not, over the needs that pay."""
+    def _off_plan(self, provided: Mapping[int, Provided]) -> FirstInteraction:
+        """The bound where the human does not follow ``pi_H``, over the needs that pay."""
         needs = [(self._providers.touched(i), what, self._total(i)) for i, what in provided.items()]
         return FirstInteraction(self._context.bound, self._context.ways, needs, self._horizon)
 
@@ -294,7 +265,7 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
     team = context.team_bound
     last = NEVER if horizon is None else horizon
     if team is not no_team_bound:
-        return Bounds(NOTHING_KNOWN, NOTHING_KNOWN, untouched, None, team)
+        return Bounds(NOTHING_KNOWN, NOTHING_KNOWN, team=team)
     if not idle:
         ways = context.ways
         providers = _achievers(context, context.weights.robots, ())
@@ -317,7 +288,7 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
             provided = providers.provided(paying, last, slack, latest)
             needs = [(need, provided[need], total(need, costs[need])) for need in paying]
             untouched = FirstInteraction(context.bound, ways, needs, last)
-    return Bounds(context.bound, context.steps, untouched, context.interactions, team)
+    return Bounds(context.bound, context.steps, untouched, context.interactions)
 
 
 def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:

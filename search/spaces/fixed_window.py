@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 
-from search.bounds.first_interaction import Bounds, Choice, no_bound, no_team_bound
+from search.bounds.first_interaction import Bounds, Choice
 from search.bounds.prefix_bounds import FirstInteractionOnTheWay
 from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node
@@ -10,7 +10,7 @@ from search.engine.dominance import ParetoFront
 from search.human.suffix_rules import Suffix
 from search.packed.operators import Operator, applicable
 from search.packed.successor_generator import NOTHING, JointAction, Successors
-from search.spaces.factory import bounds_along, suffix_rule
+from search.spaces.factory import BoundsAlong, suffix_rule
 from search.spaces.windowed import PREFIX, TOUCHED, WINDOW
 from serendipity.model.task.plans import Window
 from serendipity.model.task.task import HumanPlan
@@ -43,10 +43,10 @@ class Weighed:
         self.successors = Successors(context.packed, weight, context.deadline, strict=context.options.strict)
         self.suffix: Suffix = suffix_rule(context, plan)
         opened = [0] * len(plan)
-        along = bounds_along(context, plan, horizon, limit, opened, robots, idle=False)
+        along = BoundsAlong(context, plan, horizon, limit, opened, robots, idle=False)
         self.on_the_way: FirstInteractionOnTheWay = along.on_the_way
         self._helped = along.off_plan
-        self.bounds = Bounds(context.bound, context.steps, no_bound, context.interactions, no_team_bound)
+        self.bounds = Bounds(context.bound, context.steps, interactions=context.interactions)
         self._choices: dict[int, list[Choice]] = {}
 
     def untouched(self, epoch: int, state: int, until: int) -> int:
