@@ -1,6 +1,7 @@
 """What robots need, at least, to provide what the human's touches ask for."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
@@ -15,10 +16,11 @@ from search.robots.transition_graphs import PositionVariables, TransitionGraphs
 from serendipity.model.resources.deadline import Deadline
 
 
+@dataclass(eq=False)
 class Provided:
     """Least key increment, and least number of epochs, for robots to provide a need.
 
-    Args:
+    Attributes:
         need: its id.
         by_cost: what robots can do, weighed.
         by_step: the same, counting epochs; None where the weight tells them.
@@ -27,31 +29,22 @@ class Provided:
         latest: the last epoch by which robots must have provided it.
     """
 
-    def __init__(
-        self,
-        need: int,
-        by_cost: AchieverAutomaton,
-        by_step: AchieverAutomaton | None,
-        unit: int,
-        slack: int,
-        latest: int,
-    ) -> None:
-        self._need = need
-        self._slack = slack
-        self._latest = latest
-        self._by_cost = by_cost
-        self._by_step = by_step
-        self._unit = unit
+    need: int
+    by_cost: AchieverAutomaton
+    by_step: AchieverAutomaton | None
+    unit: int
+    slack: int
+    latest: int
 
     @cached_property
     def cost(self) -> AchieverCosts:
         """Least key increment from a packed state."""
-        in_time = self._slack if self._by_step is not None else (self._latest + 1) * self._unit
-        return self._by_cost.distances(self._need, min(self._slack, in_time))
+        in_time = self.slack if self.by_step is not None else (self.latest + 1) * self.unit
+        return self.by_cost.distances(self.need, min(self.slack, in_time))
 
     @cached_property
     def _steps(self) -> AchieverCosts:
-        return self.cost if self._by_step is None else self._by_step.distances(self._need, self._latest + 1)
+        return self.cost if self.by_step is None else self.by_step.distances(self.need, self.latest + 1)
 
     def epochs(self, state: int, idle: Idle) -> int:
         """In how many epochs from now the need can be provided, from a packed state.
@@ -59,13 +52,13 @@ class Provided:
         Robots that have been idle may have walked meanwhile, where walks are folded.
         """
         if not idle:
-            return self._steps(state) // self._unit
+            return self._steps(state) // self.unit
         return max(0, min(epochs - rest for epochs, rest in zip(self.each(state), idle, strict=True)))
 
     def each(self, state: int) -> tuple[int, ...]:
         """The same without a rest, per robot that may act first."""
         each = self._steps.each(state)
-        return tuple(NEVER if steps >= INFINITE_KEY else steps // self._unit for steps in each)
+        return tuple(NEVER if steps >= INFINITE_KEY else steps // self.unit for steps in each)
 
 
 class Achievers:

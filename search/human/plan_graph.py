@@ -1,6 +1,7 @@
 """All optimal plans of the human alone, as a graph."""
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
 from serendipity.model.resources.deadline import Deadline
 
@@ -8,21 +9,21 @@ Edges = dict[int, list[tuple[int, int]]]
 """Per state the actions that continue an optimal plan, ascending, with their successors."""
 
 
+@dataclass(eq=False)
 class PlanGraph:
     """The optimal plans from a state as a graph: they share prefixes and suffixes.
 
-    Args:
+    Attributes:
         start: the packed state that they start from.
         edges: the steps that lie on an optimal plan.
         expanded: states that the search for them expanded.
         generated: steps that it looked at.
     """
 
-    def __init__(self, start: int, edges: Edges, expanded: int, generated: int) -> None:
-        self._start = start
-        self._edges = edges
-        self.expanded = expanded
-        self.generated = generated
+    start: int
+    edges: Edges
+    expanded: int
+    generated: int
 
     def canonical(self) -> tuple[int, ...]:
         """The plan that takes the smallest action at each step (semantics 1)."""
@@ -31,8 +32,8 @@ class PlanGraph:
     def plans(self) -> Iterator[tuple[int, ...]]:
         """All of them, in string order, lazily."""
         path: list[int] = []
-        open_steps = [iter(self._edges.get(self._start, ()))]
-        if self._start not in self._edges:
+        open_steps = [iter(self.edges.get(self.start, ()))]
+        if self.start not in self.edges:
             yield ()
             return
         while open_steps:
@@ -44,8 +45,8 @@ class PlanGraph:
                 continue
             action, after = step
             path.append(action)
-            if after in self._edges:
-                open_steps.append(iter(self._edges[after]))
+            if after in self.edges:
+                open_steps.append(iter(self.edges[after]))
             else:
                 yield tuple(path)
                 path.pop()
@@ -57,8 +58,8 @@ class PlanGraph:
             choose: picks one of several (action, successor).
         """
         plan: list[int] = []
-        state = self._start
-        while onward := self._edges.get(state):
+        state = self.start
+        while onward := self.edges.get(state):
             action, state = choose(onward)
             plan.append(action)
         return tuple(plan)
@@ -66,8 +67,8 @@ class PlanGraph:
     def layers(self) -> list[set[int]]:
         """Per step the actions that some optimal plan does then."""
         found: list[set[int]] = []
-        layer = {self._start}
-        while steps := [step for state in layer for step in self._edges.get(state, ())]:
+        layer = {self.start}
+        while steps := [step for state in layer for step in self.edges.get(state, ())]:
             found.append({action for action, _ in steps})
             layer = {after for _, after in steps}
         return found
@@ -75,17 +76,17 @@ class PlanGraph:
     def count(self) -> int:
         """How many there are, without listing them."""
         counts: dict[int, int] = {}
-        pending = [self._start]
+        pending = [self.start]
         while pending:
             state = pending[-1]
-            after = [successor for _, successor in self._edges.get(state, ())]
+            after = [successor for _, successor in self.edges.get(state, ())]
             missing = [successor for successor in after if successor not in counts]
             if missing:
                 pending.extend(missing)
             else:
                 counts[state] = sum(counts[successor] for successor in after) if after else 1
                 pending.pop()
-        return counts[self._start]
+        return counts[self.start]
 
 
 def edges_into(

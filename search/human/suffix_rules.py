@@ -1,5 +1,7 @@
 """What the human does after the window, alone (semantics 3.1 rule 3, 3.3)."""
 
+from dataclasses import dataclass
+from itertools import accumulate
 from typing import Protocol
 
 from search.human.individual_planner import IndividualPlanner, canonical
@@ -30,10 +32,11 @@ class Suffix(Protocol):
         """The actions of that suffix."""
 
 
+@dataclass(eq=False)
 class Replan:
     """An optimal plan of the human's own, without regard to the horizon (Def. 2.0a).
 
-    Args:
+    Attributes:
         alone: their optimal keys to ``G_H``.
         both: their optimal keys to ``G_H`` and the robots' goal, or None where they can't
             affect that goal.
@@ -41,37 +44,30 @@ class Replan:
         keys: layout of keys.
     """
 
-    def __init__(
-        self,
-        alone: IndividualPlanner,
-        both: IndividualPlanner | None,
-        robot_goal: PackedGoal,
-        keys: CostLayout,
-    ) -> None:
-        self._alone = alone
-        self._both = both
-        self._robot_goal = robot_goal
-        self._keys = keys
+    alone: IndividualPlanner
+    both: IndividualPlanner | None
+    robot_goal: PackedGoal
+    keys: CostLayout
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
         """See :class:`Suffix`."""
-        if self._both is None and not self._robot_goal.holds(state):
+        if self.both is None and not self.robot_goal.holds(state):
             return INFINITE_KEY
-        own = self._alone.key(state, limit)
-        if own >= limit or self._keys.actions(own) > epochs:
+        own = self.alone.key(state, limit)
+        if own >= limit or self.keys.actions(own) > epochs:
             return INFINITE_KEY
-        if self._both is not None:
+        if self.both is not None:
             # The human's plan must be optimal for G_H alone and happen to leave G_R true.
-            kept = self._both.key(state)
-            shift = self._keys.action_shift
+            kept = self.both.key(state)
+            shift = self.keys.action_shift
             if kept >> shift != own >> shift:
                 return INFINITE_KEY
             own = kept
-        return self._keys.announce(own)
+        return self.keys.announce(own)
 
     def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
         """See :class:`Suffix`."""
-        return canonical(self._both or self._alone, state)
+        return canonical(self.both or self.alone, state)
 
 
 class Subplan:
@@ -154,10 +150,7 @@ class Preserved:
         self._ops = [packed.op(i) for i in plan]
         self._goals = goals
         self._expected = [_Contained(packed, facts) for facts in expected]
-        rest = [0]
-        for weight in reversed(weights):
-            rest.append(rest[-1] + weight)
-        self._rest = rest[::-1]
+        self._rest = list(accumulate(reversed(weights), initial=0))[::-1]
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
         """See :class:`Suffix`."""

@@ -1,6 +1,8 @@
 """The human executes ``pi_H`` exactly while robots, without the human, see to ``G_R`` (semantics 3.1)."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import accumulate
 
 from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node, solve_space
@@ -10,10 +12,11 @@ from search.packed.successor_generator import NOTHING, JointAction, Successors
 from serendipity.model.task.task import HumanPlan
 
 
+@dataclass(kw_only=True, eq=False)
 class FixedHumanPlan:
     """The search space of plans in which the human does not deviate.
 
-    Args:
+    Attributes:
         initial: packed initial state.
         horizon: number of epochs ``T``, or None for any.
         steps: the human's packed actions and what they do, in order.
@@ -21,30 +24,21 @@ class FixedHumanPlan:
         successors: what agents can do in an epoch.
     """
 
-    def __init__(
-        self,
-        *,
-        initial: int,
-        horizon: int | None,
-        steps: list[tuple[Operator, JointAction]],
-        goals: tuple[PackedGoal, ...],
-        successors: Successors,
-    ) -> None:
-        self._initial = initial
-        self._horizon = horizon
-        self._steps = steps
-        self._goals = goals
-        self._successors = successors
+    initial: int
+    horizon: int | None
+    steps: list[tuple[Operator, JointAction]]
+    goals: tuple[PackedGoal, ...]
+    successors: Successors
+
+    def __post_init__(self) -> None:
         self._best: dict[tuple[int, int], int] = {}
-        self._rest = [0]
-        for _, option in reversed(steps):
-            self._rest.append(self._rest[-1] + option.weight)
-        self._rest.reverse()
+        weights = [option.weight for _, option in reversed(self.steps)]
+        self._rest = list(accumulate(weights, initial=0))[::-1]
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state."""
-        self._best[0, self._initial] = 0
-        yield self._rest[0], Node(0, 0, self._initial, 0, 0, None, ())
+        self._best[0, self.initial] = 0
+        yield self._rest[0], Node(0, 0, self.initial, 0, 0, None, ())
 
     def alive(self, node: Node) -> bool:
         """Whether the state was not reached cheaper in the same epoch."""
@@ -52,24 +46,24 @@ class FixedHumanPlan:
 
     def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors of a node; it is offered to ``best`` where ``pi_H`` is over and goals hold."""
-        done = node.epoch >= len(self._steps)
-        if done and node.key < best.key and all(goal.holds(node.state) for goal in self._goals):
+        done = node.epoch >= len(self.steps)
+        if done and node.key < best.key and all(goal.holds(node.state) for goal in self.goals):
             best.key, best.node = node.key, node
-        if node.epoch == self._horizon:
+        if node.epoch == self.horizon:
             return
         # Without a horizon, epochs after the end of pi_H need no telling apart.
-        epoch = node.epoch + (self._horizon is not None or not done)
+        epoch = node.epoch + (self.horizon is not None or not done)
         part = NOTHING
         if not done:
-            op, part = self._steps[node.epoch]
+            op, part = self.steps[node.epoch]
             if not applicable(op, node.state):
                 return
-        for option in self._successors.with_robots(part, node.state):
+        for option in self.successors.with_robots(part, node.state):
             state = node.state & option.keep | option.put
             key = node.key + option.weight
             if key < self._best.get((epoch, state), best.key):
                 self._best[epoch, state] = key
-                bound = key + (self._rest[epoch] if epoch < len(self._steps) else 0)
+                bound = key + (self._rest[epoch] if epoch < len(self.steps) else 0)
                 yield bound, Node(key, epoch, state, 0, 0, node, option.actions)
 
 

@@ -1,6 +1,7 @@
 """Communication and composite planning: no prefix, no window (semantics 3.4, Def. 1.1)."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from search.bounds.first_interaction import Bounds
 from search.engine.best_first import Incumbent, Node
@@ -13,10 +14,11 @@ UNTOUCHED, TOUCHED = 0, 1
 """Phases: before and after the human's first touch."""
 
 
+@dataclass(kw_only=True, eq=False)
 class Unrestricted:
     """The search space of composite plans.
 
-    Args:
+    Attributes:
         initial: packed initial state.
         horizon: number of epochs ``T``, or None for any.
         most_cost: largest scaled cost of an acceptable plan, or None.
@@ -29,53 +31,40 @@ class Unrestricted:
             its optimality is not proved.
     """
 
-    def __init__(
-        self,
-        *,
-        initial: int,
-        horizon: int | None,
-        most_cost: int | None,
-        goals: tuple[PackedGoal, ...],
-        keys: CostLayout,
-        successors: Successors,
-        bounds: Bounds,
-        labels: ParetoFront,
-        greed: int = 1,
-    ) -> None:
-        self._greed = greed
-        self._initial = initial
-        self._horizon = horizon
-        self._most_cost = most_cost
-        self._goals = goals
-        self._keys = keys
-        self._successors = successors
-        self._bounds = bounds
-        self._labels = labels
+    initial: int
+    horizon: int | None
+    most_cost: int | None
+    goals: tuple[PackedGoal, ...]
+    keys: CostLayout
+    successors: Successors
+    bounds: Bounds
+    labels: ParetoFront
+    greed: int = 1
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state."""
-        self._labels.add(self._initial, 0, 0)
-        yield self._bounds.untouched(0, self._initial, 0), Node(0, 0, self._initial, UNTOUCHED, 0, None, ())
+        self.labels.add(self.initial, 0, 0)
+        yield self.bounds.untouched(0, self.initial, 0), Node(0, 0, self.initial, UNTOUCHED, 0, None, ())
 
     def alive(self, node: Node) -> bool:
         """Whether no cheaper node that is as early makes this one superfluous."""
-        return self._labels.alive(node.state, node.epoch, node.key)
+        return self.labels.alive(node.state, node.epoch, node.key)
 
     def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors of a node; those in which the goals hold are offered to ``best``."""
         if node.parent is None:
             self._offer(node, best)
-        epoch = node.epoch if self._horizon is None else node.epoch + 1
-        if self._horizon is not None and epoch > self._horizon:
+        epoch = node.epoch if self.horizon is None else node.epoch + 1
+        if self.horizon is not None and epoch > self.horizon:
             return
-        bounds = self._bounds
+        bounds = self.bounds
         for part, option in self._together(node.state):
             after = node.state & option.keep | option.put
             key = node.key + option.weight
             bound = key + bounds.private(after)
-            if bound >= best.key or self._keys.exceeds(bound, self._most_cost) or not option.actions:
+            if bound >= best.key or self.keys.exceeds(bound, self.most_cost) or not option.actions:
                 continue
-            if self._horizon is not None and epoch + bounds.steps(after) > self._horizon:
+            if self.horizon is not None and epoch + bounds.steps(after) > self.horizon:
                 continue
             touched = node.phase == TOUCHED or bounds.interactions(part.actions)
             if not touched:
@@ -83,22 +72,22 @@ class Unrestricted:
             bound = max(bound, key + bounds.team(after))
             if bound >= best.key:
                 continue
-            if self._labels.add(after, epoch, key):
+            if self.labels.add(after, epoch, key):
                 child = Node(key, epoch, after, TOUCHED if touched else UNTOUCHED, 0, node, option.actions)
                 if not self._offer(child, best):
-                    yield key + self._greed * (bound - key), child
+                    yield key + self.greed * (bound - key), child
 
     def _offer(self, node: Node, best: Incumbent) -> bool:
         """Whether a plan ends at the node (going on could only cost more)."""
-        if node.key >= best.key or not all(goal.holds(node.state) for goal in self._goals):
+        if node.key >= best.key or not all(goal.holds(node.state) for goal in self.goals):
             return False
         best.key, best.node = node.key, node
         return True
 
     def _together(self, state: int) -> Iterator[tuple[JointAction, JointAction]]:
         """The human's part of each action set, and the whole set."""
-        successors = self._successors
-        if self._horizon is None:
+        successors = self.successors
+        if self.horizon is None:
             yield from successors.in_turn(state)
             return
         for part in (NOTHING, *successors.human(state), *successors.joint(state)):

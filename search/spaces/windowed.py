@@ -6,6 +6,7 @@ may open before any epoch; each epoch inside it may be its last.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple, Protocol
 
@@ -69,29 +70,29 @@ class AnyOfPlan:
         return (NOTHING, *(o for o in own if self._actions[o.actions[0]].name in self._planned))
 
 
+@dataclass(eq=False)
 class PrivateRest:
     """A :class:`PrefixBound` where no touch is known in advance: what the human has to do themselves.
 
-    Args:
+    Attributes:
         last: the last epoch in which a window may open.
         bound: their private distances to the goal.
         keys: layout of keys.
         horizon: number of epochs.
     """
 
-    def __init__(self, last: int, bound: PatternDatabase, keys: CostLayout, horizon: int) -> None:
-        self._last = last
-        self._bound = bound
-        self._keys = keys
-        self._horizon = horizon
+    last: int
+    bound: PatternDatabase
+    keys: CostLayout
+    horizon: int
 
     def opening(self, epoch: int, state: int, idle: Idle) -> int:
         """See :class:`PrefixBound`."""
-        return self._keys.of_start(epoch + 1, self._horizon) + self._keys.epoch_weight + self._bound(state)
+        return self.keys.of_start(epoch + 1, self.horizon) + self.keys.epoch_weight + self.bound(state)
 
     def later(self, epoch: int, state: int, idle: Idle) -> int:
         """See :class:`PrefixBound`."""
-        return self.opening(self._last - 1, state, idle)
+        return self.opening(self.last - 1, state, idle)
 
 
 class _JudgedNode(NamedTuple):
@@ -110,10 +111,11 @@ class _JudgedNode(NamedTuple):
     touched: bool
 
 
+@dataclass(kw_only=True, eq=False)
 class Windowed:
     """The search space of plans with a window.
 
-    Args:
+    Attributes:
         initial: packed initial state.
         idle: per slot 0 where robots' walks are folded, else empty.
         horizon: number of epochs ``T``.
@@ -131,52 +133,36 @@ class Windowed:
             of a window changes one of them, or it is in vain.
     """
 
-    def __init__(
-        self,
-        *,
-        initial: int,
-        idle: Idle,
-        horizon: int,
-        last: int,
-        max_window: int,
-        most_cost: int | None,
-        keys: CostLayout,
-        successors: Successors,
-        bounds: Bounds,
-        prefix: Prefix,
-        on_the_way: PrefixBound,
-        suffix: Suffix,
-        labels: ParetoFront,
-        relevant: int,
-    ) -> None:
-        self._relevant = relevant
-        self._initial = initial
-        self._idle = idle
-        self._horizon = horizon
-        self._last = last
-        self._max_window = max_window
-        self._most_cost = most_cost
-        self._keys = keys
-        self._successors = successors
-        self._bounds = bounds
-        self._prefix = prefix
-        self._on_the_way = on_the_way
-        self._suffix = suffix
-        self._labels = labels
+    initial: int
+    idle: Idle
+    horizon: int
+    last: int
+    max_window: int
+    most_cost: int | None
+    keys: CostLayout
+    successors: Successors
+    bounds: Bounds
+    prefix: Prefix
+    on_the_way: PrefixBound
+    suffix: Suffix
+    labels: ParetoFront
+    relevant: int
+
+    def __post_init__(self) -> None:
         self._followed = ParetoFront()
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state, in the prefix."""
-        if self._last >= 1:
-            self._followed.add((0, self._initial), 0, 0, self._idle)
-            root = Node(0, 0, self._initial, PREFIX, 0, None, (), self._idle)
-            yield self._on_the_way.later(0, self._initial, self._idle), root
+        if self.last >= 1:
+            self._followed.add((0, self.initial), 0, 0, self.idle)
+            root = Node(0, 0, self.initial, PREFIX, 0, None, (), self.idle)
+            yield self.on_the_way.later(0, self.initial, self.idle), root
 
     def alive(self, node: Node) -> bool:
         """Whether no better node makes this one superfluous."""
         if node.phase == PREFIX:
             return self._followed.alive((node.epoch, node.state), node.epoch, node.key, node.idle)
-        return self._labels.alive(node.state, node.epoch, node.key, node.idle)
+        return self.labels.alive(node.state, node.epoch, node.key, node.idle)
 
     def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors of a node; ends of windows are offered to ``best``."""
@@ -184,44 +170,44 @@ class Windowed:
             yield from self._inside(node, best)
             return
         yield from self._open(node)
-        if node.epoch + 1 < self._last:
+        if node.epoch + 1 < self.last:
             yield from self._follow(node, best)
 
     def _open(self, node: Node) -> Iterator[tuple[int, Node]]:
         start = node.epoch + 1
-        key = node.key + self._keys.of_start(start, self._horizon)
-        bound = node.key + self._on_the_way.opening(node.epoch, node.state, node.idle)
-        bound = max(bound, key + self._keys.epoch_weight + self._bounds.team(node.state))
-        if not self._keys.exceeds(bound, self._most_cost) and self._labels.add(
+        key = node.key + self.keys.of_start(start, self.horizon)
+        bound = node.key + self.on_the_way.opening(node.epoch, node.state, node.idle)
+        bound = max(bound, key + self.keys.epoch_weight + self.bounds.team(node.state))
+        if not self.keys.exceeds(bound, self.most_cost) and self.labels.add(
             node.state, node.epoch, key, node.idle
         ):
             yield bound, node._replace(key=key, phase=WINDOW, start=start)
 
     def _follow(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
-        epoch, successors = node.epoch + 1, self._successors
+        epoch, successors = node.epoch + 1, self.successors
         sooner = _sooner(node.idle)
 
         def promising(option: JointAction) -> bool:
             after = node.state & option.keep | option.put
-            return node.key + option.weight + self._on_the_way.later(epoch, after, sooner) < best.key
+            return node.key + option.weight + self.on_the_way.later(epoch, after, sooner) < best.key
 
-        for part in self._prefix.options(epoch, node.state):
+        for part in self.prefix.options(epoch, node.state):
             for option in successors.beside(part, node.state, node.idle, promising):
                 state = node.state & option.keep | option.put
                 key = node.key + option.weight
                 idle = successors.rested(node.idle, option, state)
-                bound = key + self._on_the_way.later(epoch, state, idle)
-                if bound >= best.key or self._keys.exceeds(bound, self._most_cost):
+                bound = key + self.on_the_way.later(epoch, state, idle)
+                if bound >= best.key or self.keys.exceeds(bound, self.most_cost):
                     continue
-                bound = max(bound, key + self._keys.epoch_weight + self._bounds.team(state))
+                bound = max(bound, key + self.keys.epoch_weight + self.bounds.team(state))
                 if bound < best.key and self._followed.add((epoch, state), epoch, key, idle):
                     yield bound, Node(key, epoch, state, PREFIX, 0, node, option.actions, idle)
 
     def _inside(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors of a node of the window; each is offered as its end."""
-        if node.epoch >= self._horizon:
+        if node.epoch >= self.horizon:
             return
-        successors, state = self._successors, node.state
+        successors, state = self.successors, node.state
         sooner = _sooner(node.idle)
         is_last = not node.idle and not self._goes_on_from(node, best)
         for part in (*successors.human(state), *successors.joint(state), NOTHING):
@@ -230,16 +216,16 @@ class Windowed:
                 continue
             promising = partial(self._promising, judged, sooner, best)
             every = successors.beside(part, state, node.idle, promising)
-            sets = successors.with_changers(part, state, self._relevant) if is_last else every
+            sets = successors.with_changers(part, state, self.relevant) if is_last else every
             for option in sets:
                 bound = judged.spent + option.weight + judged.rest
-                if bound >= best.key or self._keys.exceeds(bound, self._most_cost):
+                if bound >= best.key or self.keys.exceeds(bound, self.most_cost):
                     break
                 child = self._child(judged, option)
                 self._end(child, best)
                 if self._goes_on(child, bound, best):
-                    bound = self._least(judged, option, child.idle) + self._keys.epoch_weight
-                    if bound < best.key and self._labels.add(child.state, child.epoch, child.key, child.idle):
+                    bound = self._least(judged, option, child.idle) + self.keys.epoch_weight
+                    if bound < best.key and self.labels.add(child.state, child.epoch, child.key, child.idle):
                         yield bound, child
 
     def _child(self, judged: _JudgedNode, option: JointAction) -> Node:
@@ -254,7 +240,7 @@ class Windowed:
             node.start,
             node,
             option.actions,
-            self._successors.rested(node.idle, option, after),
+            self.successors.rested(node.idle, option, after),
         )
 
     def _judge(self, node: Node, part: JointAction, best: Incumbent) -> _JudgedNode | None:
@@ -262,11 +248,11 @@ class Windowed:
         if not in_time(part, node.idle):
             return None
         at = node.state & part.keep | part.put
-        rest = self._bounds.private(at)
-        spent = node.key + self._keys.epoch_weight
-        if spent + part.weight + rest >= best.key or node.epoch + 1 + self._bounds.steps(at) > self._horizon:
+        rest = self.bounds.private(at)
+        spent = node.key + self.keys.epoch_weight
+        if spent + part.weight + rest >= best.key or node.epoch + 1 + self.bounds.steps(at) > self.horizon:
             return None
-        touched = node.phase == TOUCHED or self._bounds.interactions(part.actions)
+        touched = node.phase == TOUCHED or self.bounds.interactions(part.actions)
         return _JudgedNode(node, spent, rest, touched)
 
     def _least(self, judged: _JudgedNode, option: JointAction, idle: Idle) -> int:
@@ -274,10 +260,10 @@ class Windowed:
         node, spent, rest, touched = judged
         key = spent + option.weight
         after = node.state & option.keep | option.put
-        rest = max(rest, self._bounds.team(after))
+        rest = max(rest, self.bounds.team(after))
         if touched:
             return key + rest
-        return key + max(rest, self._bounds.untouched(node.epoch + 1, after, key, idle))
+        return key + max(rest, self.bounds.untouched(node.epoch + 1, after, key, idle))
 
     def _promising(self, judged: _JudgedNode, sooner: Idle, best: Incumbent, option: JointAction) -> bool:
         """Whether the human's part and what one robot does may still pay."""
@@ -285,23 +271,23 @@ class Windowed:
 
     def _goes_on_from(self, node: Node, best: Incumbent) -> bool:
         """Whether the window may have two more epochs than it has at a node, and still pay."""
-        if node.epoch + 1 >= self._horizon or node.epoch - node.start + 2 >= self._max_window:
+        if node.epoch + 1 >= self.horizon or node.epoch - node.start + 2 >= self.max_window:
             return False
-        return node.key + 2 * self._keys.epoch_weight + self._bounds.private(node.state) < best.key
+        return node.key + 2 * self.keys.epoch_weight + self.bounds.private(node.state) < best.key
 
     def _goes_on(self, child: Node, bound: int, best: Incumbent) -> bool:
         """Whether the window may have another epoch, and a plan with it may still pay."""
-        if child.epoch >= self._horizon or child.epoch - child.start + 1 >= self._max_window:
+        if child.epoch >= self.horizon or child.epoch - child.start + 1 >= self.max_window:
             return False
-        return bound + self._keys.epoch_weight < best.key
+        return bound + self.keys.epoch_weight < best.key
 
     def _end(self, node: Node, best: Incumbent) -> None:
         """Offer the plan whose window ends after the node."""
-        left = self._horizon - node.epoch
+        left = self.horizon - node.epoch
         limit = best.key - node.key
-        rest = self._suffix.key(node.state, left, node.start, limit)
-        if rest < limit and not self._keys.exceeds(node.key + rest, self._most_cost):
-            tail = self._suffix.actions(node.state, left, node.start)  # where time may run out
+        rest = self.suffix.key(node.state, left, node.start, limit)
+        if rest < limit and not self.keys.exceeds(node.key + rest, self.most_cost):
+            tail = self.suffix.actions(node.state, left, node.start)  # where time may run out
             best.key, best.node, best.end, best.tail = node.key + rest, node, node.epoch + 1, tail
 
 
