@@ -148,7 +148,6 @@ class Companion:
         *,
         keeps: bool = True,
     ) -> Incumbent:
-        sees_all = self._options.human_model == "observant"
         space = Reactive(
             self.human,
             successors,
@@ -156,7 +155,6 @@ class Companion:
             horizon=horizon,
             no_block=True,
             most_cost=None,
-            sees_all=sees_all,
             keeps=keeps,
             begins=begins,
         )

@@ -2,6 +2,7 @@
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask, TaskTables
@@ -11,6 +12,7 @@ from search.modes.simulation.intention import Intention, Intentions
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable, asked_by
 from search.packed.packed_task import PackedTask
+from search.packed.successor_generator import NOTHING, JointAction, as_option
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.visibility import Visible
@@ -36,6 +38,23 @@ class Glance:
         return self.best is not None and self.kept != self.best
 
 
+class HumanStep(NamedTuple):
+    """The human's part of an epoch, and what it leaves them with.
+
+    Attributes:
+        option: what it does; nothing where they wait, or try what is impossible.
+        belief: what they expect to see next.
+        intention: what remains of their plan.
+        settled: whether they did the first step of an optimal plan, whose rest stays optimal until something
+            surprises them.
+    """
+
+    option: JointAction
+    belief: int
+    intention: Intention
+    settled: bool
+
+
 class Human:
     """One human with their beliefs, plans and decisions, in packed states.
 
@@ -49,6 +68,7 @@ class Human:
 
     Attributes:
         context: the task as they see it.
+        sees_all: whether they are observant, so that they believe what is true.
     """
 
     def __init__(
@@ -71,6 +91,7 @@ class Human:
         self.bound = self.context.bound
         self.alone = self.context.alone
         self.intentions = Intentions(self.packed, self.keys, self.weights.human)
+        self.sees_all = not local
         self.eyes: Eyes = _eyes(prepared, self.packed, visible, deadline) if local else Everywhere()
         self.concern = self.packed.own_mask | self.packed.goal.mask
         task = prepared.task
@@ -78,6 +99,35 @@ class Human:
             if task.actions[i].participants == (task.human,):
                 self.concern |= asked_by(self.packed.op(i))
         self._looks: dict[tuple[int, int], Glance] = {}
+
+    def look(self, expected: int, state: int, intention: Intention, *, settled: bool) -> tuple[int, Glance]:
+        """Step 1: what they believe after a look at the packed state, and what they decide.
+
+        Args:
+            expected: what they expect to see.
+            state: as it truly is.
+            intention: what they mean to do.
+            settled: see :class:`HumanStep`.
+        """
+        belief = self.eyes.look(expected, state)
+        if settled and not (belief ^ expected) & self.concern:
+            return belief, Glance(intention, intention.cost, intention.cost)
+        return belief, self.decide(belief, intention)
+
+    def goes_on(self, belief: int, state: int, look: Glance) -> HumanStep:
+        """Step 3 without a joint action: they do the first step of their plan, fail in it, or wait."""
+        intention = look.intention
+        own = None if look.best is None else intention.op
+        if own is None:
+            return HumanStep(NOTHING, belief, intention, False)
+        if not applicable(own, state):
+            return HumanStep(NOTHING, self.learn(belief, state, own), intention, False)
+        return HumanStep(intention.option, belief & own.keep | own.put, intention.rest, True)
+
+    def joins(self, joint: Operator, belief: int, look: Glance) -> HumanStep:
+        """Step 3 with a joint action that they accept."""
+        option = as_option(joint, self.weights.team(joint))
+        return HumanStep(option, belief & joint.keep | joint.put, look.intention, False)
 
     def decide(self, belief: int, intention: Intention) -> Glance:
         """Step 1: whether they keep their plan, make another, or wait."""

@@ -7,7 +7,7 @@ from functools import cached_property
 from search.packed.cost_vector import CostLayout
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal, PackedTask
-from search.packed.successor_generator import NOTHING, JointAction
+from search.packed.successor_generator import NOTHING, JointAction, as_option
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +79,5 @@ class Intentions:
     def _before(self, action: int, rest: Intention) -> Intention:
         op = self._packed.op(action)
         weight = self._weights[op.cost]
-        option = JointAction(weight, op.keep, op.put, (op.action,), op.agents)
         cost = rest.cost + self._keys.scaled_cost(weight)
-        return Intention(len(self._known) + 1, op, option, rest, rest.weight + weight, cost)
+        return Intention(len(self._known) + 1, op, as_option(op, weight), rest, rest.weight + weight, cost)

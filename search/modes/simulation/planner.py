@@ -1,6 +1,7 @@
 """The best help that happens, with a human who replans on sight (semantics 6)."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
 from search.call.context import SearchContext
@@ -96,6 +97,7 @@ def _not_below(least: Fraction, bound: Fraction | None) -> Fraction | None:
     return None if bound is None else max(least, bound)
 
 
+@dataclass(eq=False)
 class _Call:
     """One planning call: its incumbents and its bound.
 
@@ -103,26 +105,16 @@ class _Call:
     ``idle`` is what they do alone, if it reaches all goals; ``best`` is the incumbent over everything.
     """
 
-    def __init__(
-        self,
-        task: Task,
-        options: Options,
-        human: Human,
-        plan: HumanPlan,
-        epochs: int,
-        deadline: Deadline,
-        known: Sequence[Step],
-        *,
-        given: bool,
-    ) -> None:
-        self.known = known
-        self.task = task
-        self.options = options
-        self.human = human
-        self.plan = plan
-        self.given = given
-        self.deadline = deadline
-        self.epochs = epochs
+    task: Task
+    options: Options
+    human: Human
+    plan: HumanPlan
+    epochs: int
+    deadline: Deadline
+    known: Sequence[Step]
+    given: bool
+
+    def __post_init__(self) -> None:
         self.progress = Progress()
         self.baseline = Incumbent(INFINITE_KEY)
         self.idle = Incumbent(INFINITE_KEY)
@@ -176,7 +168,6 @@ class _Call:
             horizon=self.epochs,
             no_block=self.options.no_block is not False,
             most_cost=None if idle else self._most_cost(),
-            sees_all=self.options.human_model == "observant",
         )
 
     def _most_cost(self) -> int | None:

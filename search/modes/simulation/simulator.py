@@ -6,9 +6,8 @@ from fractions import Fraction
 
 from search.call.prepared_task import PreparedTask
 from search.modes.simulation.human import Glance, Human
-from search.modes.simulation.intention import Intention
 from search.modes.simulation.space import Start
-from search.packed.operators import Operator, applicable
+from search.packed.operators import Operator, applicable, changed
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -118,13 +117,13 @@ def simulate(
     Raises:
         LimitReachedError: the deadline ran out in the first epoch, or before it.
     """
-    task, deadline = prepared.task, deadline or Deadline()
-    planned = _by_epoch(task, steps)
-    asked = {*human_plan, *(v for ids in planned.values() for i in ids for v in variants(task, i))}
+    task, deadline, steps = prepared.task, deadline or Deadline(), tuple(steps)
+    planned = (step.action for step in steps if not _is_own(task, step))
+    asked = {*human_plan, *(v for i in planned for v in variants(task, i))}
     human = Human(prepared, options, deadline, human_model=human_model, actions=asked, visible=visible)
     init = human.packed.init
     start = Start(init, init, human.intentions.of(human_plan))
-    return _Run(task, options, human, planned, start, deadline).play(horizon)
+    return simulate_from(start, human, options, steps, horizon=horizon, deadline=deadline)
 
 
 def simulate_from(
@@ -149,8 +148,7 @@ def simulate_from(
     Raises:
         LimitReachedError: the deadline ran out in the first epoch, or before it.
     """
-    task = human.packed.task
-    return _Run(task, options, human, _by_epoch(task, steps), start, deadline).play(horizon)
+    return _Run(options, human, steps, start, deadline).play(horizon)
 
 
 def way_on(
@@ -174,13 +172,9 @@ def way_on(
     return played if played.goals_hold and not any(epoch.skipped for epoch in played.epochs) else None
 
 
-def _by_epoch(task: Task, steps: Iterable[Step]) -> dict[int, list[int]]:
-    """What robots take part in, epoch by epoch."""
-    planned: dict[int, list[int]] = {}
-    for step in steps:
-        if task.actions[step.action].participants != (task.human,):
-            planned.setdefault(step.epoch, []).append(step.action)
-    return planned
+def _is_own(task: Task, step: Step) -> bool:
+    """Whether the human does a step alone."""
+    return task.actions[step.action].participants == (task.human,)
 
 
 def variants(task: Task, action: int) -> tuple[int, ...]:
@@ -194,26 +188,21 @@ class _Run:
     """One simulation: true state, the human's belief, what they expect to see next."""
 
     def __init__(
-        self,
-        task: Task,
-        options: Options,
-        human: Human,
-        planned: dict[int, list[int]],
-        start: Start,
-        deadline: Deadline,
+        self, options: Options, human: Human, steps: Iterable[Step], start: Start, deadline: Deadline
     ) -> None:
-        self.task = task
         self.deadline = deadline
         self.strict = options.strict
         self.human = human
         self.packed = human.packed
-        self.planned = planned
+        self.task = human.packed.task
+        self.planned: dict[int, list[int]] = {}  # what robots take part in, by epoch
+        for step in steps:
+            if not _is_own(self.task, step):
+                self.planned.setdefault(step.epoch, []).append(step.action)
         self.settled = False
-        self.state, self.expected = start.state, start.belief
-        self.intention = start.intention
+        self.state, self.expected, self.intention = start
 
     def play(self, horizon: int | None) -> Simulation:
-        intention = self.intention
         last = max(self.planned, default=0)
         epochs: list[SimulatedEpoch] = []
         limit = None
@@ -221,7 +210,7 @@ class _Run:
             before = self.expected
             try:
                 self.deadline.check()
-                epoch, intention = self._epoch(len(epochs) + 1, intention)
+                epoch = self._epoch(len(epochs) + 1)
             except LIMITS as error:
                 if not epochs:
                     raise
@@ -232,44 +221,30 @@ class _Run:
                 break  # nothing will ever change again
         return Simulation(tuple(epochs), self._done(), self._cost(epochs), limit)
 
-    def _epoch(self, number: int, intention: Intention) -> tuple[SimulatedEpoch, Intention]:
-        human, packed = self.human, self.packed
-        belief = human.eyes.look(self.expected, self.state)
+    def _epoch(self, number: int) -> SimulatedEpoch:
+        human = self.human
+        belief, look = human.look(self.expected, self.state, self.intention, settled=self.settled)
         saw = self._differences(self.expected, belief)
-        look = self._look(belief, intention)
-        intention = look.intention
         offered = [self._variant(i) for i in sorted(self.planned.get(number, ()))]
         joint, skipped = self._joint(offered, belief, look)
-        own = intention.op if joint is None and look.best is not None else None
-        failed = own is not None and not applicable(own, self.state)
-        did = joint if joint is not None else None if failed else own
-        robots = self._robots(offered, did, skipped)
-        self.settled = own is not None and not failed
-        if failed and own is not None:
-            self.expected = human.learn(belief, self.state, own)
-        else:
-            self.expected = belief if did is None else belief & did.keep | did.put
-        self._apply([packed.op(i) for i in robots] + ([] if did is None else [did]))
-        epoch = SimulatedEpoch(
+        own = look.intention.op if joint is None and look.best is not None else None
+        step = human.goes_on(belief, self.state, look) if joint is None else human.joins(joint, belief, look)
+        robots = self._robots(offered, step.option.actions, skipped)
+        self.expected, self.intention, self.settled = step.belief, step.intention, step.settled
+        self.state = changed(self.state, map(self.packed.op, (*robots, *step.option.actions)))
+        return SimulatedEpoch(
             number,
             saw,
             self._exact(look.kept),
             self._exact(look.best),
             look.replanned,
-            intention.actions,
+            look.intention.actions,
             None if joint is None else joint.action,
             None if own is None else own.action,
-            failed,
+            own is not None and not step.settled,
             tuple(robots),
             tuple(skipped),
         )
-        return epoch, intention.rest if own is not None and not failed else intention
-
-    def _look(self, belief: int, intention: Intention) -> Glance:
-        """Step 1; while all goes as the human expected, the rest of an optimal plan is optimal."""
-        if self.settled and not (belief ^ self.expected) & self.human.concern:
-            return Glance(intention, intention.cost, intention.cost)
-        return self.human.decide(belief, intention)
 
     def _joint(
         self, offered: Sequence[int], belief: int, look: Glance
@@ -291,17 +266,16 @@ class _Run:
                 skipped.append(Skipped(i, REFUSED))
         return taken, skipped
 
-    def _robots(self, offered: Sequence[int], his: Operator | None, skipped: list[Skipped]) -> list[int]:
+    def _robots(self, offered: Sequence[int], his: tuple[int, ...], skipped: list[Skipped]) -> list[int]:
         """What robots do without the human; the human has priority, and among robots the smaller id."""
         done: list[int] = []
-        taken = [] if his is None else [his.action]
         for i in offered:
             op = self.packed.op(i)
             if op.agents & self.packed.human_bit:
                 continue
             if not applicable(op, self.state):
                 skipped.append(Skipped(i, INAPPLICABLE))
-            elif not all(self.packed.compatible(i, j, self.strict) for j in (*taken, *done)):
+            elif not all(self.packed.compatible(i, j, self.strict) for j in (*his, *done)):
                 skipped.append(Skipped(i, CONFLICT))
             else:
                 done.append(i)
@@ -311,13 +285,6 @@ class _Run:
         """One that is applicable among ground actions with one name and the same agents."""
         possible = variants(self.task, action)
         return next((i for i in possible if applicable(self.packed.op(i), self.state)), action)
-
-    def _apply(self, ops: Sequence[Operator]) -> None:
-        keep, put = -1, 0
-        for op in ops:
-            keep &= op.keep
-            put |= op.put
-        self.state = self.state & keep | put
 
     def _done(self) -> bool:
         return self.packed.goal.holds(self.state) and self.packed.robot_goal.holds(self.state)

@@ -7,14 +7,14 @@ same.  So labels dominate as elsewhere, on state and mind.
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
-from search.modes.simulation.human import Glance, Human
+from search.modes.simulation.human import Glance, Human, HumanStep
 from search.modes.simulation.intention import Intention
-from search.packed.operators import applicable
-from search.packed.successor_generator import NOTHING, JointAction, Successors
+from search.packed.successor_generator import Successors
 
 
 class Mind(NamedTuple):
@@ -45,47 +45,35 @@ class Start(NamedTuple):
     intention: Intention
 
 
+@dataclass(eq=False)
 class Reactive:
     """The search space of robots' action sequences.
 
-    Args:
+    Attributes:
         human: their state machine.
         successors: what agents can do in an epoch.
         start: where it begins.
         horizon: number of epochs ``T``.
         no_block: robots must not leave them without a plan.
         most_cost: largest scaled cost of an acceptable plan, or None.
-        sees_all: they are observant, so that beliefs need no telling apart.
         keeps: robots must not make a plan impossible that the human would go on with: one that is being
             followed works after every epoch, unless an observant human drops it for a cheaper one.
         begins: whether a set of actions may be what happens in the first epoch; None: any.
     """
 
-    def __init__(
-        self,
-        human: Human,
-        successors: Successors,
-        *,
-        start: Start,
-        horizon: int,
-        no_block: bool,
-        most_cost: int | None,
-        sees_all: bool,
-        keeps: bool = False,
-        begins: Callable[[tuple[int, ...]], bool] | None = None,
-    ) -> None:
-        self._start = start
-        self._keeps = keeps
-        self._begins = begins
-        self._human = human
-        self._successors = successors
-        self._horizon = horizon
-        self._most_cost = most_cost
-        self._no_block = no_block
-        self._sees_all = sees_all
-        packed = human.packed
+    human: Human
+    successors: Successors
+    start: Start
+    horizon: int
+    no_block: bool
+    most_cost: int | None
+    keeps: bool = False
+    begins: Callable[[tuple[int, ...]], bool] | None = None
+
+    def __post_init__(self) -> None:
+        packed = self.human.packed
         self._goals = (packed.goal, packed.robot_goal)
-        self._offers_idle = sees_all and not packed.task.robot_goal
+        self._offers_idle = self.human.sees_all and not packed.task.robot_goal
         self._width = packed.all_ones.bit_length()
         self._labels = ParetoFront()
         self._minds: list[Mind] = []
@@ -93,11 +81,11 @@ class Reactive:
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state, and what the human has in mind."""
-        init = self._start.state
-        mind = self._number(Mind(self._belief(self._start.belief), self._start.intention, False))
+        init = self.start.state
+        mind = self._number(Mind(self._belief(self.start.belief), self.start.intention, False))
         node = Node(0, 0, init, mind << 1, 0, None, ())
         self._labels.add(self._place(node), 0, 0)
-        yield self._human.bound(init), node
+        yield self.human.bound(init), node
 
     def alive(self, node: Node) -> bool:
         """Whether no better node makes this one superfluous."""
@@ -107,70 +95,48 @@ class Reactive:
         """Successors of a node; complete plans are offered to ``best``."""
         if node.parent is None and self._offer(node, best):
             return
-        if node.epoch == self._horizon:
+        if node.epoch == self.horizon:
             return
-        mind, state = self._minds[node.phase >> 1], node.state
-        belief, look = self._look(mind, state, settled=bool(node.phase & 1))
+        mind, state, human = self._minds[node.phase >> 1], node.state, self.human
+        expected = state if human.sees_all else mind.belief
+        belief, look = human.look(expected, state, mind.intention, settled=bool(node.phase & 1))
         stuck = self._stuck(state, look)
         if mind.guarded and stuck:
             return
         if self._offers_idle and not stuck:
             self._offer_idle(node, look.intention, best)
-        yield from self._act(node, best, belief, look, guarded=self._no_block and not stuck)
-
-    def _look(self, mind: Mind, state: int, *, settled: bool) -> tuple[int, Glance]:
-        """What the human believes and decides; while all goes as expected an optimal plan stays so."""
-        human, rho = self._human, mind.intention
-        belief = state if self._sees_all else human.eyes.look(mind.belief, state)
-        surprised = not self._sees_all and (belief ^ mind.belief) & human.concern
-        if settled and not surprised:
-            return belief, Glance(rho, rho.cost, rho.cost)
-        return belief, human.decide(belief, rho)
-
-    def _act(
-        self, node: Node, best: Incumbent, belief: int, look: Glance, *, guarded: bool
-    ) -> Iterator[tuple[int, Node]]:
-        human, state = self._human, node.state
-        rho = look.intention
-        for joint in self._successors.joint(state):
+        guarded = self.no_block and not stuck
+        for joint in self.successors.joint(state):
             op = human.packed.op(joint.actions[0])
             if human.accepts(op, belief, look.best):
-                mind = Mind(self._belief(belief & op.keep | op.put), rho, guarded)
-                yield from self._children(node, best, joint, mind, settled=False)
-        if look.best is None or rho.op is None:
-            mind = Mind(self._belief(belief), rho, guarded)
-            yield from self._children(node, best, NOTHING, mind, settled=False)
-        elif applicable(rho.op, state):
-            mind = Mind(self._belief(belief & rho.op.keep | rho.op.put), rho.rest, guarded)
-            yield from self._children(node, best, rho.option, mind, settled=True)
-        else:
-            mind = Mind(human.learn(belief, state, rho.op), rho, guarded)
-            yield from self._children(node, best, NOTHING, mind, settled=False)
+                yield from self._children(node, best, human.joins(op, belief, look), guarded=guarded)
+        yield from self._children(node, best, human.goes_on(belief, state, look), guarded=guarded)
 
     def _children(
-        self, node: Node, best: Incumbent, part: JointAction, mind: Mind, *, settled: bool
+        self, node: Node, best: Incumbent, step: HumanStep, *, guarded: bool
     ) -> Iterator[tuple[int, Node]]:
         """What robots can do beside the human's part."""
-        epoch, state, human = node.epoch + 1, node.state, self._human
+        epoch, state, human = node.epoch + 1, node.state, self.human
+        part, settled = step.option, step.settled
         alone = state & part.keep | part.put
         # Robots don't change the variables that the bound looks at.
         rest = human.bound(alone)
         if node.key + part.weight + rest >= best.key:
             return
-        if mind.guarded and not self._sees_all and human.stuck(alone):
-            mind = mind._replace(guarded=False)  # the human's own mistake, whatever robots do
-        number = self._number(mind) << 1
-        for option in self._successors.with_robots(part, state):
+        if guarded and not human.sees_all and human.stuck(alone):
+            guarded = False  # the human's own mistake, whatever robots do
+        number = self._number(Mind(self._belief(step.belief), step.intention, guarded)) << 1
+        for option in self.successors.with_robots(part, state):
             key = node.key + option.weight
             bound = key + rest
-            if bound >= best.key or self._human.keys.exceeds(bound, self._most_cost):
+            if bound >= best.key or self.human.keys.exceeds(bound, self.most_cost):
                 break
-            if epoch == 1 and self._begins is not None and not self._begins(option.actions):
+            if epoch == 1 and self.begins is not None and not self.begins(option.actions):
                 continue
             after = state & option.keep | option.put
-            if settled and self._keeps and self._spoils(alone, after, mind.intention):
+            if settled and self.keeps and self._spoils(alone, after, step.intention):
                 continue
-            as_expected = settled and not (self._sees_all and (after ^ alone) & human.concern)
+            as_expected = settled and not (self.human.sees_all and (after ^ alone) & human.concern)
             child = Node(key, epoch, after, number | as_expected, 0, node, option.actions)
             if self._labels.add(self._place(child), epoch, key) and not self._offer(child, best):
                 yield bound, child
@@ -179,24 +145,24 @@ class Reactive:
         """Whether the goals hold: the plan ends there."""
         if not all(goal.holds(node.state) for goal in self._goals):
             return False
-        if node.key < best.key and not self._human.keys.exceeds(node.key, self._most_cost):
+        if node.key < best.key and not self.human.keys.exceeds(node.key, self.most_cost):
             best.key, best.node, best.end, best.tail = node.key, node, 0, ()
         return True
 
     def _offer_idle(self, node: Node, intention: Intention, best: Incumbent) -> None:
         """Offer the plan in which robots do nothing any more: the human does as intended."""
         key = node.key + intention.weight
-        if key >= best.key or len(intention.actions) > self._horizon - node.epoch:
+        if key >= best.key or len(intention.actions) > self.horizon - node.epoch:
             return
-        if self._human.keys.exceeds(key, self._most_cost):
+        if self.human.keys.exceeds(key, self.most_cost):
             return
         best.key, best.node, best.end, best.tail = key, node, node.epoch + 1, intention.actions
 
     def _stuck(self, state: int, look: Glance) -> bool:
         """Whether the human has no plan alone in the true state."""
-        if self._sees_all:
+        if self.human.sees_all:
             return look.best is None
-        return self._no_block and self._human.stuck(state)
+        return self.no_block and self.human.stuck(state)
 
     def _spoils(self, alone: int, after: int, rest: Intention) -> bool:
         """Whether robots make impossible what the human would go on with.
@@ -206,16 +172,16 @@ class Reactive:
             after: the one that the whole epoch leads to.
             rest: what the human means to do from then on.
         """
-        goal, human = self._goals[0], self._human
+        goal, human = self._goals[0], self.human
         if not (alone ^ after) & human.concern or goal.holds(after):
             return False
-        if not self._sees_all:
+        if not self.human.sees_all:
             return rest.works(alone, goal) and not rest.works(after, goal)
         look = human.decide(after, rest)
         return look.kept is None and (look.best is None or look.best >= rest.cost)
 
     def _belief(self, belief: int) -> int:
-        return 0 if self._sees_all else belief
+        return 0 if self.human.sees_all else belief
 
     def _number(self, mind: Mind) -> int:
         """A number for a mind, the same for equal ones."""
