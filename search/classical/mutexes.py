@@ -6,7 +6,8 @@ Source: Haslum and Geffner, Admissible heuristics for optimal planning (2000), w
 from collections.abc import Iterable, Sequence
 from typing import Final, NamedTuple
 
-from search.packed.operators import Operator, split
+from search.packed.operators import Operator
+from search.packed.packed_task import PackedTask
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
@@ -27,54 +28,42 @@ class ReachablePairs:
     """Pairs of values that may be reached together.
 
     Args:
-        fields: masks of the fields, with their values.
-        operators: what may be done.
-        state: the packed state to begin in.
+        packed: the packed task, from its initial state.
         deadline: polled.
-
-    Attributes:
-        mask: all fields.
 
     Raises:
         LimitReachedError: the deadline came, or there are too many values.
     """
 
-    def __init__(
-        self,
-        fields: Iterable[tuple[int, Sequence[int]]],
-        operators: Iterable[Operator],
-        state: int,
-        deadline: Deadline,
-    ) -> None:
-        self._lowest: dict[int, int] = {}
-        self._number: dict[tuple[int, int], int] = {}
-        for field, values in fields:
-            self._lowest[field & -field] = field
-            for value in values:
-                self._number[field, value] = len(self._number)
+    def __init__(self, packed: PackedTask, deadline: Deadline) -> None:
+        self._packed = packed
+        values = ((field, value) for field in packed.fields for value in packed.values(field))
+        self._number = {pair: number for number, pair in enumerate(values)}
         size = len(self._number)
         if size > _MOST_VALUES:
             raise LimitReachedError("too-many-values")
         deadline.require(size * size // 8)
-        self.mask = sum(self._lowest.values())
         self._beside = [0] * size
         """Per value those that may be reached together with it, as a bit set."""
-        at_first = self._numbers(self.mask, state)
+        at_first = self._numbers(packed.all_ones, packed.init)
         for number in at_first:
             self._beside[number] = _bits(at_first)
-        self._reach(_bits(at_first), self._changes(operators, deadline), deadline)
+        self._reach(_bits(at_first), self._changes(deadline), deadline)
 
     def _numbers(self, mask: int, state: int) -> tuple[int, ...]:
-        return tuple(self._number[field, state & field] for field in split(mask, self._lowest))
+        return tuple(map(self._number.__getitem__, self._packed.assigned(mask, state)))
 
-    def _changes(self, operators: Iterable[Operator], deadline: Deadline) -> list[_FieldChange]:
-        kept: dict[int, int] = {}
+    def _changes(self, deadline: Deadline) -> list[_FieldChange]:
+        packed, kept = self._packed, dict[int, int]()
         found = []
-        for op in operators:
+        for op in (*packed.own, *packed.joint, *packed.others):
             deadline.tick()
             if op.keep not in kept:
                 kept[op.keep] = _bits(n for (field, _), n in self._number.items() if field & op.keep)
-            needs, sets = self._numbers(op.need_mask, op.need), self._numbers(self.mask & ~op.keep, op.put)
+            needs, sets = (
+                self._numbers(op.need_mask, op.need),
+                self._numbers(packed.all_ones & ~op.keep, op.put),
+            )
             found.append(_FieldChange(needs, _bits(needs), sets, _bits(sets), kept[op.keep]))
         return found
 

@@ -1,9 +1,12 @@
 """All optimal plans of the human alone, as a graph."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from serendipity.model.resources.deadline import Deadline
+
+State = TypeVar("State", bound=Hashable)
 
 Edges = dict[int, list[tuple[int, int]]]
 """Per state the actions that continue an optimal plan, ascending, with their successors."""
@@ -90,11 +93,11 @@ class PlanGraph:
 
 
 def edges_into(
-    goals: list[int],
-    expanded: dict[int, list[tuple[int, int, int]]],
-    distance: dict[int, int],
+    goals: list[State],
+    expanded: dict[State, list[tuple[int, State, int]]],
+    distance: dict[State, int],
     deadline: Deadline,
-) -> Edges:
+) -> dict[State, list[tuple[int, State]]]:
     """The steps on some way to a goal along which distances add up.
 
     Args:
@@ -103,13 +106,13 @@ def edges_into(
         distance: per state what has to be spent to get there.
         deadline: polled at each state.
     """
-    tight: dict[int, list[tuple[int, int]]] = {}
+    tight: dict[State, list[tuple[int, State]]] = {}
     for state, steps in expanded.items():
         deadline.tick()
         for action, after, cost in steps:
             if distance.get(after) == cost:
                 tight.setdefault(after, []).append((action, state))
-    edges: Edges = {}
+    edges: dict[State, list[tuple[int, State]]] = {}
     pending, seen = list(goals), set(goals)
     while pending:
         after = pending.pop()

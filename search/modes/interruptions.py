@@ -8,6 +8,7 @@ can be as small as any plan that fits the window makes it.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import count
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
@@ -109,9 +110,14 @@ def _examined(
     context = context.for_plan(plan)
     idling = _idle_key(context, plan)
     windows = len(plan) * (horizon + 1) - len(plan) * (len(plan) + 1) // 2
-    count = _Count(2 * windows, on_progress)
+    done = count(1)
+
+    def tell() -> None:
+        if on_progress is not None:
+            on_progress(next(done), 2 * windows)
+
     human, team = (
-        _Objective(context, Weighed(context, plan, horizon, weight, robots, idling), idling, count)
+        _Objective(context, Weighed(context, plan, horizon, weight, robots, idling), idling, tell)
         for weight, robots in (_human_first(context), (context.weights.team, context.weights.robots))
     )
     for window in _ordered(len(plan), horizon):
@@ -166,21 +172,6 @@ def _ordered(starts: int, horizon: int) -> Iterator[Window]:
             yield Window(start, start + length)
 
 
-class _Count:
-    """Tells how many searches are done."""
-
-    def __init__(self, total: int, report: Callable[[int, int], None] | None) -> None:
-        self._done = 0
-        self._total = total
-        self._report = report
-
-    def one_more(self) -> None:
-        """A search is done."""
-        self._done += 1
-        if self._report is not None:
-            self._report(self._done, self._total)
-
-
 class _Objective:
     """The best plan of each window under some weights.
 
@@ -189,9 +180,9 @@ class _Objective:
     those around it; where the two meet there is nothing to search.
     """
 
-    def __init__(self, context: SearchContext, weighed: Weighed, idle: int, count: _Count) -> None:
+    def __init__(self, context: SearchContext, weighed: Weighed, idle: int, tell: Callable[[], None]) -> None:
         self._deadline = context.deadline
-        self._count = count
+        self._tell = tell
         self._weighed = weighed
         self._idle = idle
         self._nested = context.options.preservation == "kernel"
@@ -200,7 +191,7 @@ class _Objective:
     def best(self, window: Window) -> Incumbent:
         """The best plan of a window; an infinite key where none fits."""
         found = self._found[window] = self._best(window)
-        self._count.one_more()
+        self._tell()
         return found
 
     def _best(self, window: Window) -> Incumbent:

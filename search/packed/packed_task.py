@@ -8,14 +8,14 @@ conflicts between actions are still judged on their declared effects (semantics 
 """
 
 from bisect import bisect_left
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
 from search.packed.operator_index import by_most_asked
-from search.packed.operators import Operator, Signature, asked_by, forms_of, set_by
+from search.packed.operators import Operator, Signature, asked_by, forms_of, set_by, split
 from search.packed.relevance import relevant_to_goals
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
@@ -99,6 +99,7 @@ class PackedTask:
             codes = range(2) if variable.boolean else range(len(variable.facts))
             self._values[mask] = [code << shift for code in codes]
             shift += width
+        self._by_lowest_bit = {field & -field: field for field in self.fields}
         self.boolean = {f for v in task.variables if v.boolean for f in v.facts}
         # Deleting a value of a group clears nothing: what is added instead does.
         self._cleared = [
@@ -190,6 +191,14 @@ class PackedTask:
     def values(self, field: int) -> list[int]:
         """The values that a field can have, in place."""
         return self._values[field]
+
+    def split(self, mask: int) -> Iterator[int]:
+        """The fields in a union of fields, ascending."""
+        return split(mask, self._by_lowest_bit)
+
+    def assigned(self, mask: int, state: int) -> Iterator[tuple[int, int]]:
+        """The fields in a union of fields, each with what a packed state has there."""
+        return ((field, state & field) for field in split(mask, self._by_lowest_bit))
 
     def condition(self, condition: Condition) -> PackedGoal:
         """The packed form of a conjunction of literals over packed facts."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
 
 from search.packed.operator_index import OperatorIndex, by_variable, most_asked
-from search.packed.operators import Operator, Signature, set_by, split
+from search.packed.operators import Operator, Signature, set_by
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 
@@ -96,9 +96,8 @@ class TransitionGraphs:
     def __init__(self, packed: PackedTask, places: PositionVariables) -> None:
         self.places = places
         self._mentioning: dict[int, list[Signature]] = {}
-        by_lowest_bit = {field & -field: field for field in packed.fields}
         for form in packed.other_forms:
-            for field in split(form.mentions, by_lowest_bit):
+            for field in packed.split(form.mentions):
                 self._mentioning.setdefault(field, []).append(form)
         self._known: dict[int, TransitionGraph] = {}
 

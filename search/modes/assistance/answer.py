@@ -12,7 +12,6 @@ from search.modes.assistance.bounds.relaxed import joint_lower_bound, upper_boun
 from search.modes.assistance.game.game import Game
 from search.modes.assistance.game.rules import Mean, Worst
 from search.modes.assistance.game.solution import ZERO, Costs, GameSolution
-from search.modes.assistance.phase import PhaseDeadline
 from search.modes.assistance.solvers.cheapest_run import CheapestRun
 from search.modes.assistance.solvers.lao_star import LaoStar
 from search.modes.assistance.writing import Writer
@@ -31,6 +30,9 @@ _T = TypeVar("_T")
 _PLAN_SHARE: Final = 0.3
 """What of the time some plan of the prime's may take."""
 
+_OWN_SHARE: Final = 0.5
+"""What of the time the prime's own optimum may take before anything is searched."""
+
 _BOUND_SHARE: Final = 0.04
 """What a first bound may add to the time limit: a share of it."""
 
@@ -43,8 +45,7 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
         options: ``ties`` and ``no_block`` count.
         deadline: deadline and cancellation.
     """
-    left = deadline.left()
-    own_deadline = PhaseDeadline(deadline, None if left is None else left / 2)
+    own_deadline = deadline.part(_OWN_SHARE)
     try:
         game = Game(prepared, deadline, own_deadline)
     except LIMITS as limit:
@@ -57,7 +58,7 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
     if late is not None:
         yield from _without_his_optimum(game, most, late)
         return
-    own_deadline.lift()
+    own_deadline.renew(deadline)
     yield from _searched(game, options)
 
 

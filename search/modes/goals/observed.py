@@ -13,6 +13,7 @@ from fractions import Fraction
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.astar import AStar
+from search.human.plan_graph import edges_into
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import by_most_asked
 from search.packed.operators import forms_of
@@ -183,29 +184,33 @@ class _ObservedSearch:
         return tuple(reversed(plan))
 
     def _best_of_all(self) -> tuple[int, HumanPlan | None]:
-        """The least key of a plan that embeds the observations, and the canonical one.
+        """The least key of a plan that embeds the observations, and the canonical one (semantics 1).
 
         Every place whose bound does not exceed the optimum is expanded, so that all optimal
         plans are among the steps recorded.
         """
         all_seen = len(self._observed)
         search = AStar(self._start, self._missing, self._deadline, limit=INFINITE_KEY)
-        into: dict[_At, list[tuple[int, _At, int]]] = {}
+        expanded: dict[_At, list[tuple[int, _At, int]]] = {}
         ends = []
         for at, key in search:
+            steps = expanded[at] = []
             if at[1] == all_seen and self._goal.holds(at[0]):
-                search.limit = min(search.limit, key + 1)
+                search.limit = key + 1  # the first one is a cheapest one, others are no dearer
                 ends.append(at)
+                continue
             for option in self._lookup.options(at[0]):
                 after = (at[0] & option.keep | option.put, self._matched(at[1], option.actions[0]))
-                reached = key + option.weight
-                into.setdefault(after, []).append((option.actions[0], at, reached))
-                search.reach(after, reached)
+                steps.append((option.actions[0], after, key + option.weight))
+                search.reach(after, key + option.weight)
         if not ends:
             return INFINITE_KEY, None
-        optimum = search.limit - 1
-        best = [at for at in ends if search.spent[at] == optimum]
-        return optimum, self._canonical(best, into, search.spent)
+        edges = edges_into(ends, expanded, search.spent, self._deadline)
+        plan, at = [], self._start
+        while at in edges:
+            action, at = edges[at][0]
+            plan.append(action)
+        return search.spent[ends[0]], tuple(plan)
 
     def _missing(self, at: _At) -> int:
         """Lower bound of the key that is missing, whatever has been observed."""
@@ -214,28 +219,3 @@ class _ObservedSearch:
     def _matched(self, count: int, action: int) -> int:
         expected = self._observed[count] if count < len(self._observed) else None
         return count + (self._names[action] == expected)
-
-    def _canonical(
-        self,
-        ends: list[_At],
-        into: dict[_At, list[tuple[int, _At, int]]],
-        distance: dict[_At, int],
-    ) -> HumanPlan:
-        """The canonical plan: at each step the smallest action of an optimal plan (semantics 1)."""
-        onward: dict[_At, list[tuple[int, _At]]] = {}
-        pending, seen = list(ends), set(ends)
-        while pending:
-            self._deadline.tick()
-            after = pending.pop()
-            for action, at, reached in into.get(after, ()):
-                if reached != distance[after]:
-                    continue
-                onward.setdefault(at, []).append((action, after))
-                if at not in seen:
-                    seen.add(at)
-                    pending.append(at)
-        plan, at = [], self._start
-        while at in onward:
-            action, at = min(onward[at])
-            plan.append(action)
-        return tuple(plan)

@@ -29,15 +29,10 @@ def are_apart(packed: PackedTask, deadline: Deadline, *, strict: bool) -> bool:
     pairs = None
     for own, other in _in_the_way(packed, deadline):
         if packed.compatible(own.action, other.action, strict=False):
-            pairs = pairs or _pairs(packed, deadline)
+            pairs = pairs or ReachablePairs(packed, deadline)
             if pairs.may_share_a_state(own, other):
                 return False
     return True
-
-
-def _pairs(packed: PackedTask, deadline: Deadline) -> ReachablePairs:
-    fields = ((field, packed.values(field)) for field in packed.fields)
-    return ReachablePairs(fields, (*packed.own, *packed.joint, *packed.others), packed.init, deadline)
 
 
 def lost_values(packed: PackedTask) -> dict[int, set[int]]:

@@ -12,7 +12,6 @@ from heapq import heapify, heappop, heappush
 from typing import Final, NamedTuple
 
 from search.packed.cost_vector import FAR
-from search.packed.operators import split
 from search.packed.packed_task import PackedTask
 from search.short_windows.independent.provision import Value
 from serendipity.model.resources.deadline import Deadline
@@ -43,17 +42,17 @@ class Landmarks:
 
     def __init__(self, packed: PackedTask, amount: Callable[..., int], deadline: Deadline) -> None:
         self._deadline = deadline
-        self._fields = {field & -field: field for field in packed.fields}
         self._number: dict[Value, int] = {}
         self._values: list[Value] = []
-        self._goal = self._facts(packed.goal.need_mask, packed.goal.need)
-        asked = [self._facts(op.need_mask, op.need) for op in deadline.each(packed.own)]
+        self._goal = list(map(self._fact, packed.assigned(packed.goal.need_mask, packed.goal.need)))
+        asked = [
+            list(map(self._fact, packed.assigned(op.need_mask, op.need))) for op in deadline.each(packed.own)
+        ]
         self._always = self._fact((0, 0))
         """What is true from the start, for operators that ask for nothing."""
         cheapest: dict[tuple[tuple[int, ...], tuple[int, ...]], int] = {}
         for op, needs in zip(packed.own, asked, strict=True):
-            changed = split(packed.all_ones & ~op.keep, self._fields)
-            known = (self._number.get((field, op.put & field)) for field in changed)
+            known = map(self._number.get, packed.assigned(packed.all_ones & ~op.keep, op.put))
             adds = tuple(fact for fact in known if fact is not None and fact not in needs)
             if adds:
                 shape = tuple(needs) or (self._always,), adds
@@ -69,9 +68,6 @@ class Landmarks:
             self._number[value] = len(self._values)
             self._values.append(value)
         return self._number[value]
-
-    def _facts(self, mask: int, state: int) -> list[int]:
-        return [self._fact((field, state & field)) for field in split(mask, self._fields)]
 
     def _by_fact(self, lists: list[tuple[int, ...]]) -> list[list[int]]:
         found: list[list[int]] = [[] for _ in self._values]

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from search.packed.operators import Operator, split
+from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 
@@ -31,16 +31,15 @@ def provisions(
         epochs: how many are looked at.
         deadline: polled.
     """
-    fields = {field & -field: field for field in packed.fields}
     changes = []
     for op in packed.others:
         deadline.tick()
-        needs = frozenset((field, op.need & field) for field in split(op.need_mask, fields))
-        sets = [(field, op.put & field) for field in split(packed.all_ones & ~op.keep, fields)]
+        needs = frozenset(packed.assigned(op.need_mask, op.need))
+        sets = list(packed.assigned(packed.all_ones & ~op.keep, op.put))
         changes.append(_Change(op, needs, sets))
     found: dict[int, Provision] = {}
     state = packed.init
-    known = _values(packed, state)
+    known = set(packed.assigned(packed.all_ones, state))
     for epoch in range(1, epochs + 1):
         new: set[Value] = set()
         left = []
@@ -56,7 +55,7 @@ def provisions(
         changes = left
         if epoch <= len(steps):
             state = state & steps[epoch - 1].keep | steps[epoch - 1].put
-            new |= _values(packed, state)
+            new.update(packed.assigned(packed.all_ones, state))
         known |= new
     return found
 
@@ -74,7 +73,3 @@ def by_others(found: dict[int, Provision], robot: int) -> Provision:
             for value, epoch in provision.items():
                 soonest[value] = min(epoch, soonest.get(value, epoch))
     return soonest
-
-
-def _values(packed: PackedTask, state: int) -> set[Value]:
-    return {(field, state & field) for field in packed.fields}

@@ -12,7 +12,7 @@ from typing import Final
 
 from search.call.context import SearchContext
 from search.packed.cost_vector import FAR, INFINITE_KEY
-from search.packed.operators import Operator, split
+from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from search.short_windows.independent.conditions import are_apart, lost_values
 from search.short_windows.independent.landmarks import Landmarks
@@ -72,11 +72,9 @@ class ShortWindows:
 
 def _relies(packed: PackedTask, robot: int, others: Provision) -> bool:
     """Whether a robot could make use of what others can provide."""
-    fields = {field & -field: field for field in packed.fields}
     for op in packed.others:
         if op.agents == robot:
-            needs = ((field, op.need & field) for field in split(op.need_mask, fields))
-            if any(value in others for value in needs):
+            if any(value in others for value in packed.assigned(op.need_mask, op.need)):
                 return True
             if any(field == other for field, _ in op.forbidden for other, _ in others):
                 return True

@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from search.packed.cost_vector import FAR, NEVER
-from search.packed.operators import Operator, asked_by, split
+from search.packed.operators import Operator, asked_by
 from search.packed.packed_task import PackedTask
 from search.short_windows.independent.detours import detours, leaves
 from search.short_windows.independent.provision import Provision
@@ -106,7 +106,6 @@ class Timeline:
         self._others = others
         self._strict = strict
         self._deadline = deadline
-        self._fields = {field & -field: field for field in packed.fields}
         self._words = max(1, -(-packed.all_ones.bit_length() // 64))
         ops = [op for op in packed.others if op.agents == robot]
         self.changes = packed.changed_by(ops)
@@ -137,8 +136,8 @@ class Timeline:
 
     def _act(self, op: Operator, amount: int) -> _Act:
         needs = [
-            _Literal(field, op.need & field, self._others.get((field, op.need & field), NEVER))
-            for field in split(op.need_mask, self._fields)
+            _Literal(field, value, self._others.get((field, value), NEVER))
+            for field, value in self._packed.assigned(op.need_mask, op.need)
         ]
         forbids = [_Literal(field, value, self._rid_of(field, value)) for field, value in op.forbidden]
         return _Act(op, amount, needs, forbids)
@@ -180,7 +179,7 @@ class Timeline:
             TooManyStatesError: there is no such field.
         """
         rows, best = self._last.rows, None
-        for field in split(self.changes & self._local & ~self._relevant, self._fields):
+        for field in self._packed.split(self.changes & self._local & ~self._relevant):
             without = rows & column(~field & self._local, self._words)
             kept = cheapest(without, self._last.amounts, self._deadline)
             askers = sum(bool(field & act.op.need_mask) for act in self._acts)
@@ -236,9 +235,9 @@ class Timeline:
     def _allows(self, step: Operator, rows: Rows, epoch: int) -> Flags:
         """After which states the human can go on with their plan, unless others see to what is missing."""
         fits = np.ones(rows.shape[1], dtype=np.bool_)
-        for field in split(step.need_mask & self.changes, self._fields):
-            if self._others.get((field, step.need & field), NEVER) >= epoch:
-                fits &= agree(rows, field, step.need & field)
+        for field, value in self._packed.assigned(step.need_mask & self.changes, step.need):
+            if self._others.get((field, value), NEVER) >= epoch:
+                fits &= agree(rows, field, value)
         for field, value in step.forbidden:
             if field & self.changes and self._rid_of(field, value) >= epoch:
                 fits &= ~agree(rows, field, value)
@@ -269,7 +268,7 @@ class Timeline:
             self._deadline.check()
             if step is not None and not self._beside(act, step):
                 continue
-            able = self._able(act, rows)
+            able = self._able(act, rows, len(self._layers))
             if able.any():
                 spent = amounts[able] + self._paid(act, rows[:, able], len(self._layers))
                 can = spent < FAR
@@ -303,11 +302,8 @@ class Timeline:
                 paid = np.minimum(paid + self._detours[field][codes(rows, field), there], FAR)
         return paid
 
-    def _able(self, act: _Act, rows: Rows) -> Flags:
-        """After which states the robot can do something in the next epoch."""
-        return self._able_in(act, rows, len(self._layers))
-
-    def _able_in(self, act: _Act, rows: Rows, epoch: int) -> Flags:
+    def _able(self, act: _Act, rows: Rows, epoch: int) -> Flags:
+        """After which states the robot can do something in an epoch."""
         mask = value = 0
         for literal in act.needs:
             if literal.epoch >= epoch:
@@ -369,7 +365,7 @@ class Timeline:
             self._deadline.check()
             if step is None or self._beside(act, step):
                 known = np.flatnonzero(fits & (layer.amounts + act.amount <= amount))
-                known = known[self._able_in(act, layer.rows[:, known], epoch)]
+                known = known[self._able(act, layer.rows[:, known], epoch)]
                 paid = self._paid(act, layer.rows[:, known], epoch)
                 known = known[layer.amounts[known] + paid == amount]
                 for before in np.unique(layer.amounts[known]):

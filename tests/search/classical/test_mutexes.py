@@ -35,11 +35,6 @@ def _reached(packed: PackedTask) -> list[int]:
     return found
 
 
-def _pairs(packed: PackedTask) -> ReachablePairs:
-    fields = ((field, packed.values(field)) for field in packed.fields)
-    return ReachablePairs(fields, (*packed.own, *packed.joint, *packed.others), packed.init, Deadline())
-
-
 def _may_hold(pairs: ReachablePairs, mask: int, state: int) -> bool:
     """Whether what fields hold in a state may be true at once: an operator that asks for it beside itself."""
     asking = Operator(mask, state & mask, -1, 0, (), 0, 0, 0)
@@ -52,7 +47,7 @@ def test_what_can_happen_in_a_state_is_not_excluded(seed: int) -> None:
     family = dice.choice(sorted(FAMILIES))
     size, agents = dice.choice(SMALL[family])
     packed = _packed(FAMILIES[family](dice, size, AGENTS[:agents]))
-    pairs = _pairs(packed)
+    pairs = ReachablePairs(packed, Deadline())
     for state in dice.sample(reached := _reached(packed), min(60, len(reached))):
         able = [op for op in (*packed.own, *packed.others) if applicable(op, state)]
         assert _may_hold(pairs, packed.all_ones, state)
@@ -73,7 +68,7 @@ def test_a_lamp_is_not_left_on_behind_a_closed_door() -> None:
         },
     )
     packed = _packed(task)
-    pairs = _pairs(packed)
+    pairs = ReachablePairs(packed, Deadline())
     door, lamp = (packed.fact_bits[task.facts.index(fact)] for fact in ("open", "lamp"))
     assert door is not None
     assert lamp is not None

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from operator import itemgetter
 
 from search.packed.operator_index import LiteralIndex
-from search.packed.operators import Operator, split
+from search.packed.operators import Operator
+from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 
 _RANK = itemgetter(0)
@@ -17,18 +18,17 @@ class Watched:
     Where many fields matter (a place each, say), no single field tells ops apart.
 
     Args:
+        packed: the packed task.
         ops: the ops; candidates come in this order.
-        fields: masks of the fields.
         deadline: polled while they are sorted in.
     """
 
-    def __init__(self, ops: Sequence[Operator], fields: Sequence[int], deadline: Deadline) -> None:
-        by_lowest_bit = {field & -field: field for field in fields}
+    def __init__(self, packed: PackedTask, ops: Sequence[Operator], deadline: Deadline) -> None:
         asked = []
         count: Counter[tuple[int, int]] = Counter()
         for op in ops:
             deadline.tick()
-            pairs = [(field, op.need & field) for field in split(op.need_mask, by_lowest_bit)]
+            pairs = list(packed.assigned(op.need_mask, op.need))
             asked.append(pairs)
             for pair in pairs:
                 count[pair] += 1

@@ -66,7 +66,7 @@ class Game:
         require_room(2 * self.unit_bits)
         robot = 1 << task.robots[0]
         self.supporter_ops = tuple(op for op in self.packed.others if op.agents == robot)
-        self._supporter_index = Watched(self.supporter_ops, self.packed.fields, deadline)
+        self._supporter_index = Watched(self.packed, self.supporter_ops, deadline)
         self._prime_moves: dict[int, tuple[Move, ...]] = {}
 
     @cached_property

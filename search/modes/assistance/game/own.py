@@ -36,7 +36,7 @@ class OwnCosts:
         self._changed = packed.changed_by(packed.own)
         self._mask = packed.own_mask | packed.goal.mask
         self._context: dict[int, Closure | None] = {}
-        self._index = Watched(packed.own, packed.fields, deadline)
+        self._index = Watched(packed, packed.own, deadline)
         self._single: IndividualPlanner | None = None
         self._too_large = False
 

@@ -14,7 +14,7 @@ from tests.search.modes.assistance.strategies import games
 def test_every_applicable_op_is_a_candidate(task: Task) -> None:
     packed = PackedTask(task, frozenset(), Deadline())
     ops = packed.own + packed.others
-    watched = Watched(ops, packed.fields, Deadline())
+    watched = Watched(packed, ops, Deadline())
     pending, seen = [packed.init], {packed.init}
     while pending:
         state = pending.pop()
