@@ -11,8 +11,8 @@ from search.bounds.interactions import Interactions
 from search.bounds.private_distances import PrivateDistances
 from search.call.prepared_task import PreparedTask, TaskTables
 from search.engine.best_first import Node
-from search.human.individual_planner import FoundPlan, IndividualPlanner, priced_planner
-from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase, in_keys
+from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
+from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase
 from search.human.plan_graph import PlanGraph
 from search.packed.cost_vector import INFINITE_KEY, Weights
 from search.packed.operators import Operator, changed
@@ -86,7 +86,8 @@ class SearchContext:
     @cached_property
     def bound(self) -> PatternDatabase:
         """Lower bound on what the human still has to pay for ``G_H``."""
-        return in_keys(self.tables.human.projection(self.deadline), self.weights)
+        own = self.tables.human.projection(self.deadline)
+        return PatternDatabase(own.mask, self.weights.of_own(own.distances))
 
     @property
     def steps(self) -> PatternDatabase:
@@ -110,11 +111,19 @@ class SearchContext:
     @cached_property
     def alone(self) -> IndividualPlanner:
         """The human alone, to ``G_H``."""
-        if not self.weights.announces:
-            human = self.tables.human
-            bound = NOTHING_KNOWN if self._has_kernel else human.projection(self.deadline)
-            return priced_planner(self.packed, bound, human.memory(), self.weights, self.deadline)
-        return IndividualPlanner(self.packed, self.packed.goal, self.weights.alone, self.bound, self.deadline)
+        if self.weights.announces:
+            return self._alone_to(self.packed.goal)
+        packed, human = self.packed, self.tables.human
+        bound = NOTHING_KNOWN if self._has_kernel else human.projection(self.deadline)
+        # What it finds serves calls that weigh otherwise.
+        return IndividualPlanner(
+            packed, packed.goal, bound, human.memory(), self.deadline, prices=self.weights
+        )
+
+    def _alone_to(self, goal: PackedGoal) -> IndividualPlanner:
+        """The human alone, to a goal that this call asks about."""
+        memory = Memory(self.packed, self.weights.alone)
+        return IndividualPlanner(self.packed, goal, self.bound, memory, self.deadline)
 
     @cached_property
     def alone_to_both(self) -> IndividualPlanner | None:
@@ -127,8 +136,7 @@ class SearchContext:
         )
         if not affects:
             return None
-        goal = self.packed.condition(_both(self.task))
-        return IndividualPlanner(self.packed, goal, self.weights.alone, self.bound, self.deadline)
+        return self._alone_to(self.packed.condition(_both(self.task)))
 
     @property
     def interactions(self) -> Interactions:

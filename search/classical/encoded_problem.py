@@ -50,10 +50,6 @@ class EncodedProblem:
         """A packed state."""
         return (state & self._mask).to_bytes(self.size, "little")
 
-    def state(self, row: bytes) -> int:
-        """The packed state of a row."""
-        return int.from_bytes(row, "little")
-
     def _of(self, problem: ClassicalProblem) -> Spec:
         goal, operators, full = problem.goal, problem.operators, (1 << 8 * self.size) - 1
         literals = [(number, pair) for number, op in enumerate(operators) for pair in op.forbidden]

@@ -7,7 +7,7 @@ alone; tables of projections follow once a question turns out to be worth them.
 
 import ctypes
 from array import array
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from typing import Final
 
 from search.classical.encoded_problem import EncodedProblem, memory_for
@@ -176,23 +176,15 @@ class ClassicalPlanner:
         assert start is not None, "a search is under way"
         amounts = [problem.amount(weight) for weight in problem.weights]
         search = AStar(start, lambda _: 0, deadline, limit=self._most)
-        parents: dict[int, tuple[int, int]] = {}
         for state, spent in search:
             if problem.goal.holds(state):
-                self._plans[start] = self._way(start, state, parents)
+                self._plans[start] = [number for _, number in search.way_back(state)][::-1]
                 return spent
             for number, op in enumerate(problem.operators):
                 after = (state & op.keep | op.put) & self._mask
-                if applicable(op, state) and search.reach(after, spent + amounts[number]):
-                    parents[after] = state, number
+                if applicable(op, state):
+                    search.reach(after, spent + amounts[number], state, number)
         return INFINITE_KEY if search.least is None else self._most
-
-    def _way(self, start: int, end: int, parents: Mapping[int, tuple[int, int]]) -> list[int]:
-        numbers = []
-        while end != start:
-            end, number = parents[end]
-            numbers.append(number)
-        return numbers[::-1]
 
     @property
     def is_open(self) -> bool:

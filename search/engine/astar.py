@@ -5,17 +5,16 @@ The loop over what comes up is the caller's::
     search = AStar(start, estimate, deadline, limit=limit)
     for state, spent in search:
         for weight, after in steps(state):
-            search.reach(after, spent + weight)
+            search.reach(after, spent + weight, state, step)
 
-so that it may end where it likes, record what it needs (:meth:`AStar.reach` says whether a way is
-the cheapest so far), and lower the limit when it has found
-something.  The estimate is consistent: a state comes up once, when its cost is known.  Where more
-becomes known of a state than its estimate said, :meth:`AStar.postpone` puts it back.
+so that it may end where it likes, go back along a cheapest way (:meth:`AStar.way_back`), and lower the
+limit when it has found something.  The estimate is consistent: a state comes up once, when its cost is
+known.  Where more becomes known of a state than its estimate said, :meth:`AStar.postpone` puts it back.
 """
 
 from collections.abc import Callable, Hashable, Iterator
 from heapq import heappop, heappush
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from serendipity.model.resources.deadline import Deadline
 
@@ -55,6 +54,7 @@ class AStar(Generic[State]):
         self._sign = -1 if deep_first else 1
         self._queue: list[tuple[int, int, State]] = [(estimate(start), 0, start)]
         self._closed: set[State] = set()
+        self._before: dict[State, tuple[State, Any]] = {}
 
     @property
     def least(self) -> int | None:
@@ -71,14 +71,27 @@ class AStar(Generic[State]):
                 self._deadline.tick()
                 yield state, spent[state]
 
-    def reach(self, state: State, spent: int) -> bool:
-        """Note a way to a state; whether it is the cheapest so far."""
+    def reach(self, state: State, spent: int, before: State, step: object = None) -> None:
+        """Note a way to a state, if it is the cheapest so far.
+
+        Args:
+            state: the state.
+            spent: what has been spent by then.
+            before: the state before it.
+            step: what leads from there to it.
+        """
         known = self.spent.get(state)
         if known is not None and spent >= known:
-            return False
+            return
         self.spent[state] = spent
+        self._before[state] = before, step
         heappush(self._queue, (spent + self._estimate(state), self._sign * spent, state))
-        return True
+
+    def way_back(self, state: State) -> Iterator[tuple[State, Any]]:
+        """The states before a state on the cheapest way to it, with the step from each, back to the start."""
+        while state in self._before:
+            state, step = self._before[state]
+            yield state, step
 
     def postpone(self, state: State, total: int) -> None:
         """Put a state that has come up back, until nothing cheaper than a total is left."""

@@ -29,7 +29,12 @@ _MANY: Final = 2_000
 class Memory:
     """What has been found out about the human alone; good for calls that weigh alike.
 
+    Args:
+        packed: the packed task.
+        weight: of one of their own ops; None: as :func:`.own_weights` has it.
+
     Attributes:
+        weight: the same.
         lookup: the human's own operators.
         known: optimal keys by state.
         at_least: what optimal keys are not below.
@@ -38,8 +43,10 @@ class Memory:
         plans: the optimal plans from the state that was asked about last.
     """
 
-    def __init__(self, lookup: Lookup) -> None:
-        self.lookup = lookup
+    def __init__(self, packed: PackedTask, weight: Callable[[Operator], int] | None = None) -> None:
+        own = own_weights(packed)
+        self.weight = weight or (lambda op: own[op.cost])
+        self.lookup = Lookup(packed.own_index, self.weight)
         self.known: dict[int, int] = {}
         self.at_least: dict[int, int] = {}
         self.expanded = 0
@@ -69,12 +76,11 @@ class IndividualPlanner:
     """The human's optimal key to a goal with every robot idle.
 
     Args:
-        encoding: the packed task.
+        packed: the packed task.
         goal: what has to hold at the end.
-        weight: of one of their own ops.
         bound: admissible lower bound to ``goal`` on sums of weights.
+        memory: how operators weigh, and what earlier calls have found with the same goal and weights.
         deadline: polled at each state that comes up.
-        memory: what earlier calls have found with the same goal and weights.
         prices: makes keys of sums of weights, then in the unit of :func:`.own_weights`, which the kernel
             knows; None: they are keys.
     """
@@ -83,23 +89,19 @@ class IndividualPlanner:
         self,
         packed: PackedTask,
         goal: PackedGoal,
-        weight: Callable[[Operator], int],
         bound: PatternDatabase,
+        memory: Memory,
         deadline: Deadline,
-        memory: Memory | None = None,
         prices: Weights | None = None,
     ) -> None:
         self._packed = packed
         self._goal = goal
-        self._weight = weight
         self._prices = prices
         self._projection = bound
         self._deadline = deadline
         self._mask = goal.mask | bound.mask | packed.own_mask
-        self._memory = memory or Memory(Lookup(packed.own_index, weight))
-        self._lookup = self._memory.lookup
-        self._known = self._memory.known
-        self._at_least = self._memory.at_least
+        self._memory = memory
+        self._lookup, self._known, self._at_least = memory.lookup, memory.known, memory.at_least
         self._blind = bool(goal.mask & ~bound.mask)
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
@@ -150,7 +152,6 @@ class IndividualPlanner:
         a cheaper end may come.
         """
         search = AStar(start, self._estimate, self._deadline, limit=limit, deep_first=True)
-        parents: dict[int, tuple[int, int]] = {}
         end, hopeless = None, True
         for number, (state, spent) in enumerate(search):
             self._count(number)
@@ -162,10 +163,9 @@ class IndividualPlanner:
                 continue
             for option in self._lookup.options(state):
                 after = state & option.keep | option.put
-                if search.reach(after, spent + option.weight):
-                    parents[after] = state, option.weight
+                search.reach(after, spent + option.weight, state, option.weight)
         if end is not None:
-            return self._remember(end, search.limit - search.spent[end], parents)
+            return self._remember(end, search.limit - search.spent[end], search)
         if hopeless and (search.least is None or search.least >= INFINITE_KEY):
             self._known[start] = INFINITE_KEY
             return INFINITE_KEY
@@ -210,19 +210,18 @@ class IndividualPlanner:
         known = self._known.get(state)
         return 0 if known is None and self._goal.holds(state) else known
 
-    def _remember(self, state: int, rest: int, parents: dict[int, tuple[int, int]]) -> int:
+    def _remember(self, state: int, rest: int, search: AStar[int]) -> int:
         """Note the keys of all states along a cheapest way, from its end on; that of its start.
 
         Args:
             state: where it ends.
             rest: the human's optimal key there.
-            parents: the state before each state but the start, and the weight of the step.
+            search: which has come there.
         """
         self._known[state] = rest
-        while state in parents:
-            state, weight = parents[state]
+        for before, weight in search.way_back(state):
             rest += weight
-            self._known[state] = rest
+            self._known[before] = rest
         return rest
 
     def canonical(self, state: int) -> FoundPlan | None:
@@ -284,10 +283,11 @@ class IndividualPlanner:
     def proved(self, state: int, plan: HumanPlan) -> None:
         """Note that a plan from a packed state is optimal, as was proved over another packing."""
         ops = [self._packed.op(action) for action in plan]
-        rest = sum(map(self._weight, ops))
+        weight = self._memory.weight
+        rest = sum(map(weight, ops))
         for op in ops:
             self._known[state & self._mask] = rest
-            state, rest = state & op.keep | op.put, rest - self._weight(op)
+            state, rest = state & op.keep | op.put, rest - weight(op)
 
     def _graph(self, start: int) -> PlanGraph | None:
         last = self._memory.plans
@@ -320,7 +320,7 @@ class IndividualPlanner:
             for option in self._lookup.options(state):
                 after, cost = state & option.keep | option.put, spent + option.weight
                 steps.append((option.actions[0], after, cost))
-                search.reach(after, cost)
+                search.reach(after, cost, state)
         if not goals:
             self._known[start] = INFINITE_KEY
             return None
@@ -343,25 +343,3 @@ def canonical(alone: IndividualPlanner, state: int) -> tuple[int, ...]:
     plan = alone.canonical(state)
     assert plan is not None, "asked for plans where there are none"
     return plan.actions
-
-
-def priced_planner(
-    packed: PackedTask, bound: PatternDatabase, memory: Memory, weights: Weights, deadline: Deadline
-) -> IndividualPlanner:
-    """The human alone to ``G_H`` in the keys of a call; what it finds serves calls that weigh otherwise.
-
-    Args:
-        packed: the packed task.
-        bound: what :func:`.own_projection` finds.
-        memory: what earlier calls have found, see :func:`own_memory`.
-        weights: key increments of the call, which say nothing of communication.
-        deadline: polled at each state that comes up.
-    """
-    own = own_weights(packed)
-    return IndividualPlanner(packed, packed.goal, lambda op: own[op.cost], bound, deadline, memory, weights)
-
-
-def own_memory(packed: PackedTask) -> Memory:
-    """A memory that is empty, in the unit of :func:`.own_weights`."""
-    own = own_weights(packed)
-    return Memory(Lookup(packed.own_index, lambda op: own[op.cost]))

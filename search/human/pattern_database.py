@@ -16,7 +16,7 @@ from operator import mul
 from typing import Final, NamedTuple
 
 from search.engine.shortest_paths import backward
-from search.packed.cost_vector import INFINITE_KEY, Weights, own_actions, own_weights
+from search.packed.cost_vector import INFINITE_KEY, own_actions, own_weights
 from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.operators import Signature, set_by
 from search.packed.packed_task import PackedGoal, PackedTask
@@ -71,11 +71,6 @@ class Projected:
     mask: int
     moves: Predecessors
     interactions: Predecessors
-
-
-def in_keys(own: PatternDatabase, weights: Weights) -> PatternDatabase:
-    """What :func:`own_projection` finds, in the key increments of a call."""
-    return PatternDatabase(own.mask, weights.of_own(own.distances))
 
 
 def own_projection(packed: PackedTask, graph: Projected, deadline: Deadline) -> PatternDatabase:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from search.human.individual_planner import Memory, own_memory
+from search.human.individual_planner import Memory
 from search.human.pattern_database import (
     PatternDatabase,
     Projected,
@@ -77,5 +77,5 @@ class HumanTables:
     def memory(self) -> Memory:
         """What calls have found out about the human alone."""
         if self._memory is None:
-            self._memory = own_memory(self._packed)
+            self._memory = Memory(self._packed)
         return self._memory

@@ -124,14 +124,7 @@ class Successors:
 
     def robots(self, state: int) -> list[JointAction]:
         """Every applicable set of actions of the robots without the human, cheapest first."""
-        found = self._busy.get(state)
-        if found is None:
-            found = [NOTHING]
-            for lookup in self._led:
-                found += list(self._extend(found, lookup.options(state)))
-            found.sort(key=lambda option: option.weight)
-            self._busy.keep(state, found, len(found))
-        return found
+        return self._busy.get(state) or self._sets(state, self._busy)
 
     def with_robots(self, first: JointAction, state: int) -> Iterator[JointAction]:
         """``first`` (the human's part) alone and with each set of robots' actions that fits it."""
@@ -139,15 +132,21 @@ class Successors:
 
     def with_changers(self, first: JointAction, state: int, fields: int) -> Iterator[JointAction]:
         """The same, of robots' actions only those that set some of the fields."""
-        found = self._changing.get(state)
-        if found is None:
-            found = [NOTHING]
-            for lookup in self._led:
-                setting = [option for option in lookup.options(state) if ~option.keep & fields]
-                found += list(self._extend(found, setting))
-            found.sort(key=lambda option: option.weight)
-            self._changing.keep(state, found, len(found))
-        return self._combine(first, found)
+        return self._combine(first, self._changing.get(state) or self._sets(state, self._changing, fields))
+
+    def _sets(
+        self, state: int, kept: StateCache[list[JointAction]], fields: int | None = None
+    ) -> list[JointAction]:
+        """Sets of robots' actions, cheapest first; of those only that set some fields, if any are named."""
+        found = [NOTHING]
+        for lookup in self._led:
+            options = lookup.options(state)
+            if fields is not None:
+                options = [option for option in options if ~option.keep & fields]
+            found += list(self._extend(found, options))
+        found.sort(key=lambda option: option.weight)
+        kept.keep(state, found, len(found))
+        return found
 
     def beside(
         self, first: JointAction, state: int, idle: Idle, promising: Callable[[JointAction], bool]

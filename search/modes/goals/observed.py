@@ -166,22 +166,14 @@ class _ObservedSearch:
         if not embed and not all_seen:
             return INFINITE_KEY, None
         search = AStar(self._start, self._missing, self._deadline, limit=limit, deep_first=True)
-        into: dict[_At, tuple[int, _At]] = {}
         for at, key in search:
             if (at[1] == all_seen) == embed and self._goal.holds(at[0]):
-                return key, self._way(at, into)
+                return key, tuple(action for _, action in search.way_back(at))[::-1]
             for option in self._lookup.options(at[0]):
                 after = (at[0] & option.keep | option.put, self._matched(at[1], option.actions[0]))
-                if (embed or after[1] < all_seen) and search.reach(after, key + option.weight):
-                    into[after] = option.actions[0], at
+                if embed or after[1] < all_seen:
+                    search.reach(after, key + option.weight, at, option.actions[0])
         return INFINITE_KEY, None
-
-    def _way(self, at: _At, into: dict[_At, tuple[int, _At]]) -> HumanPlan:
-        plan: list[int] = []
-        while at != self._start:
-            action, at = into[at]
-            plan.append(action)
-        return tuple(reversed(plan))
 
     def _best_of_all(self) -> tuple[int, HumanPlan | None]:
         """The least key of a plan that embeds the observations, and the canonical one (semantics 1).
@@ -202,7 +194,7 @@ class _ObservedSearch:
             for option in self._lookup.options(at[0]):
                 after = (at[0] & option.keep | option.put, self._matched(at[1], option.actions[0]))
                 steps.append((option.actions[0], after, key + option.weight))
-                search.reach(after, key + option.weight)
+                search.reach(after, key + option.weight, at)
         if not ends:
             return INFINITE_KEY, None
         edges = edges_into(ends, expanded, search.spent, self._deadline)

@@ -27,7 +27,7 @@ def test_least_costs_below_the_limit(
         assert node not in met
         met[node] = spent
         for weight, after in edges[node]:
-            search.reach(after, spent + weight)
+            search.reach(after, spent + weight, node)
     assert met == {node: cost for node, cost in exact.items() if node in met}
     if exact.get(goal, FAR) < limit:
         assert goal in met
@@ -38,19 +38,16 @@ def test_least_costs_below_the_limit(
 def test_the_limit_may_be_lowered(edges: Edges, goal: int, deep_first: bool) -> None:
     estimate, exact = estimates(edges, goal, 4), distances({0: 0}, edges)
     search = AStar(0, estimate.__getitem__, Deadline(), limit=FAR, deep_first=deep_first)
-    parents: dict[int, tuple[int, int]] = {}
     for node, spent in search:
         if node == goal:
             search.limit = spent
         for weight, after in edges[node]:
-            if search.reach(after, spent + weight):
-                parents[after] = node, weight
+            search.reach(after, spent + weight, node, weight)
     assert search.limit == exact.get(goal, FAR)
-    cost, node = 0, goal
-    while search.limit < FAR and node != 0:
-        node, weight = parents[node]
-        cost += weight
-    assert cost == (search.limit if search.limit < FAR else 0)
+    if search.limit < FAR:
+        way = list(search.way_back(goal))
+        assert sum(weight for _, weight in way) == search.limit
+        assert [node for node, _ in way][-1:] == [0] * (goal != 0)
 
 
 def test_ties_go_by_what_has_been_spent_and_by_the_state() -> None:
@@ -61,7 +58,7 @@ def test_ties_go_by_what_has_been_spent_and_by_the_state() -> None:
             met.append(node)
             if not node:
                 for spent, after in ((2, 3), (1, 1), (2, 2)):
-                    search.reach(after, spent)
+                    search.reach(after, spent, node)
         assert met == expected
 
 
@@ -71,8 +68,8 @@ def test_what_is_postponed_comes_up_again_in_its_turn() -> None:
     for node, spent in search:
         met.append(node)
         if node == 0:
-            search.reach(1, 1)
-            search.reach(2, 3)
+            search.reach(1, 1, 0)
+            search.reach(2, 3, 0)
         elif node == 1 and met.count(1) == 1:
             search.postpone(1, 5)
             assert search.least == 3

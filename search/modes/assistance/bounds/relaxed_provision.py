@@ -40,9 +40,6 @@ class ChargedStep(NamedTuple):
 _Known = dict[int, tuple[int, ChargedStep | None, int]]
 """By projected state its exact value, the first step of a cheapest way, the state after it."""
 
-_Parents = dict[int, tuple[int, ChargedStep, int]]
-"""By projected state the state before it on a cheapest way, the step from there, its value."""
-
 
 @dataclass(frozen=True, slots=True)
 class _Context:
@@ -211,29 +208,26 @@ class RelaxedProvision:
             return known[start][0]
         deadline = self._game.deadline
         search = AStar(start, partial(self._least, context), deadline, limit=INFINITE_KEY, deep_first=True)
-        parents: _Parents = {}
         for at, spent in search:
             if at not in known and self._holds(at):
                 known[at] = (0, None, at)
             if at in known:
                 total = spent + known[at][0]
                 if total < INFINITE_KEY and (search.least is None or total <= search.least):
-                    return self._remember(known, parents, at)
+                    return self._remember(known, search, at)
                 # A known value may exceed the estimate that brought the state up.
                 search.postpone(at, total)
                 continue
             for value, after, step in self._steps_from(context, at):
-                if search.reach(after, spent + value):
-                    parents[after] = at, step, value
+                search.reach(after, spent + value, at, (step, value))
         known[start] = (INFINITE_KEY, None, start)
         return INFINITE_KEY
 
     @staticmethod
-    def _remember(known: _Known, parents: _Parents, end: int) -> int:
+    def _remember(known: _Known, search: AStar[int], end: int) -> int:
         """Note the values of all states along a cheapest way, from its end on; that of its start."""
         value, at = known[end][0], end
-        while at in parents:
-            before, step, weight = parents[at]
+        for before, (step, weight) in search.way_back(end):
             value += weight
             known[before] = (value, step, at)
             at = before

@@ -14,7 +14,7 @@ from typing import Final, NamedTuple
 from search.call.prepared_task import PreparedTask
 from search.modes.assistance.distances.watched import Watched
 from search.modes.assistance.game.own import OwnCosts
-from search.packed.cost_vector import INFINITE_KEY, require_room
+from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY, require_room
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
@@ -127,7 +127,7 @@ class Game:
         Whatever the prime chooses among their optimal actions, they pay their optimal cost.
         """
         key = self.own.key(state)
-        return INFINITE_KEY if key >= INFINITE_KEY else self.own.cost_in(key) << self.unit_bits
+        return INFINITE_KEY if key >= INFINITE_KEY else key >> ACTIONS_BITS << self.unit_bits
 
     def value_alone(self, plan: HumanPlan) -> int:
         """The value of a plan of the prime's: what the supporter's doing nothing is worth at most."""

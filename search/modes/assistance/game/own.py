@@ -6,8 +6,8 @@ a table over the rest is filled in where it is asked for.
 
 from typing import Final
 
-from search.human.individual_planner import IndividualPlanner
-from search.human.pattern_database import PatternDatabase
+from search.human.individual_planner import IndividualPlanner, Memory
+from search.human.pattern_database import NOTHING_KNOWN
 from search.modes.assistance.distances.arcs import Arc, ClosureTooLargeError
 from search.modes.assistance.distances.closure import Closure
 from search.modes.assistance.distances.watched import Watched
@@ -39,10 +39,6 @@ class OwnCosts:
         self._index = Watched(packed, packed.own, deadline)
         self._single: IndividualPlanner | None = None
         self._too_large = False
-
-    def cost_in(self, key: int) -> int:
-        """The scaled cost in a key."""
-        return key >> ACTIONS_BITS
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """The prime's optimal key; ``INFINITE_KEY`` without a plan; at or above ``limit`` any such value."""
@@ -93,10 +89,8 @@ class OwnCosts:
     def _search(self, state: int, limit: int) -> int:
         if self._single is None:
             packed, weights = self._packed, self._weights
-            blind = PatternDatabase(0, {0: 0})
-            self._single = IndividualPlanner(
-                packed, packed.goal, lambda op: weights[op.cost], blind, self._deadline
-            )
+            memory = Memory(packed, lambda op: weights[op.cost])
+            self._single = IndividualPlanner(packed, packed.goal, NOTHING_KNOWN, memory, self._deadline)
         return self._single.key(state, limit)
 
 
