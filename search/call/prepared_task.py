@@ -7,7 +7,7 @@ callers make, hold and move: to another state (:meth:`PreparedTask.at`), to anot
 call's deadline; a deadline that comes first leaves nothing half made.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from copy import copy
 from math import prod
 
@@ -19,11 +19,12 @@ from search.human.tables import HumanTables
 from search.packed.cost_vector import CostScales
 from search.packed.packed_task import PackedTask
 from search.packed.packings import diversions, doubted, human_facts
+from search.packed.table import Table
 from search.robots.tables import RobotTables
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
 from serendipity.model.task.task import Task
-from serendipity.model.task.visibility import Surroundings, surroundings
+from serendipity.model.task.visibility import surroundings
 
 
 class TaskTables:
@@ -38,6 +39,8 @@ class TaskTables:
         scales: its costs as integers.
         human: what the human can do alone.
         robots: what robots can do.
+        interactions: the human's ops, split at what they mention.
+        private_distances: the human's ways backward, from goal and interactions.
     """
 
     def __init__(self, packed: PackedTask, human: HumanTables | None = None) -> None:
@@ -45,24 +48,18 @@ class TaskTables:
         self.scales = CostScales(packed.costs)
         self.human = human or HumanTables(packed)
         self.robots = RobotTables(packed)
-        self._interactions: Interactions | None = None
-        self._private_distances: OwnPrivateDistances | None = None
+        self._set_private_distances()
 
-    def interactions(self, deadline: Deadline) -> Interactions:
-        """The human's ops, split at what they mention."""
-        if self._interactions is None:
-            self._interactions = Interactions(self.packed, self.human.graph(deadline).mask)
-        return self._interactions
+    def _set_private_distances(self) -> None:
+        packed, human = self.packed, self.human
+        interactions = Table(lambda deadline: Interactions(packed, human.graph(deadline).mask))
 
-    def private_distances(self, deadline: Deadline) -> OwnPrivateDistances:
-        """The human's ways backward, from goal and interactions."""
-        if self._private_distances is None:
-            graph, to_goal = self.human.graph(deadline), self.human.projection(deadline)
-            interactions = self.interactions(deadline)
-            self._private_distances = OwnPrivateDistances(
-                self.packed, interactions, to_goal.distances, graph.moves
-            )
-        return self._private_distances
+        def private_distances(deadline: Deadline) -> OwnPrivateDistances:
+            graph, to_goal = human.graph(deadline), human.projection(deadline)
+            return OwnPrivateDistances(packed, interactions(deadline), to_goal.distances, graph.moves)
+
+        self.interactions = interactions
+        self.private_distances = Table(private_distances)
 
     def at(self, task: Task) -> "TaskTables":
         """The same for a task that differs in its initial state only."""
@@ -70,7 +67,7 @@ class TaskTables:
         moved.packed = self.packed.at(task)
         if not self.human.covers(moved.packed.init):
             moved.human = HumanTables(moved.packed)
-            moved._interactions = moved._private_distances = None
+            moved._set_private_distances()
         return moved
 
 
@@ -82,85 +79,40 @@ class PreparedTask:
 
     Attributes:
         task: the task.
+        plain: packed are the facts that matter to the goals.
+        with_human_facts: also packed is every fact of the human's own domain (semantics 3.3).
+        with_diversions: also packed is what a human who replans may be kept busy with (semantics 6).
+        doubtful: packed for a human who may be wrong, and sees what is where they are.
+        complete: the same with every fact packed, for callers who say what is visible.
+        diversions: joint actions that contribute to no goal, and still change what such a human does.
+        surroundings: what an agent sees from where they are.
     """
 
     def __init__(self, task: Task) -> None:
         self.task = task
-        self._plain: TaskTables | None = None
-        self._with_human_facts: TaskTables | None = None
-        self._with_diversions: TaskTables | None = None
-        self._doubtful: TaskTables | None = None
-        self._complete: TaskTables | None = None
-        self._diversions: tuple[int, ...] | None = None
-        self._surroundings: Surroundings | None = None
+        plain = Table(lambda deadline: _including(task, frozenset(), deadline))
+        kept = Table(lambda deadline: diversions(plain(deadline).packed, deadline))
+        diverted = Table(lambda deadline: _diverted(plain(deadline), kept(deadline), deadline))
+        seen = Table(lambda deadline: surroundings(task, deadline.tick))
+        self.plain, self.with_diversions, self.diversions, self.surroundings = plain, diverted, kept, seen
+        self.with_human_facts = Table(lambda deadline: _including(task, human_facts(task), deadline))
 
-    # -- how it is packed
+        def doubting(facts: Iterable[int], deadline: Deadline) -> TaskTables:
+            return _doubting(diverted(deadline), kept(deadline), frozenset(facts), deadline)
 
-    def plain(self, deadline: Deadline) -> TaskTables:
-        """Packed are the facts that matter to the goals."""
-        if self._plain is None:
-            self._plain = self.including(frozenset(), deadline)
-        return self._plain
-
-    def with_human_facts(self, deadline: Deadline) -> TaskTables:
-        """Also packed is every fact of the human's own domain (semantics 3.3)."""
-        if self._with_human_facts is None:
-            self._with_human_facts = self.including(human_facts(self.task), deadline)
-        return self._with_human_facts
+        self.doubtful = Table(lambda deadline: doubting(seen(deadline).located, deadline))
+        self.complete = Table(lambda deadline: doubting(range(len(task.facts)), deadline))
 
     def including(
         self, facts: frozenset[int], deadline: Deadline, actions: tuple[int, ...] = ()
     ) -> TaskTables:
         """Also packed are some facts and actions, which one call asks about; not kept."""
-        return TaskTables(PackedTask(self.task, facts, deadline, actions))
-
-    def with_diversions(self, deadline: Deadline) -> TaskTables:
-        """Also packed is what a human who replans lets themselves be kept busy with (semantics 6)."""
-        if self._with_diversions is None:
-            found = self.diversions(deadline)
-            self._with_diversions = (
-                self.including(frozenset(), deadline, found) if found else self.plain(deadline)
-            )
-        return self._with_diversions
-
-    def doubtful(self, deadline: Deadline) -> TaskTables:
-        """Packed for a human who may be wrong, and sees what is where they are."""
-        if self._doubtful is None:
-            self._doubtful = self.doubting(frozenset(), deadline)
-        return self._doubtful
+        return _including(self.task, facts, deadline, actions)
 
     def doubting(self, facts: frozenset[int], deadline: Deadline) -> TaskTables:
-        """The same with some facts besides, which one call asks about; not kept."""
-        return self._doubting(facts.union(self.surroundings(deadline).located), deadline)
-
-    def complete(self, deadline: Deadline) -> TaskTables:
-        """The same with every fact packed, for callers who say what is visible."""
-        if self._complete is None:
-            self._complete = self._doubting(frozenset(range(len(self.task.facts))), deadline)
-        return self._complete
-
-    def _doubting(self, facts: frozenset[int], deadline: Deadline) -> TaskTables:
-        plain = self.with_diversions(deadline)
-        packed = PackedTask(doubted(self.task, deadline), facts, deadline, self.diversions(deadline))
-
-        def projection(deadline: Deadline) -> PatternDatabase:
-            return translated(plain.human.projection(deadline), plain.packed, packed)
-
-        return TaskTables(packed, HumanTables(packed, projection))
-
-    # -- what else follows from it
-
-    def diversions(self, deadline: Deadline) -> tuple[int, ...]:
-        """Joint actions that contribute to no goal, and still change what a human who replans does."""
-        if self._diversions is None:
-            self._diversions = diversions(self.plain(deadline).packed, deadline)
-        return self._diversions
-
-    def surroundings(self, deadline: Deadline) -> Surroundings:
-        """What an agent sees from where they are."""
-        if self._surroundings is None:
-            self._surroundings = surroundings(self.task, deadline.tick)
-        return self._surroundings
+        """:attr:`doubtful` with some facts besides, which one call asks about; not kept."""
+        facts = facts.union(self.surroundings(deadline).located)
+        return _doubting(self.with_diversions(deadline), self.diversions(deadline), facts, deadline)
 
     # -- other tasks
 
@@ -176,8 +128,9 @@ class PreparedTask:
         """
         moved = PreparedTask(self.task.at(state, deadline))
         if moved.task.variables is self.task.variables:
-            moved._plain = None if self._plain is None else self._plain.at(moved.task)
-            moved._diversions, moved._surroundings = self._diversions, self._surroundings
+            if self.plain.known is not None:
+                moved.plain.known = (self.plain.known[0].at(moved.task),)
+            moved.diversions.known, moved.surroundings.known = self.diversions.known, self.surroundings.known
         return moved
 
     def with_goal(self, goal: Condition, robot_goal: Condition | None = None) -> "PreparedTask":
@@ -186,7 +139,7 @@ class PreparedTask:
         What matters to the goals is packed anew.
         """
         other = PreparedTask(self.task.with_goal(goal, robot_goal))
-        other._surroundings = self._surroundings
+        other.surroundings.known = self.surroundings.known
         return other
 
     def with_goals(
@@ -203,8 +156,32 @@ class PreparedTask:
         packed = self.including(asked, deadline).packed
         found = [self.with_goal(goal) for goal in goals]
         for other in found:
-            other._plain = other._with_human_facts = TaskTables(packed.for_goal(other.task))
+            other.plain.known = other.with_human_facts.known = (TaskTables(packed.for_goal(other.task)),)
         return found
+
+
+def _including(
+    task: Task, facts: frozenset[int], deadline: Deadline, actions: tuple[int, ...] = ()
+) -> TaskTables:
+    return TaskTables(PackedTask(task, facts, deadline, actions))
+
+
+def _diverted(plain: TaskTables, kept: tuple[int, ...], deadline: Deadline) -> TaskTables:
+    """What is packed anyway, and actions that are kept though they contribute to nothing."""
+    return _including(plain.packed.task, frozenset(), deadline, kept) if kept else plain
+
+
+def _doubting(
+    diverted: TaskTables, kept: tuple[int, ...], facts: frozenset[int], deadline: Deadline
+) -> TaskTables:
+    """The same for a human who may be wrong, with some facts besides."""
+    plain = diverted.packed
+    packed = PackedTask(doubted(plain.task, deadline), facts, deadline, kept)
+
+    def projection(deadline: Deadline) -> PatternDatabase:
+        return translated(diverted.human.projection(deadline), plain, packed)
+
+    return TaskTables(packed, HumanTables(packed, projection))
 
 
 def prepare(task: Task, deadline: Deadline | None = None) -> PreparedTask:
