@@ -156,7 +156,7 @@ class AchieverAutomaton:
         weights = self._weights
         walks = [
             (weights[index], (value, team, robot, there))
-            for there, index in self._acts.from_place(robot, place)
+            for there, index in self._acts.walks[robot].at(place)
         ]
         if exits:
             return walks

@@ -58,7 +58,7 @@ class SearchContext:
             tables = prepared.with_human_facts(deadline) if whole else prepared.plain(deadline)
         self.tables = tables
         self.packed = tables.packed
-        self.weights = Weights(self.packed, tables.scales, options, plan)
+        self.weights = Weights(self.packed, tables.scaling, options, plan)
         self.keys = self.weights.keys
 
     def for_plan(self, plan: HumanPlan) -> "SearchContext":

@@ -9,6 +9,7 @@ call's deadline; a deadline that comes first leaves nothing half made.
 
 from collections.abc import Iterable, Sequence
 from copy import copy
+from functools import cache, partial
 from math import prod
 
 from search.bounds.achievers import shared_fields
@@ -16,7 +17,7 @@ from search.bounds.interactions import Interactions
 from search.bounds.private_distances import OwnPrivateDistances
 from search.human.pattern_database import PatternDatabase, private_fields, translated
 from search.human.tables import HumanTables
-from search.packed.cost_vector import CostScales
+from search.packed.cost_vector import scaled_costs
 from search.packed.packed_task import PackedTask
 from search.packed.packings import diversions, doubted, human_facts
 from search.packed.table import Table
@@ -36,7 +37,7 @@ class TaskTables:
 
     Attributes:
         packed: the packed task.
-        scales: its costs as integers.
+        scaling: its costs as integers, by options.
         human: what the human can do alone.
         robots: what robots can do.
         interactions: the human's ops, split at what they mention.
@@ -45,7 +46,7 @@ class TaskTables:
 
     def __init__(self, packed: PackedTask, human: HumanTables | None = None) -> None:
         self.packed = packed
-        self.scales = CostScales(packed.costs)
+        self.scaling = cache(partial(scaled_costs, packed.costs))
         self.human = human or HumanTables(packed)
         self.robots = RobotTables(packed)
         self._set_private_distances()

@@ -8,7 +8,7 @@ components in that order.
 Costs are scaled to integers by the least common denominator, so ties are exact.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
@@ -166,17 +166,17 @@ class Weights:
 
     Args:
         packed: the packed task.
-        scales: its costs as integers.
+        scaling: its costs as integers, by options.
         options: discount, window weight and communication weight.
         plan: ``pi_H``, or None to leave communication costs out.
     """
 
     def __init__(
-        self, packed: PackedTask, scales: "CostScales", options: Options, plan: HumanPlan | None
+        self, packed: PackedTask, scaling: "Scaling", options: Options, plan: HumanPlan | None
     ) -> None:
         announces = options.mode == "communication" and plan is not None
         announced = options.communication_weight if announces else Fraction(0)
-        scaled = scales.under(options.discount, options.window_weight, announced)
+        scaled = scaling(options.discount, options.window_weight, announced)
         self.keys = scaled.keys
         self.announces = bool(announced)
         self.human = scaled.human
@@ -232,7 +232,7 @@ class Weights:
 
 
 @dataclass(frozen=True, slots=True)
-class _Scaled:
+class ScaledCosts:
     """Costs of a task as integers; see :class:`Weights`.
 
     Attributes:
@@ -247,27 +247,24 @@ class _Scaled:
     per_cost: int
 
 
-class CostScales:
-    """Costs of a task as integers, under the options of its calls.
+Scaling = Callable[[Fraction, Fraction, Fraction], ScaledCosts]
+"""The costs of a task as integers under a discount, a window weight and a communication weight."""
+
+
+def scaled_costs(
+    costs: Sequence[Fraction], discount: Fraction, window: Fraction, announced: Fraction
+) -> ScaledCosts:
+    """Costs of a task as integers.
 
     Args:
         costs: the different undiscounted costs.
+        discount: of what robots do without the human.
+        window: weight of an epoch of the window.
+        announced: weight of communication.
+
+    Raises:
+        UsageError: their common denominator is too large.
     """
-
-    def __init__(self, costs: Sequence[Fraction]) -> None:
-        self._costs = costs
-        self._known: dict[tuple[Fraction, Fraction, Fraction], _Scaled] = {}
-
-    def under(self, discount: Fraction, window: Fraction, announced: Fraction) -> _Scaled:
-        """Under a discount, a window weight and a communication weight."""
-        factors = discount, window, announced
-        scaled = self._known.get(factors)
-        if scaled is None:
-            scaled = self._known[factors] = _scaled(self._costs, *factors)
-        return scaled
-
-
-def _scaled(costs: Sequence[Fraction], discount: Fraction, window: Fraction, announced: Fraction) -> _Scaled:
     factors = (Fraction(1), 1 - discount, announced)
     scale = lcm(window.denominator, *((c * f).denominator for c in costs for f in factors))
     dearest = int(max(costs, default=Fraction(0)) * scale)
@@ -278,7 +275,7 @@ def _scaled(costs: Sequence[Fraction], discount: Fraction, window: Fraction, ann
     epoch = (int(window * scale) << layout.objective_shift) + (1 << layout.length_shift)
     keys = replace(layout, epoch_weight=epoch)
     per_cost = scale // _own_scale(costs)
-    return _Scaled(
+    return ScaledCosts(
         keys,
         human=[keys.of_action(cost) for cost in costs],
         robots=[keys.of_action(cost * (1 - discount)) for cost in costs],

@@ -70,10 +70,6 @@ class TransitionGraph:
         """What robots can do to a value of the field."""
         return self._on.at(value)
 
-    def from_place(self, robot: int, place: int) -> list[tuple[int, int]]:
-        """Where a robot can walk from a place, with the index of the cost."""
-        return self.walks[robot].at(place)
-
     def by_place(self, value: int, robot: int) -> OperatorIndex[Operator]:
         """What a robot can do to a value of the field, by its place."""
         found = self._here.get((value, robot))

@@ -26,6 +26,10 @@ Parts = NDArray[np.int32]
 """Per outcome of all robots the places of those of each of them."""
 
 
+_Some = tuple[Rows, Amounts, Amounts, Parts]
+"""Some outcomes of robots together: rows, amounts, nets, parts."""
+
+
 class Outcomes(NamedTuple):
     """Differences, each once at its least cost.
 
@@ -141,7 +145,8 @@ class Together:
         mine, theirs = self._mentioned(known.rows), self._mentioned(rows)
         self._keep(np.zeros(0, dtype=np.intp))
         self._parts = np.concatenate([self._parts, self._parts[:1]])
-        batch = _Batch()
+        batch: list[_Some] = []
+        size = 0
         for i in ends.nonzero()[0]:
             self._deadline.check()
             end = int(ends[i])
@@ -149,23 +154,19 @@ class Together:
             fits &= paid[:end] < most_paid - known.amounts[i]
             chosen = np.flatnonzero(fits)
             places = order[chosen]
-            batch.rows.append(rows[:, chosen] | known.rows[:, i : i + 1])
-            batch.amounts.append(more.amounts[places] + known.amounts[i])
-            batch.nets.append(nets[chosen] + known_nets[i])
-            batch.parts.append(
-                np.concatenate([np.repeat(parts[:, i : i + 1], len(chosen), axis=1), [places]])
-            )
-            batch.size += len(chosen)
-            if batch.size > _AT_ONCE:
+            some = rows[:, chosen] | known.rows[:, i : i + 1], more.amounts[places] + known.amounts[i]
+            made_of = np.concatenate([np.repeat(parts[:, i : i + 1], len(chosen), axis=1), [places]])
+            batch.append((*some, nets[chosen] + known_nets[i], made_of))
+            size += len(chosen)
+            if size > _AT_ONCE:
                 self._add(batch)
-                batch = _Batch()
+                batch, size = [], 0
         self._add(batch)
 
-    def _add(self, batch: "_Batch") -> None:
-        every = np.concatenate([self.found.rows, *batch.rows], axis=1)
-        paid = np.concatenate([self.found.amounts, *batch.amounts])
-        parts = np.concatenate([self._parts, *batch.parts], axis=1)
-        nets = np.concatenate([self._nets, *batch.nets])
+    def _add(self, batch: Sequence[_Some]) -> None:
+        """Compare what is put together with what was found."""
+        found = [(*self.found, self._nets, self._parts), *batch]
+        every, paid, nets, parts = (np.concatenate(some, axis=-1) for some in zip(*found, strict=True))
         self._deadline.require(3 * every.nbytes)
         kept = cheapest(every, paid, self._deadline)
         if len(kept) > MOST_OUTCOMES:
@@ -188,14 +189,3 @@ def _least(rows: Rows, amounts: Amounts, deadline: Deadline) -> Outcomes:
 
 def _only(outcomes: Outcomes) -> tuple[Outcomes, Parts]:
     return outcomes, np.arange(len(outcomes.amounts), dtype=np.int32).reshape(1, -1)
-
-
-class _Batch:
-    """What is put together before it is compared with what was found."""
-
-    def __init__(self) -> None:
-        self.rows: list[Rows] = []
-        self.amounts: list[Amounts] = []
-        self.nets: list[Amounts] = []
-        self.parts: list[Parts] = []
-        self.size = 0
