@@ -177,36 +177,26 @@ def no_team_bound(_state: int, /) -> int:
     return 0
 
 
-class Bounds:
+class Bounds(NamedTuple):
     """Which bound holds at a node.
 
     The first pass of this module judges the *first* touch only; once there has been one,
     the private bound is what holds.
 
-    Args:
+    Attributes:
         private: distances in the human's private fields.
         steps: the same, counting actions.
         untouched: bound before the first touch.
-        interactions: tells which actions are touches; None where no bound asks for that.
+        touches: tells which actions are touches; None where no bound asks for that.
         team: bound on what the team pays from a packed state, without a look at epochs.
     """
 
-    def __init__(
-        self,
-        private: PatternDatabase,
-        steps: PatternDatabase,
-        untouched: Timed = no_bound,
-        interactions: Interactions | None = None,
-        team: Callable[[int], int] = no_team_bound,
-    ) -> None:
-        self.private = private
-        self.steps = steps
-        self.untouched = untouched
-        self.team = team
-        self._interactions = interactions
+    private: PatternDatabase
+    steps: PatternDatabase
+    untouched: Timed = no_bound
+    touches: Interactions | None = None
+    team: Callable[[int], int] = no_team_bound
 
     def interactions(self, actions: Sequence[int]) -> bool:
         """Whether the human's part of an epoch (at most one action) is a touch."""
-        return (
-            bool(actions) and self._interactions is not None and self._interactions.is_interaction(actions[0])
-        )
+        return bool(actions) and self.touches is not None and self.touches.is_interaction(actions[0])

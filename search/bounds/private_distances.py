@@ -1,6 +1,7 @@
 """The human's side of help: their way to each touch, and on to the goal, in their private fields."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from search.bounds.interactions import Interactions, Seen
 from search.engine.shortest_paths import LevelQueue, backward
@@ -35,39 +36,31 @@ class Corridor:
         return backward(self.entries.get(need, ()), [self.before], self._deadline)
 
 
+@dataclass(eq=False)
 class PrivateDistances:
     """Distances by moves alone, up to a first touch.
 
-    Args:
+    Attributes:
         own: the human's ways backward, asked for where they are needed.
         interactions: what their ops mention.
         bound: private distances to the goal.
         steps: the same, counting actions.
         weights: key increments of the call.
         deadline: polled at each state that comes up.
-
-    Attributes:
         outside: the fields that others change.
         steps_after: least number of actions to the goal after a touch, by its need, over
             the touches that :meth:`explore` has met.
     """
 
-    def __init__(
-        self,
-        own: Callable[[Deadline], "OwnPrivateDistances"],
-        interactions: Interactions,
-        bound: PatternDatabase,
-        steps: PatternDatabase,
-        weights: Weights,
-        deadline: Deadline,
-    ) -> None:
-        self.outside = interactions.outside
-        self._own = own
-        self._interactions = interactions
-        self._bound = bound
-        self._steps = steps
-        self._weights = weights
-        self._deadline = deadline
+    own: Callable[[Deadline], "OwnPrivateDistances"]
+    interactions: Interactions
+    bound: PatternDatabase
+    steps: PatternDatabase
+    weights: Weights
+    deadline: Deadline
+
+    def __post_init__(self) -> None:
+        self.outside = self.interactions.outside
         self.steps_after: dict[int, int] = {}
 
     def explore(self, sources: Sequence[tuple[int, int]], limit: int) -> Corridor:
@@ -77,16 +70,16 @@ class PrivateDistances:
             sources: what has been spent, and where the human is then (a packed state).
             limit: what costs as much or more is left out.
         """
-        found = Corridor(self._deadline)
-        bound = self._bound.distances
-        queue = LevelQueue((spent, state & self._interactions.mask) for spent, state in sources)
+        found = Corridor(self.deadline)
+        bound = self.bound.distances
+        queue = LevelQueue((spent, state & self.interactions.mask) for spent, state in sources)
         seen: set[int] = set()
         for spent, level in queue:
             for at in sorted(level):  # in this order needs are met, and numbered
                 if at in seen:
                     continue
                 seen.add(at)
-                self._deadline.check()  # touches of one state may be hundreds
+                self.deadline.check()  # touches of one state may be hundreds
                 rest = bound.get(at, INFINITE_KEY)
                 if spent + rest >= limit:
                     continue
@@ -102,9 +95,9 @@ class PrivateDistances:
 
         They are recorded in ``found``, and so is what else they can do.
         """
-        bound, actions, weights = self._bound.distances, self._steps.distances, self._weights.human
+        bound, actions, weights = self.bound.distances, self.steps.distances, self.weights.human
         moves = []
-        for op in self._interactions.seen(at):
+        for op in self.interactions.seen(at):
             after = at & op.keep | op.put
             weight = weights[op.cost]
             if op.interaction < 0:
@@ -123,11 +116,11 @@ class PrivateDistances:
 
     def to_goal(self) -> dict[int, int]:
         """Least key to the goal without a touch, by projected state."""
-        return self._weights.of_own(self._own(self._deadline).to_goal(self._deadline))
+        return self.weights.of_own(self.own(self.deadline).to_goal(self.deadline))
 
     def through(self, need: int) -> dict[int, int]:
         """Least key to the goal with a first touch of a need, by projected state."""
-        return self._weights.of_own(self._own(self._deadline).through(need, self._deadline))
+        return self.weights.of_own(self.own(self.deadline).through(need, self.deadline))
 
 
 class OwnPrivateDistances:

@@ -75,7 +75,7 @@ def _by_windows(
         most_cost=None,
         keys=context.keys,
         successors=context.successors(),
-        bounds=Bounds(context.bound, context.steps, interactions=context.interactions),
+        bounds=Bounds(context.bound, context.steps, touches=context.interactions),
         prefix=InLayers(steps),
         on_the_way=PrivateRest(len(steps), context.bound, context.keys, horizon),
         suffix=suffix_rule(context, plan),

@@ -46,7 +46,7 @@ class Weighed:
         along = BoundsAlong(context, plan, horizon, limit, opened, robots, idle=False)
         self.on_the_way: FirstInteractionOnTheWay = along.on_the_way
         self._helped = along.off_plan
-        self.bounds = Bounds(context.bound, context.steps, interactions=context.interactions)
+        self.bounds = Bounds(context.bound, context.steps, touches=context.interactions)
         self._choices: dict[int, list[Choice]] = {}
 
     def untouched(self, epoch: int, state: int, until: int) -> int:

@@ -26,7 +26,6 @@ from search.modes.goals.timeline import Ended, GoalTimeline, Situation
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packings import human_facts
 from search.packed.successor_generator import NOTHING, JointAction, Successors, as_option, together
-from search.spaces.factory import suffix_rule
 from search.strategies.portfolio import solve
 from serendipity.model.answers.answer import Answer, ServedGoal, Status, saved
 from serendipity.model.errors import LIMITS
@@ -117,7 +116,7 @@ class _SequenceSearch:
         self._packed = context[0].packed
         self._acting = context[0].successors()
         self._timelines = [
-            _timeline(own, candidate, self._horizon)
+            GoalTimeline(own, candidate.plan, self._horizon)
             for own, candidate in zip(context, self._candidates, strict=True)
         ]
         self._offer({}, context[0].successors(idle=True))
@@ -314,24 +313,6 @@ class _SequenceSearch:
         steps = path_steps(end.node) + plan_steps(end.tail, end.end)
         cost = self._keys.cost(end.key)
         return ServedGoal(candidate.name, candidate.weight, candidate.plan, steps, window, cost)
-
-
-def _timeline(context: SearchContext, candidate: Candidate, horizon: int) -> GoalTimeline:
-    """The rules of semantics 3.1 for one candidate, under the options of its context."""
-    options = context.options
-    return GoalTimeline(
-        packed=context.packed,
-        goal=context.packed.goal,
-        steps=context.followed(candidate.plan),
-        suffix=suffix_rule(context, candidate.plan),
-        private=context.bound,
-        keys=context.keys,
-        horizon=horizon,
-        max_window=options.max_window or horizon,
-        per_start=options.preservation == "state",
-        strict=options.strict,
-        deadline=context.deadline,
-    )
 
 
 def _is_new(node: _GoalsNode, seen: dict[object, int]) -> bool:

@@ -8,15 +8,14 @@ and phase differ in their keys only, and the smallest is enough.
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from search.call.context import SearchContext
 from search.engine.best_first import Node
-from search.human.pattern_database import PatternDatabase
-from search.human.suffix_rules import Suffix
-from search.packed.cost_vector import INFINITE_KEY, CostLayout
-from search.packed.operators import Operator, applicable
-from search.packed.packed_task import PackedGoal, PackedTask
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operators import applicable
 from search.packed.successor_generator import NOTHING, JointAction, Successors
+from search.spaces.factory import suffix_rule
 from search.spaces.windowed import PREFIX, WINDOW
-from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import HumanPlan
 
 _Place = tuple[int, int]
 """Packed state, and the window's start where that tells labels apart."""
@@ -49,39 +48,31 @@ class Situation:
     bound: int
 
 
-@dataclass(frozen=True, slots=True)
 class GoalTimeline:
     """Rules 1-3 of semantics 3.1 for one candidate.
 
-    Attributes:
-        encoding: the packed task, the same for all candidates.
-        goal: the candidate, packed.
-        steps: the human's plan: packed actions and what they do.
-        suffix: rule 3.
-        private: lower bound on what they still have to pay.
-        keys: layout of keys.
+    Args:
+        context: of the call, with the candidate for a goal; all candidates share a packing.
+        plan: the human's, if that is their goal.
         horizon: ``T``.
-        max_window: most epochs of a window.
-        per_start: whether labels that differ in their window's start are told apart.
-        strict: strict interference.
-        deadline: polled at each epoch that is played.
     """
 
-    packed: PackedTask
-    goal: PackedGoal
-    steps: list[tuple[Operator, JointAction]]
-    suffix: Suffix
-    private: PatternDatabase
-    keys: CostLayout
-    horizon: int
-    max_window: int
-    per_start: bool
-    strict: bool
-    deadline: Deadline
+    def __init__(self, context: SearchContext, plan: HumanPlan, horizon: int) -> None:
+        options = context.options
+        self._packed = context.packed
+        self._steps = context.followed(plan)
+        self._suffix = suffix_rule(context, plan)
+        self._private = context.bound
+        self._keys = context.keys
+        self._horizon = horizon
+        self._max_window = options.max_window or horizon
+        self._tells_starts = options.preservation == "state" or self._max_window < horizon
+        self._strict = options.strict
+        self._deadline = context.deadline
 
     def first(self) -> Situation:
         """Before the first epoch."""
-        root = Node(0, 0, self.packed.init, PREFIX, 0, None, ())
+        root = Node(0, 0, self._packed.init, PREFIX, 0, None, ())
         return Situation(root, {}, None, self._bound(root, {}, None))
 
     def after(
@@ -103,7 +94,7 @@ class GoalTimeline:
         inside: dict[_Place, Node] = {}
         ended = None if robots.actions else now.ended
         for node in self._open(now):
-            self.deadline.tick()
+            self._deadline.tick()
             for child in self._play(node, robots, acting, limit):
                 place = self._place(child)
                 known = inside.get(place)
@@ -118,7 +109,7 @@ class GoalTimeline:
     def complete(self, last: Situation) -> Ended | None:
         """The best timeline after the last epoch; ties go to the plan that is left alone."""
         left = None
-        if last.follows is not None and self.goal.holds(last.follows.state):
+        if last.follows is not None and self._packed.goal.holds(last.follows.state):
             # Leaving the human alone counts as the shortest and latest window (semantics 3.1).
             left = Ended(last.follows.key + self._untouched, last.follows, 0, ())
         if left is None or (last.ended is not None and last.ended.key < left.key):
@@ -127,15 +118,15 @@ class GoalTimeline:
 
     @property
     def _untouched(self) -> int:
-        return self.keys.epoch_weight + self.keys.of_start(max(1, len(self.steps)), self.horizon)
+        return self._keys.epoch_weight + self._keys.of_start(max(1, len(self._steps)), self._horizon)
 
     def _follow(self, node: Node | None, epoch: int, robots: JointAction) -> Node | None:
         """Rule 1; beyond the end of the human's plan they wait."""
         if node is None:
             return None
         part = NOTHING
-        if epoch <= len(self.steps):
-            op, part = self.steps[epoch - 1]
+        if epoch <= len(self._steps):
+            op, part = self._steps[epoch - 1]
             if not applicable(op, node.state):
                 return None
         return self._together(node, part, robots)
@@ -143,9 +134,9 @@ class GoalTimeline:
     def _open(self, now: Situation) -> list[Node]:
         nodes = list(now.inside.values())
         at = now.follows
-        if at is not None and at.epoch < min(len(self.steps), self.horizon):
+        if at is not None and at.epoch < min(len(self._steps), self._horizon):
             start = at.epoch + 1
-            key = at.key + self.keys.of_start(start, self.horizon)
+            key = at.key + self._keys.of_start(start, self._horizon)
             nodes.append(at._replace(key=key, phase=WINDOW, start=start))
         return nodes
 
@@ -155,8 +146,8 @@ class GoalTimeline:
         for part in (NOTHING, *acting.human(node.state), *acting.joint(node.state)):
             child = self._together(node, part, robots)
             if child is not None:
-                key = child.key + self.keys.epoch_weight
-                if key + self.private(child.state) < limit:
+                key = child.key + self._keys.epoch_weight
+                if key + self._private(child.state) < limit:
                     found.append(child._replace(key=key))
         return found
 
@@ -165,7 +156,7 @@ class GoalTimeline:
         if part.agents & robots.agents or not self._possible(robots, node.state):
             return None
         for mine in part.actions:
-            if not all(self.packed.compatible(mine, other, self.strict) for other in robots.actions):
+            if not all(self._packed.compatible(mine, other, self._strict) for other in robots.actions):
                 return None
         state = node.state & part.keep & robots.keep | part.put | robots.put
         key = node.key + part.weight + robots.weight
@@ -173,30 +164,29 @@ class GoalTimeline:
         return Node(key, node.epoch + 1, state, node.phase, node.start, node, actions)
 
     def _possible(self, robots: JointAction, state: int) -> bool:
-        return all(applicable(self.packed.op(i), state) for i in robots.actions)
+        return all(applicable(self._packed.op(i), state) for i in robots.actions)
 
     def _close(self, node: Node, best: Ended | None, limit: int) -> Ended | None:
         """Rule 3: the window ends after the node."""
         cap = limit if best is None else min(limit, best.key)
-        left = self.horizon - node.epoch
-        rest = self.suffix.key(node.state, left, node.start, cap - node.key)
+        left = self._horizon - node.epoch
+        rest = self._suffix.key(node.state, left, node.start, cap - node.key)
         if node.key + rest >= cap:
             return best
-        tail = self.suffix.actions(node.state, left, node.start)
+        tail = self._suffix.actions(node.state, left, node.start)
         return Ended(node.key + rest, node, node.epoch + 1, tail)
 
     def _goes_on(self, node: Node) -> bool:
-        return node.epoch < self.horizon and node.epoch - node.start + 1 < self.max_window
+        return node.epoch < self._horizon and node.epoch - node.start + 1 < self._max_window
 
     def _place(self, node: Node) -> _Place:
-        told_apart = self.per_start or self.max_window < self.horizon
-        return node.state, node.start if told_apart else 0
+        return node.state, node.start if self._tells_starts else 0
 
     def _bound(self, follows: Node | None, inside: dict[_Place, Node], ended: Ended | None) -> int:
-        again = self.keys.epoch_weight
-        bounds = [node.key + again + self.private(node.state) for node in inside.values()]
+        again = self._keys.epoch_weight
+        bounds = [node.key + again + self._private(node.state) for node in inside.values()]
         if follows is not None:
-            bounds.append(follows.key + again + self.private(follows.state))
+            bounds.append(follows.key + again + self._private(follows.state))
         if ended is not None:
             bounds.append(ended.key)
         return min(bounds, default=INFINITE_KEY)
