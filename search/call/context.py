@@ -17,7 +17,7 @@ from search.human.plan_graph import PlanGraph
 from search.packed.cost_vector import INFINITE_KEY, Weights
 from search.packed.operators import Operator, changed
 from search.packed.packed_task import PackedGoal
-from search.packed.packings import human_facts
+from search.packed.packings import asked_facts, human_facts
 from search.packed.successor_generator import JointAction, Successors, as_option
 from search.robots.decoupled import Decoupled, DecoupledSuccessors
 from serendipity.model.options import Options
@@ -72,13 +72,11 @@ class SearchContext:
 
     def _covers(self, plan: HumanPlan) -> bool:
         """Whether what every action of a plan asks for is packed."""
-        bits = self.packed.fact_bits
-        actions = (self.task.actions[i] for i in plan)
-        return all(bits[f] is not None for action in actions for f in (*action.pre, *action.neg))
+        return all(self.packed.fact_bits[f] is not None for f in asked_facts(self.task, plan))
 
     def _covering(self, plan: HumanPlan) -> TaskTables:
         """A packing, for this call, of what every action of a plan asks for as well."""
-        needed = frozenset(f for i in plan for f in (*self.task.actions[i].pre, *self.task.actions[i].neg))
+        needed = asked_facts(self.task, plan)
         if self.options.preservation == "state":
             needed |= human_facts(self.task)
         return self.prepared.including(needed, self.deadline)

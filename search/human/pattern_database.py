@@ -34,7 +34,7 @@ Predecessors = dict[int, list[tuple[int, int]]]
 """Per projected state the cheapest ways to it: weight (:func:`.own_weights`), state before it."""
 
 
-class PatternDatabase:
+class PatternDatabase(NamedTuple):
     """Distances to the goal in a projection.
 
     Attributes:
@@ -43,11 +43,8 @@ class PatternDatabase:
             listed can't reach the goal.
     """
 
-    __slots__ = ("distances", "mask")
-
-    def __init__(self, mask: int, distances: dict[int, int]) -> None:
-        self.mask = mask
-        self.distances = distances
+    mask: int
+    distances: dict[int, int]
 
     def __call__(self, state: int) -> int:
         """Lower bound of the key increment from a packed state; ``INFINITE_KEY`` if none."""

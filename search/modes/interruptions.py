@@ -6,7 +6,7 @@ can be as small as any plan that fits the window makes it.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import count
 
@@ -98,17 +98,22 @@ def interruptions(
     call.follow(plan, optimal=human_plan is None)
     horizon, key = int(call.horizon), call.baseline.key
     baseline = None if key >= INFINITE_KEY else call.keys.cost(key)
-    return Interruptions(plan, horizon, baseline, _examined(context, plan, horizon, on_progress))
+    # Idle robots fit every window (semantics 3.1), unless they have a goal.
+    idling = INFINITE_KEY if prepared.task.robot_goal else key
+    windows = _examined(call.context, plan, horizon, idling, on_progress)
+    return Interruptions(plan, horizon, baseline, windows)
 
 
 def _examined(
-    context: SearchContext, plan: HumanPlan, horizon: int, on_progress: Callable[[int, int], None] | None
+    context: SearchContext,
+    plan: HumanPlan,
+    horizon: int,
+    idling: int,
+    on_progress: Callable[[int, int], None] | None,
 ) -> Iterator[WindowOutcome]:
     """What is possible in each window, those first that say most of the others."""
     if not plan:
         return
-    context = context.for_plan(plan)
-    idling = _idle_key(context, plan)
     windows = len(plan) * (horizon + 1) - len(plan) * (len(plan) + 1) // 2
     done = count(1)
 
@@ -123,13 +128,6 @@ def _examined(
     for window in _ordered(len(plan), horizon):
         context.deadline.check()  # where neither objective has anything left to search
         yield _outcome(context, plan, window, human.best(window), team.best(window))
-
-
-def _idle_key(context: SearchContext, plan: HumanPlan) -> int:
-    """The key of ``pi_H`` with robots idle, which fits every window (semantics 3.1)."""
-    if context.task.robot_goal:
-        return INFINITE_KEY
-    return sum(option.weight for _, option in context.followed(plan))
 
 
 def _human_first(context: SearchContext) -> tuple[Callable[[Operator], int], list[int]]:
@@ -198,7 +196,7 @@ class _Objective:
         known, least = self._inside(window), self._around(window)
         if known.key <= least:
             return known
-        best = Incumbent(known.key, known.node, known.end, known.tail)
+        best = replace(known)
         space = FixedWindow(self._weighed, window)
         for _ in best_first(space, best, Progress(), self._deadline):
             if best.key <= least:

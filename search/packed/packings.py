@@ -1,5 +1,6 @@
 """The ways in which a task is packed: which facts and actions beyond those that matter to the goals."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from search.packed.packed_task import PackedTask
@@ -15,6 +16,11 @@ def human_facts(task: Task) -> frozenset[int]:
         action = task.actions[i]
         mentioned.update(action.pre, action.neg, action.add, action.delete)
     return frozenset(mentioned)
+
+
+def asked_facts(task: Task, actions: Iterable[int]) -> frozenset[int]:
+    """Ids of the facts that actions ask for."""
+    return frozenset(f for i in actions for f in (*task.actions[i].pre, *task.actions[i].neg))
 
 
 def diversions(packed: PackedTask, deadline: Deadline) -> tuple[int, ...]:

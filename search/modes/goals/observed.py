@@ -17,6 +17,7 @@ from search.human.plan_graph import edges_into
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import by_most_asked
 from search.packed.operators import forms_of
+from search.packed.packings import asked_facts
 from search.packed.successor_generator import Lookup
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -132,10 +133,9 @@ class _ObservedSearch:
     def __init__(self, prepared: PreparedTask, observed: tuple[str, ...], deadline: Deadline) -> None:
         task = prepared.task
         seen = {i for name in observed for i in task.named[name]} & set(task.human_actions)
-        asked = {f for i in seen for f in (*task.actions[i].pre, *task.actions[i].neg)}
         tables = prepared.plain(deadline)
         if not all(map(tables.packed.is_useful, seen)):  # what they ask for is packed otherwise
-            tables = prepared.including(frozenset(asked), deadline)
+            tables = prepared.including(asked_facts(task, seen), deadline)
         context = SearchContext(prepared, Options(), deadline, tables=tables)
         packed = context.packed
         own = sorted({op.action for op in packed.own} | seen)

@@ -24,7 +24,7 @@ from search.modes.goals.candidate import Candidate
 from search.modes.goals.expectation import Expectation, Rank
 from search.modes.goals.timeline import Ended, GoalTimeline, Situation
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.packings import human_facts
+from search.packed.packings import asked_facts, human_facts
 from search.packed.successor_generator import NOTHING, JointAction, Successors, as_option, together
 from search.strategies.portfolio import solve
 from serendipity.model.answers.answer import Answer, ServedGoal, Status, saved
@@ -129,14 +129,12 @@ class _SequenceSearch:
 
     def _over_one_packing(self) -> list[PreparedTask]:
         """The task with each candidate as its goal, packed with what any of them or its plan asks for."""
-        task, asked = self._prepared.task, set[int]()
+        task = self._prepared.task
+        asked = asked_facts(task, (action for candidate in self._candidates for action in candidate.plan))
         if self._options.preservation == "state":
-            asked.update(human_facts(task))
-        for candidate in self._candidates:
-            for action in (task.actions[i] for i in candidate.plan):
-                asked.update(action.pre, action.neg)
+            asked |= human_facts(task)
         goals = [candidate.goal for candidate in self._candidates]
-        return self._prepared.with_goals(goals, frozenset(asked), self._deadline)
+        return self._prepared.with_goals(goals, asked, self._deadline)
 
     def _alone_known(self, candidate: Candidate) -> Answer:
         """The answer of section 3, were this the goal for certain."""

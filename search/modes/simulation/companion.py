@@ -6,7 +6,7 @@ time, then all together.
 """
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from search.call.prepared_task import PreparedTask
@@ -105,7 +105,7 @@ class Companion:
         self._clock.renew(deadline)
         horizon = len(start.intention.actions) or MAX_EPOCH
         idle = self._search(start, Incumbent(INFINITE_KEY), horizon, self._idle)
-        best = Incumbent(idle.key, idle.node, idle.end, idle.tail)
+        best = replace(idle)
         replayed = self._replayed(start, known, begins)
         if replayed is not None and replayed[0] < best.key:
             best = Incumbent(replayed[0])

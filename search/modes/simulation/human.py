@@ -12,6 +12,7 @@ from search.modes.simulation.intention import Intention, Intentions
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable, asked_by
 from search.packed.packed_task import PackedTask
+from search.packed.packings import asked_facts
 from search.packed.successor_generator import NOTHING, JointAction, as_option
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -188,8 +189,8 @@ def _packing(
 def _missing(packed: PackedTask, actions: Collection[int]) -> frozenset[int]:
     """Facts to pack for actions that can't contribute to a goal, but may be done or tried."""
     task = packed.task
-    asked = {f for i in actions for f in (*task.actions[i].pre, *task.actions[i].neg)}
-    missing = asked if any(packed.fact_bits[f] is None for f in asked) else set()
+    asked = asked_facts(task, actions)
+    missing = set(asked) if any(packed.fact_bits[f] is None for f in asked) else set()
     for i in actions:
         action = task.actions[i]
         if action.participants == (task.human,) and not packed.is_useful(i):

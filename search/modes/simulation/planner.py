@@ -1,7 +1,7 @@
 """The best help that happens, with a human who replans on sight (semantics 6)."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from search.call.context import SearchContext
@@ -130,7 +130,7 @@ class _Call:
             solve_space(self._space(idle=True), self.idle, self.deadline)
             self.settled = True
             if not self.task.robot_goal:
-                self.best = Incumbent(self.idle.key, self.idle.node, self.idle.end, self.idle.tail)
+                self.best = replace(self.idle)
             self._begin_with_known()
             if self._has_answer():
                 yield self._outcome("feasible")

@@ -91,18 +91,13 @@ class _Pass:
 
     def __init__(self, question: ShortWindowQuestion, others: Mapping[int, Provision]) -> None:
         context = question.context
-        packed, deadline, relevant = context.packed, context.deadline, context.relevant
         self._question = question
         self._best = question.best
         self._steps = question.steps()
-        self._lost = lost_values(packed)
-        self._landmarks = Landmarks(packed, self._amount, deadline)
-        strict = context.options.strict
+        self._lost = lost_values(context.packed)
+        self._landmarks = Landmarks(context.packed, self._amount, context.deadline)
         self._timelines = [
-            Timeline(
-                packed, robot, self._steps, given, relevant, self._amount, strict=strict, deadline=deadline
-            )
-            for robot, given in others.items()
+            Timeline(context, robot, self._steps, given, self._amount) for robot, given in others.items()
         ]
         self._windows: list[Window] = []
         self._ahead = 0

@@ -11,14 +11,13 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from search.call.context import SearchContext
 from search.packed.cost_vector import FAR, NEVER
 from search.packed.operators import Operator, asked_by
-from search.packed.packed_task import PackedTask
 from search.short_windows.independent.detours import detours, leaves
 from search.short_windows.independent.provision import Provision
 from search.short_windows.independent.rows import Amounts, Flags, Rows, agree, cheapest, codes, column
 from serendipity.model.errors import LimitReachedError
-from serendipity.model.resources.deadline import Deadline
 
 MOST_STATES: Final = 200_000
 """Of a robot after an epoch."""
@@ -76,14 +75,11 @@ class Timeline:
     """A robot's states, epoch by epoch.
 
     Args:
-        packed: the packed task.
+        context: of the call; its deadline is asked for memory.
         robot: bit of the robot.
         steps: the human's plan, an action an epoch.
         others: what other robots can set, and after how many epochs.
-        relevant: the fields that matter to the human, or to a goal.
         amount: of an operator of the robot's.
-        strict: strict interference.
-        deadline: polled; asked for memory.
 
     Attributes:
         changes: the fields that the robot sets.
@@ -91,21 +87,18 @@ class Timeline:
 
     def __init__(
         self,
-        packed: PackedTask,
+        context: SearchContext,
         robot: int,
         steps: Sequence[Operator],
         others: Provision,
-        relevant: int,
         amount: Callable[[Operator], int],
-        *,
-        strict: bool,
-        deadline: Deadline,
     ) -> None:
-        self._packed = packed
+        self._packed = packed = context.packed
         self._steps = steps
         self._others = others
-        self._strict = strict
-        self._deadline = deadline
+        self._strict = context.options.strict
+        self._relevant = context.relevant
+        self._deadline = deadline = context.deadline
         self._words = max(1, -(-packed.all_ones.bit_length() // 64))
         ops = [op for op in packed.others if op.agents == robot]
         self.changes = packed.changed_by(ops)
@@ -119,7 +112,6 @@ class Timeline:
         self._asked = self._local & ~self.changes
         for op in ops:
             self._asked |= asked_by(op)
-        self._relevant = relevant
         lent = {field for field, _ in others}
         self._detours = {
             field: detours(packed, field, robot, amount)

@@ -138,17 +138,7 @@ def _epochs(context: SearchContext, deadline: Deadline) -> Epochs | None:
     ratio = next((context.weights.scaled_cost(op) // own[op.cost] for op in packed.own if own[op.cost]), 1)
     if (after.problem.unit * ratio).bit_length() > _MOST_COST_BITS:
         return None
-    return Epochs(
-        kernel,
-        context.task,
-        problem,
-        after,
-        dead,
-        after.problem.unit * ratio,
-        packed.init,
-        deadline,
-        strict=context.options.strict,
-    )
+    return Epochs(kernel, context, problem, after, dead, after.problem.unit * ratio, deadline)
 
 
 def _flags(field: int, values: int, chosen: Collection[int]) -> bytes:

@@ -9,6 +9,7 @@ from typing import Final, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from search.call.context import SearchContext
 from search.classical.encoded_problem import EncodedProblem, memory_for
 from search.classical.planner import FOUND, RUNNING, SLICE, ClassicalPlanner, with_memory
 from search.classical.problem import ClassicalProblem
@@ -43,13 +44,11 @@ class Epochs:
 
     Args:
         library: the compiled kernel.
-        task: whose actions may not share an epoch.
+        context: of the call, whose actions may not share an epoch, from whose initial state it begins.
         problem: of the whole team, with amounts for weights.
         after: what follows; asked for bounds.
         lost: by field and value 1 where nothing can follow from it.
         unit: what a unit of its costs is in amounts.
-        state: the packed state that it begins with.
-        strict: strict interference.
         deadline: polled, and asked for memory.
 
     Attributes:
@@ -62,23 +61,21 @@ class Epochs:
     def __init__(
         self,
         library: ctypes.CDLL,
-        task: Task,
+        context: SearchContext,
         problem: ClassicalProblem,
         after: ClassicalPlanner,
         lost: bytes,
         unit: int,
-        state: int,
         deadline: Deadline,
-        *,
-        strict: bool,
     ) -> None:
+        task = context.task
         self._kernel, self._after, self.is_hopeless = library, after, False
         self._numbers = {op.action: number for number, op in enumerate(problem.operators)}
         self._operators = problem.operators
         self._given: list[int] = []
         deadline.require(memory_for(problem) + _PER_PAIR * len(problem.operators) ** 2)
         told, agents = EncodedProblem(problem), array("Q", _human_last(task, problem.operators))
-        apart = conflicts(task, problem.operators, deadline, strict=strict).tobytes()
+        apart = conflicts(task, problem.operators, deadline, strict=context.options.strict).tobytes()
         planner, mask = after.handle, after.told.row(after.problem.mask)
         self._epochs = library.epochs_new(
             ctypes.byref(told.spec), agents.buffer_info()[0], apart, planner, mask, lost, unit
@@ -86,7 +83,9 @@ class Epochs:
         if not self._epochs:
             raise LimitReachedError("memory-limit")
         self._is_under_way = False
-        self._allowed(lambda room: library.epochs_start(self._epochs, told.row(state), room), deadline)
+        self._allowed(
+            lambda room: library.epochs_start(self._epochs, told.row(context.packed.init), room), deadline
+        )
 
     def __del__(self) -> None:
         if getattr(self, "_epochs", None):
