@@ -73,7 +73,7 @@ class Achievers:
         deadline: polled while needs are priced.
 
     A need that is judged by a field that ``pi_H`` changes counts twice: before that
-    happens, and, under the id ``late(need)``, afterwards.
+    happens, and, under the id ``-1 - need``, afterwards.
     """
 
     def __init__(
@@ -107,7 +107,7 @@ class Achievers:
     def at(self, need: int, epoch: int) -> int:
         """The id that a need goes by after ``epoch`` epochs of ``pi_H``."""
         changed = self._changes.get(self._judged_by(need))
-        return need if changed is None or epoch < changed else self._late(need)
+        return need if changed is None or epoch < changed else -1 - need
 
     def phases(self, epochs: int) -> list[tuple[int, int]]:
         """Stretches of ``0 .. epochs - 1`` between which ``pi_H`` changes something outside."""
@@ -119,10 +119,6 @@ class Achievers:
     def touched(need: int) -> int:
         """The need behind an id of :meth:`at`."""
         return need if need >= 0 else -1 - need
-
-    @staticmethod
-    def _late(need: int) -> int:
-        return -1 - need
 
     def costs(self, needs: Sequence[int], pays: Callable[[int], bool]) -> dict[int, int]:
         """Least cost from the initial state per need, as far as it can pay.

@@ -204,7 +204,9 @@ def _explore(
         edges: dict[int, tuple[int, int]] = {}  # of equal ones, what they lead to keeps the same
         for need_mask, need, keep, put, forbidden, weight, interaction in steps.candidates(state):
             after = state & keep | put
-            if state & need_mask != need or after == state or (forbidden and _holds_any(forbidden, state)):
+            if state & need_mask != need or after == state:
+                continue
+            if forbidden and any(state & field == value for field, value in forbidden):
                 continue
             if after not in moves:
                 if len(moves) >= most:
@@ -216,11 +218,6 @@ def _explore(
                 edge = edges[weight] = weight, state
             (interactions if interaction else moves)[after].append(edge)
     return Projected(mask, moves, interactions)
-
-
-def _holds_any(literals: Literals, state: int) -> bool:
-    """Whether one of some literals is true in a projected state."""
-    return any(state & mask == value for mask, value in literals)
 
 
 def _transitions(

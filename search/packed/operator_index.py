@@ -99,8 +99,13 @@ def most_asked(fields: Sequence[int], asked: Iterable[tuple[int, int]]) -> int:
 def by_variable(field: int, signatures: Iterable[Signature]) -> OperatorIndex[Operator]:
     """Operators by the value of a variable that is given."""
     index: OperatorIndex[Operator] = OperatorIndex(field)
+    by_value = index.by_value
     for signature in signatures:
-        _add(index, signature)
+        if not signature.need_mask & field:
+            index.always += signature.ops
+            continue
+        for op in signature.ops:
+            by_value.setdefault(op.need & field, []).append(op)
     return index
 
 
@@ -115,18 +120,4 @@ def by_most_asked(
         deadline: polled while they are sorted in.
     """
     asked = ((signature.need_mask, len(signature.ops)) for signature in signatures)
-    index: OperatorIndex[Operator] = OperatorIndex(most_asked(fields, asked))
-    for signature in signatures:
-        deadline.check()
-        _add(index, signature)
-    return index
-
-
-def _add(index: OperatorIndex[Operator], signature: Signature) -> None:
-    field = index.field
-    if not signature.need_mask & field:
-        index.always += signature.ops
-        return
-    by_value = index.by_value
-    for op in signature.ops:
-        by_value.setdefault(op.need & field, []).append(op)
+    return by_variable(most_asked(fields, asked), deadline.each(signatures, batch=1))

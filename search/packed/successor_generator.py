@@ -9,7 +9,7 @@ from itertools import chain
 from typing import Final, NamedTuple
 
 from search.packed.operator_index import OperatorIndex
-from search.packed.operators import Operator, applicable
+from search.packed.operators import Operator, applicable, asked_by
 from search.packed.packed_task import PackedTask
 from search.packed.state_cache import StateCache
 from serendipity.model.resources.deadline import Deadline
@@ -198,11 +198,7 @@ class Successors:
 
     def _asked(self, option: JointAction) -> int:
         """The fields that a single action asks for."""
-        op = self._packed.op(option.actions[0])
-        asked = op.need_mask
-        for mask, _ in op.forbidden:
-            asked |= mask
-        return asked
+        return asked_by(self._packed.op(option.actions[0]))
 
     def _circles(self, groups: list[list[JointAction]]) -> Iterator[tuple[JointAction, JointAction]]:
         """Sets of one option from each of several groups that can't be done in a sequence."""

@@ -1,6 +1,6 @@
 """Doing nothing beside a plan of the human alone: the first answer, and all that individual mode asks for."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from fractions import Fraction
 from typing import Final
@@ -59,7 +59,8 @@ class FirstAnswer:
             known = warm_plan(context, warm)
             if known is not None and warm.is_best and context.task.cost_of(known) == warm.bound:
                 context.alone.proved(context.packed.init, known)
-            self.plan = _cheapest(context, (known, given))
+            plans = [plan for plan in (known, given) if plan is not None]
+            self.plan = min(plans, key=context.task.cost_of, default=None)
         elif given is None and context.distances_say_little:
             self.plan = warm_plan(context, warm)
         if self.plan is None and given is None and context.distances_say_little:
@@ -153,11 +154,6 @@ def first_answer(prepared: PreparedTask, options: Options, deadline: Deadline) -
         LimitReachedError: the deadline came before any plan.
     """
     return FirstAnswer(SearchContext(prepared, options, deadline), None)
-
-
-def _cheapest(context: SearchContext, plans: Iterable[HumanPlan | None]) -> HumanPlan | None:
-    """The first one of the cheapest plans; None without any."""
-    return min((plan for plan in plans if plan is not None), key=context.task.cost_of, default=None)
 
 
 def _cheaper(context: SearchContext, plan: HumanPlan) -> FoundPlan:

@@ -73,7 +73,7 @@ class Writer:
             if entry is not None:
                 if entry.action != NOOP:
                     steps.append(Step(epoch, entry.action))
-                    rest = self._less_supporter(entry.value, entry.action)
+                    rest = entry.value[0], entry.value[1] - self.task.actions[entry.action].cost
                 else:
                     rest = entry.value
                 state = entry.after
@@ -107,9 +107,6 @@ class Writer:
             return rest == cost
         entry = solution.policy.get(move.after)
         return entry is not None and (entry.value[0] + cost[0], entry.value[1] + cost[1]) == rest
-
-    def _less_supporter(self, value: Costs, action: int) -> Costs:
-        return value[0], value[1] - self._game.task.actions[action].cost
 
     def _name(self, action: int) -> str:
         return NOOP_NAME if action == NOOP else self._game.task.actions[action].name

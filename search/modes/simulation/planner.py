@@ -89,12 +89,8 @@ def solve_for_human(
     known = () if warm is None else warm.steps
     call = _Call(task, options, human, plan, epochs, deadline, known, given=human_plan is not None)
     for answer in call.answers():
-        yield answer._replace(lower_bound=_not_below(least, answer.lower_bound))
-
-
-def _not_below(least: Fraction, bound: Fraction | None) -> Fraction | None:
-    """A lower bound that is no lower than an earlier one."""
-    return None if bound is None else max(least, bound)
+        bound = answer.lower_bound
+        yield answer._replace(lower_bound=None if bound is None else max(least, bound))
 
 
 @dataclass(eq=False)

@@ -7,16 +7,23 @@ Source: LM-cut of Helmert and Domshlak, Landmarks, critical paths and abstractio
 robots could provide may be had as well, and is never paid for.
 """
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from heapq import heapify, heappop, heappush
 from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from search.packed.cost_vector import FAR
 from search.packed.packed_task import PackedTask
 from search.short_windows.independent.provision import Value
+from search.short_windows.independent.rows import Amounts, Rows, codes
 from serendipity.model.resources.deadline import Deadline
 
 _UNMET: Final = -1
+
+_AT_ONCE: Final = 8
+"""Landmarks that are looked up together, by the bits of a byte."""
 
 
 class Landmark(NamedTuple):
@@ -211,3 +218,38 @@ class _Cuts:
                         before.add(added)
                         stack.append(added)
         return cut
+
+
+def left_to_pay(landmarks: Sequence[Landmark], rows: Rows) -> Amounts:
+    """What the human pays at least from packed states, at most :data:`FAR`.
+
+    Args:
+        landmarks: of one state; the others differ from it in values only that were given then.
+        rows: the states.
+    """
+    tables: dict[int, NDArray[np.bool_]] = {}
+    for number, landmark in enumerate(landmarks):
+        for field, value in landmark.void:
+            table = tables.setdefault(
+                field, np.zeros((len(landmarks), 1 << field.bit_count()), dtype=np.bool_)
+            )
+            table[number, value >> (field & -field).bit_length() - 1] = True
+    at = {field: codes(rows, field) for field in tables}
+    found = np.zeros(rows.shape[1], dtype=np.int64)
+    for first in range(0, len(landmarks), _AT_ONCE):
+        some = slice(first, first + _AT_ONCE)
+        void = np.zeros(rows.shape[1], dtype=np.uint8)
+        for field, table in tables.items():
+            if table[some].any():
+                void |= np.packbits(table[some], axis=0, bitorder="little")[0][at[field]]
+        found += _sums([landmark.cost for landmark in landmarks[some]])[void]
+        np.minimum(found, FAR, out=found)
+    return found
+
+
+def _sums(costs: Sequence[int]) -> Amounts:
+    """By the bits of a byte what all landmarks but those cost."""
+    found = np.zeros(1, dtype=np.int64)
+    for cost in (*costs, *[0] * (_AT_ONCE - len(costs))):
+        found = np.concatenate([found + cost, found])
+    return found

@@ -11,7 +11,9 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from search.short_windows.independent.rows import Amounts, Rows, agree, cheapest, column
+from search.short_windows.independent.landmarks import Landmark, left_to_pay
+from search.short_windows.independent.provision import Value
+from search.short_windows.independent.rows import Amounts, Rows, agree, cheapest, codes, column, states
 from search.short_windows.independent.timeline import Layer, TooManyStatesError
 from serendipity.model.resources.deadline import Deadline
 
@@ -114,7 +116,7 @@ class Together:
         self._most_paid = most_paid
         self._fields = [column(field, apart[0].rows.shape[0]) for field in fields]
         best = [int(net.min(initial=0)) for net in nets]
-        self.found, self._parts = _only(apart[0])
+        self.found, self._parts = apart[0], np.arange(len(apart[0].amounts), dtype=np.int32).reshape(1, -1)
         self._nets = nets[0]
         self._keep(self._nets < most - sum(best[1:]))
         for number, more in enumerate(apart[1:], 1):
@@ -187,5 +189,56 @@ def _least(rows: Rows, amounts: Amounts, deadline: Deadline) -> Outcomes:
     return Outcomes(rows[:, kept], amounts[kept])
 
 
-def _only(outcomes: Outcomes) -> tuple[Outcomes, Parts]:
-    return outcomes, np.arange(len(outcomes.amounts), dtype=np.int32).reshape(1, -1)
+def values(rows: Rows, fields: Collection[int]) -> set[Value]:
+    """The values that fields have in packed states."""
+    return {
+        (field, int(code) << (field & -field).bit_length() - 1)
+        for field in fields
+        for code in np.unique(codes(rows, field))
+    }
+
+
+class Remaining:
+    """Outcomes, until it is known what they are worth.
+
+    Args:
+        found: what robots leave behind together.
+        base: the packed state without any robot.
+    """
+
+    def __init__(self, found: Outcomes, base: int) -> None:
+        self._rows = found.rows ^ column(base, found.rows.shape[0])
+        self._amounts = found.amounts
+        self._least = found.amounts
+        self._places = np.arange(len(found.amounts))
+
+    def __len__(self) -> int:
+        return len(self._least)
+
+    @property
+    def least(self) -> int:
+        """The amount that none of them is below; there is one."""
+        return int(self._least.min())
+
+    def learn(self, landmarks: Sequence[Landmark]) -> None:
+        """Landmarks of a state: see :func:`left_to_pay`."""
+        self._least = np.maximum(self._least, self._amounts + left_to_pay(landmarks, self._rows))
+
+    def drop(self, limit: int) -> None:
+        """Leave out what is not below a limit."""
+        kept = self._least < limit
+        self._rows, self._places = self._rows[:, kept], self._places[kept]
+        self._amounts, self._least = self._amounts[kept], self._least[kept]
+
+    def take(self) -> tuple[int, int, int]:
+        """One for which least is known: its place, its state, and what robots pay for it."""
+        first = int(self._least.argmin())
+        found = (
+            int(self._places[first]),
+            states(self._rows[:, first : first + 1])[0],
+            int(self._amounts[first]),
+        )
+        kept = np.arange(len(self._least)) != first
+        self._rows, self._places = self._rows[:, kept], self._places[kept]
+        self._amounts, self._least = self._amounts[kept], self._least[kept]
+        return found

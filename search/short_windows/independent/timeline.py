@@ -1,7 +1,7 @@
 """One robot beside the human's timetable: what it can have made of the world by each epoch, and at what cost.
 
 The other robots are left out, but for this: what one of them can have provided by then (:mod:`.provision`)
-may be asked for as if it had, at the cost of what it does to no other end (:mod:`.detours`).  Whatever a
+may be asked for as if it had, at the cost of what it does to no other end (:func:`.detours`).  Whatever a
 robot does in a plan of all, it does here too, and what it was the last to set has the same value; so the
 costs are lower bounds, and exact where robots have nothing to do with each other.
 """
@@ -14,8 +14,7 @@ import numpy as np
 from search.call.context import SearchContext
 from search.packed.cost_vector import FAR, NEVER
 from search.packed.operators import Operator, asked_by
-from search.short_windows.independent.detours import detours, leaves
-from search.short_windows.independent.provision import Provision
+from search.short_windows.independent.provision import Provision, detours, leaves
 from search.short_windows.independent.rows import Amounts, Flags, Rows, agree, cheapest, codes, column
 from serendipity.model.errors import LimitReachedError
 

@@ -8,10 +8,9 @@ import numpy as np
 from search.call.context import SearchContext
 from search.packed.cost_vector import ACTIONS_BITS, FAR, INFINITE_KEY
 from search.packed.operators import Operator
-from search.short_windows.independent.landmarks import Landmark, Landmarks
-from search.short_windows.independent.outcomes import Outcomes, Together, outcomes
+from search.short_windows.independent.landmarks import Landmark, Landmarks, left_to_pay
+from search.short_windows.independent.outcomes import Outcomes, Remaining, Together, outcomes, values
 from search.short_windows.independent.provision import Value
-from search.short_windows.independent.remaining import Remaining, left_to_pay, values
 from search.short_windows.independent.rows import Amounts, column, states
 from search.short_windows.independent.timeline import Timeline, TooManyStatesError
 

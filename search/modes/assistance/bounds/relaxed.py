@@ -6,6 +6,7 @@ value of doing nothing; one is sought greedily by the sum of facts' costs (h_add
 """
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import partial
 from heapq import heappop, heappush
 from typing import NamedTuple
 
@@ -33,7 +34,7 @@ def joint_lower_bound(game: Game, deadline: Deadline) -> int:
         *_actions(game, deadline, prime=True, shift=game.unit_bits),
         *_actions(game, deadline, prime=False, shift=0),
     ]
-    costs = _Relaxation(actions, _greatest, deadline).costs(task.init)
+    costs = _Relaxation(actions, partial(max, default=0), deadline).costs(task.init)
     return max((costs.get(fact, INFINITE_KEY) for fact in task.goal.positive), default=0)
 
 
@@ -81,10 +82,6 @@ def _actions(game: Game, deadline: Deadline, *, prime: bool, shift: int) -> list
         if action.participants == (agent,):
             found.append(_Action(action.pre, action.add, int(action.cost * game.scale) << shift))
     return found
-
-
-def _greatest(values: Iterable[int]) -> int:
-    return max(values, default=0)
 
 
 class _Relaxation:

@@ -80,7 +80,7 @@ class Layers:
         for arc in arcs:
             deadline.tick()
             self._tests.append(self._test(arc.condition))
-            self._effects.append(self._effect(arc))
+            self._effects.append((self._compressed(arc.keep), self._compressed(arc.put)))
         self._arc_weights = [arc.weight for arc in arcs]
         self._weights = sorted({arc.weight for arc in arcs})
         self._goal = self._test(goal)
@@ -109,9 +109,6 @@ class Layers:
         pack = self._compressed
         need = pack(condition.need) if condition.need >= 0 else -1
         return pack(condition.need_mask), need, [(pack(m), pack(v)) for m, v in condition.forbidden]
-
-    def _effect(self, arc: Arc) -> tuple[int, int]:
-        return self._compressed(arc.keep), self._compressed(arc.put)
 
     @staticmethod
     def _where(test: tuple[int, int, list[tuple[int, int]]], states: Words) -> Indices:

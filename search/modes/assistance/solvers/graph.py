@@ -120,16 +120,14 @@ class Graph:
 
     def back_up_reply(self, at: int) -> bool:
         """Raise a reply's bound to what its outcomes say; whether it rose."""
-        value = self.rule.combine([self.outcome_value(move) for move in self.replies[at]])
+        value = self.rule.combine(
+            [self.rule.add(move.value, self.choice_value(move.after)) for move in self.replies[at]]
+        )
         low = self.reply_low.get(at)
         if low is None or value > low:
             self.reply_low[at] = value
             return True
         return False
-
-    def outcome_value(self, move: Move) -> Value:
-        """Lower bound of a prime's move."""
-        return self.rule.add(move.value, self.choice_value(move.after))
 
     def settled(self, at: int) -> bool:
         """Whether doing nothing any more after this is as good as can be."""

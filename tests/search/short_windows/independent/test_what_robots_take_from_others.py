@@ -10,7 +10,7 @@ from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from search.short_windows.independent import timeline
-from search.short_windows.independent.detours import detours, leaves
+from search.short_windows.independent.provision import detours, leaves
 from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build

@@ -12,9 +12,8 @@ from search.call.prepared_task import PreparedTask
 from search.packed.cost_vector import FAR
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
-from search.short_windows.independent.landmarks import Landmarks
+from search.short_windows.independent.landmarks import Landmarks, left_to_pay
 from search.short_windows.independent.provision import Value
-from search.short_windows.independent.remaining import left_to_pay
 from search.short_windows.independent.rows import codes, column
 from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
