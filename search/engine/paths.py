@@ -1,5 +1,7 @@
 """The steps of a plan from the node that it ended in."""
 
+from collections.abc import Iterator
+
 from search.engine.best_first import Node
 from serendipity.model.task.plans import Step
 from serendipity.model.task.task import HumanPlan
@@ -12,20 +14,17 @@ def plan_steps(plan: HumanPlan, first_epoch: int = 1) -> tuple[Step, ...]:
 
 def path_steps(node: Node) -> tuple[Step, ...]:
     """The steps that lead to a node, in order of epoch and action."""
-    steps: list[Step] = []
-    at: Node | None = node
-    while at is not None:
-        steps.extend(Step(at.epoch, action) for action in at.actions)
-        at = at.parent
-    return tuple(sorted(steps))
+    return tuple(sorted(Step(at.epoch, action) for at in _back_from(node) for action in at.actions))
 
 
 def path_sets(node: Node) -> list[tuple[int, ...]]:
     """The non-empty action sets that lead to a node, in order."""
-    sets: list[tuple[int, ...]] = []
+    return [at.actions for at in _back_from(node) if at.actions][::-1]
+
+
+def _back_from(node: Node) -> Iterator[Node]:
+    """A node and those that lead to it, the last one first."""
     at: Node | None = node
     while at is not None:
-        if at.actions:
-            sets.append(at.actions)
+        yield at
         at = at.parent
-    return sets[::-1]

@@ -145,11 +145,11 @@ class Preserved:
         plan: HumanPlan,
         weights: list[int],
         goals: list[PackedGoal],
-        expected: list[list[int]],
+        expected: list[PackedGoal],
     ) -> None:
         self._ops = [packed.op(i) for i in plan]
         self._goals = goals
-        self._expected = [_Contained(packed, facts) for facts in expected]
+        self._expected = expected
         self._rest = list(accumulate(reversed(weights), initial=0))[::-1]
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
@@ -175,18 +175,3 @@ class Preserved:
                 return False
             state = state & op.keep | op.put
         return all(goal.holds(state) for goal in self._goals)
-
-
-class _Contained:
-    """Whether a packed state contains a set of facts."""
-
-    def __init__(self, packed: PackedTask, facts: list[int]) -> None:
-        self.mask = self.value = 0
-        for fact in facts:
-            bits = packed.fact_bits[fact]
-            assert bits is not None, "the full encoding packs every fact of the human's domain"
-            self.mask |= bits[0]
-            self.value |= bits[1]
-
-    def holds(self, state: int) -> bool:
-        return state & self.mask == self.value

@@ -39,6 +39,11 @@ class PackedGoal:
             mask |= field
         return mask
 
+    def within(self, fields: int) -> "PackedGoal":
+        """What it asks of some fields."""
+        forbidden = tuple((field, value) for field, value in self.forbidden if field & fields)
+        return PackedGoal(self.need_mask & fields, self.need & fields, forbidden)
+
     def holds(self, state: int) -> bool:
         """Whether the packed state satisfies the condition."""
         if state & self.need_mask != self.need:

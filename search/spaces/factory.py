@@ -24,6 +24,7 @@ from search.packed.successor_generator import JointAction
 from search.spaces.unrestricted import Unrestricted
 from search.spaces.windowed import AnyOfPlan, InLayers, Prefix, PrefixBound, PrivateRest, Windowed
 from serendipity.model.options import Options
+from serendipity.model.task.actions import Condition
 from serendipity.model.task.task import HumanPlan
 
 
@@ -298,7 +299,8 @@ def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
     goals = list(context.goals)
     if options.preservation == "state":
         own = human_facts(task)
-        expected = [sorted(own & state) for state in task.replay_alone(plan)]
+        states = task.replay_alone(plan)
+        expected = [packed.condition(Condition(tuple(sorted(own & state)))) for state in states]
         return Preserved(packed, plan, weights, goals, expected)
     if options.suffix == "subplan":
         return Subplan(packed, plan, weights, goals, context.deadline)

@@ -75,7 +75,6 @@ class FixedWindow:
         self._window = window
         self._opens = window.start - 1
         self._left = weighed.horizon + 1 - window.end
-        self._prefix: dict[tuple[int, int], int] = {}
         self._labels = ParetoFront()
 
     def roots(self) -> Iterator[tuple[int, Node]]:
@@ -87,9 +86,7 @@ class FixedWindow:
 
     def alive(self, node: Node) -> bool:
         """Whether no better node makes this one superfluous."""
-        if node.phase == PREFIX:
-            return self._prefix[node.epoch, node.state] == node.key
-        return self._labels.alive(node.state, node.epoch, node.key)
+        return self._labels.alive(self._place(node.epoch, node.state), node.epoch, node.key)
 
     def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors; a node of the window is offered to ``best`` as the last in which anybody acts."""
@@ -142,13 +139,11 @@ class FixedWindow:
 
     def _remember(self, epoch: int, state: int, key: int) -> bool:
         """Whether the state was not reached as cheaply before: in that epoch, or in the window by then."""
-        if epoch >= self._opens:
-            return self._labels.add(state, epoch, key)
-        known = self._prefix.get((epoch, state))
-        if known is not None and known <= key:
-            return False
-        self._prefix[epoch, state] = key
-        return True
+        return self._labels.add(self._place(epoch, state), epoch, key)
+
+    def _place(self, epoch: int, state: int) -> int | tuple[int, int]:
+        """Before the window nobody waits: there epochs tell states apart."""
+        return state if epoch >= self._opens else (epoch, state)
 
     def _end(self, node: Node, best: Incumbent) -> None:
         suffix, limit = self._weighed.suffix, best.key - node.key

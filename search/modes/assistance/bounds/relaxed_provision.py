@@ -66,10 +66,7 @@ class RelaxedProvision:
         self._field = most_asked(private, ((op.need_mask, 1) for op in packed.own))
         self._setters = self._find_setters()
         self._charged = self._find_charged()
-        goal = game.goal
-        self._goal_mask = goal.need_mask & self._private
-        self._goal_need = goal.need & self._private
-        self._goal_forbidden = tuple((m, v) for m, v in goal.forbidden if m & self._private)
+        self._goal = game.goal.within(self._private)
         self._countable = self._find_countable()
         self._contexts: dict[int, _Context] = {}
 
@@ -133,7 +130,7 @@ class RelaxedProvision:
 
     def _find_countable(self) -> int:
         """Bits of the goal that each cost a step of their own; none if a step can set two."""
-        bits = self._goal_need & self._goal_mask & self._monotone
+        bits = self._goal.need & self._goal.need_mask & self._monotone
         if any((op.put & bits).bit_count() > 1 for op in self._game.packed.own):
             return 0
         return bits
@@ -186,11 +183,6 @@ class RelaxedProvision:
             tuple(charges),
         )
 
-    def _holds(self, at: int) -> bool:
-        if at & self._goal_mask != self._goal_need:
-            return False
-        return all(at & mask != value for mask, value in self._goal_forbidden)
-
     def _least(self, context: _Context, at: int) -> int:
         """Every bit of the goal that is missing costs a step."""
         missing = self._countable & ~at
@@ -209,7 +201,7 @@ class RelaxedProvision:
         deadline = self._game.deadline
         search = AStar(start, partial(self._least, context), deadline, limit=INFINITE_KEY, deep_first=True)
         for at, spent in search:
-            if at not in known and self._holds(at):
+            if at not in known and self._goal.holds(at):
                 known[at] = (0, None, at)
             if at in known:
                 total = spent + known[at][0]

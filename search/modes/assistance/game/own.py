@@ -99,10 +99,6 @@ def _within(condition: PackedGoal, changed: int, context: int) -> PackedGoal | N
     rest = condition.need_mask & ~changed
     if condition.need < 0 or context & rest != condition.need & rest:
         return None
-    forbidden = []
-    for field, value in condition.forbidden:
-        if field & changed:
-            forbidden.append((field, value))
-        elif context & field == value:
-            return None
-    return PackedGoal(condition.need_mask & changed, condition.need & changed, tuple(forbidden))
+    if any(context & field == value for field, value in condition.forbidden if not field & changed):
+        return None
+    return condition.within(changed)
