@@ -1,4 +1,4 @@
-"""What it costs robots, at least, to provide what a touch needs.
+"""The automaton behind achiever costs: least costs for robots to provide what a touch needs.
 
 One outside field is looked at together with the place of one robot at a time:
 the robot that is *tracked*.  It walks (ops on its place), it acts on the field,

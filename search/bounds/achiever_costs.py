@@ -1,4 +1,4 @@
-"""What it costs robots, at least, to provide one need, by where they are.
+"""Achiever costs: the least for robots to provide one need, by where they are.
 
 Distances come from :mod:`search.bounds.achiever_automaton`, whose glossary holds here, too.
 """

@@ -1,4 +1,4 @@
-"""What robots need, at least, to provide what the human's touches ask for."""
+"""Lower bounds on what robots pay, and take, to provide what the human's touches ask for."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

@@ -178,7 +178,7 @@ def no_team_bound(_state: int, /) -> int:
 
 
 class Bounds(NamedTuple):
-    """Which bound holds at a node.
+    """The bounds of a space, each for its phase of a node.
 
     The first pass of this module judges the *first* touch only; once there has been one,
     the private bound is what holds.

@@ -1,4 +1,4 @@
-"""How the human depends on others: their touches, and what each of them needs.
+"""Interactions of the human with others: their touches, and what each of them needs.
 
 Fields fall apart into the human's *private* ones (no op changes them without
 them), and *outside* ones, which robots change.  A *touch* is an op of theirs that

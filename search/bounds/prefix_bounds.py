@@ -73,7 +73,7 @@ class PrefixBounds:
 
 
 class Offer(NamedTuple):
-    """What robots can do about a need from where they are.
+    """The least total of a plan in which robots provide a need from where they are.
 
     Attributes:
         least: least total of the human, and ``cost``.

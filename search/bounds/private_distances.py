@@ -15,7 +15,7 @@ _MOST_KEPT = 200_000
 
 
 class Corridor:
-    """What the human can do from some states before a first touch, within a limit.
+    """The human's ways from some states up to a first touch, within a limit.
 
     Attributes:
         without: least total to the goal without a touch.

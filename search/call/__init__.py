@@ -1,1 +1,1 @@
-"""What every search of one call shares: a prepared task, and the context of a call."""
+"""A prepared task, and the context of a call, which all of its searches share."""

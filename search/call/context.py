@@ -1,4 +1,4 @@
-"""What every search of one call shares: packed task, key weights, bounds, the human alone."""
+"""The context that all searches of a call share: packed task, key weights, bounds, the human alone."""
 
 from bisect import bisect_left
 from collections.abc import Callable, Collection, Sequence
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class SearchContext:
-    """What one call works with: the prepared task under its options.
+    """The prepared task under the options of one call.
 
     Args:
         prepared: the task.

@@ -168,7 +168,7 @@ def _including(
 
 
 def _diverted(plain: TaskTables, kept: tuple[int, ...], deadline: Deadline) -> TaskTables:
-    """What is packed anyway, and actions that are kept though they contribute to nothing."""
+    """The plain packing, and actions that are kept though they contribute to nothing."""
     return _including(plain.packed.task, frozenset(), deadline, kept) if kept else plain
 
 

@@ -128,7 +128,7 @@ def _disabled(packed: PackedTask, operators: Sequence[Operator], deadline: Deadl
 
 
 def _asking(packed: PackedTask, operators: Sequence[Operator], deadline: Deadline) -> tuple[Asking, Asking]:
-    """Who needs what, and who must not have it."""
+    """Operators by the values that they need, and by those that they forbid."""
     needing: Asking = {}
     forbidding: Asking = {}
     for number, op in enumerate(operators):

@@ -1,4 +1,4 @@
-"""What no two things can be at once: pairs of values that are never reached together.
+"""Mutexes (h2): pairs of values that are never reached together.
 
 Source: Haslum and Geffner, Admissible heuristics for optimal planning (2000), with ``m = 2``.
 """

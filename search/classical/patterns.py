@@ -1,4 +1,4 @@
-"""Which fields to keep together: what the goal asks for, and what its changers ask for in turn."""
+"""Patterns, sets of fields to keep together: of the goal, and of what its changers ask for in turn."""
 
 from collections.abc import Iterator, Sequence
 from itertools import chain, combinations

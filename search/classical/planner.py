@@ -49,7 +49,7 @@ RUNNING, FOUND, _NOT_BELOW, _HOPELESS, MEMORY, _UNFIT = range(6)
 
 
 def with_memory(call: Callable[[int], int], wanted: Callable[[], int], deadline: Deadline) -> int:
-    """What a call of the kernel ends with, given as much memory as it wants.
+    """The outcome of a call of the kernel, given as much memory as it wants.
 
     Args:
         call: the call, by how many bytes may be allocated.
@@ -68,7 +68,7 @@ def with_memory(call: Callable[[int], int], wanted: Callable[[], int], deadline:
 
 
 class ClassicalPlanner:
-    """What the kernel knows of one problem.
+    """The kernel on one problem, with all that it has learnt.
 
     Args:
         library: the compiled kernel.

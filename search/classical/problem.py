@@ -25,7 +25,7 @@ _INFINITE_WEIGHT: Final = 2**63 - 1
 
 @dataclass(frozen=True, slots=True)
 class ClassicalProblem:
-    """What the kernel solves.
+    """A classical problem with additive costs, as the kernel solves it.
 
     Attributes:
         fields: masks of the fields that states differ in, with the number of their values.

@@ -1,4 +1,4 @@
-"""What all agents do together where epochs don't count, as the kernel's problem."""
+"""The team where epochs don't count, as a problem for the kernel."""
 
 from collections.abc import Callable, Iterator
 from functools import reduce

@@ -1,1 +1,1 @@
-"""What every search is made of: the best-first loop, dominance, outcomes."""
+"""Searches that know nothing of planning: best first, A*, shortest paths, AND-OR graphs, dominance."""

@@ -50,7 +50,7 @@ class Incumbent:
 
 @dataclass(slots=True)
 class Progress:
-    """What a search knows of itself at any moment.
+    """The bound and the counts of a search at any moment.
 
     Attributes:
         bound: no complete plan has a smaller key.
@@ -73,7 +73,7 @@ class Progress:
 
 
 class Keyed(Protocol):
-    """What a search improves: an incumbent, with its key."""
+    """An incumbent, with its key, that a search improves."""
 
     key: int
 
@@ -84,7 +84,7 @@ Improved = TypeVar("Improved", bound=Keyed, contravariant=True)
 
 
 class Space(Protocol[N, Improved]):
-    """What a mode defines: its nodes (``N``), and how they lead to a better incumbent."""
+    """The search space of a mode: its nodes (``N``), and how they lead to a better incumbent."""
 
     def roots(self) -> Iterable[tuple[int, N]]:
         """Bounded initial nodes."""

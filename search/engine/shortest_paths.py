@@ -15,7 +15,7 @@ State = TypeVar("State", bound=Hashable)
 
 
 class LevelQueue(Generic[Item]):
-    """What is still to be settled, by its distance.
+    """A priority queue of what is still to be settled, by its distance.
 
     Iterating takes one level after another out of the queue, by ascending distance, until none is
     left; what is pushed meanwhile comes in its turn.  An item comes up as often as it was pushed, in

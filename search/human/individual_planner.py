@@ -27,7 +27,7 @@ _MANY: Final = 2_000
 
 
 class Memory:
-    """What has been found out about the human alone; good for calls that weigh alike.
+    """Costs and plans of the human alone that have been found; good for calls that weigh alike.
 
     Args:
         packed: the packed task.

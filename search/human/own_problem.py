@@ -1,4 +1,4 @@
-"""What the human does alone, as the kernel's problem."""
+"""The human alone as a problem for the kernel."""
 
 from search.classical.planner import ClassicalPlanner
 from search.classical.problem import classical_problem

@@ -194,7 +194,7 @@ class Transition(NamedTuple):
 def _explore(
     mask: int, start: int, steps: OperatorIndex[Transition], most: int, deadline: Deadline
 ) -> Projected | None:
-    """What leads from ``start`` to each projected state; None if they are more than ``most``."""
+    """The graph of projected states that are reached from ``start``; None if they are more than ``most``."""
     moves: Predecessors = {start: []}
     interactions: Predecessors = {start: []}
     pending = [start]
@@ -248,7 +248,7 @@ def _transitions(
 
 
 def _seen(form: Signature, mask: int, weight: int) -> dict[tuple[int, int, Literals], int]:
-    """What the ops of a form ask for and set in some fields, with their weight."""
+    """Preconditions and effects of a form's ops in some fields, with their weight."""
     if not form.forbids & mask:
         return {(op.need & mask, op.put & mask, ()): weight for op in form.ops}
     return {

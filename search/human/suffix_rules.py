@@ -1,4 +1,4 @@
-"""What the human does after the window, alone (semantics 3.1 rule 3, 3.3)."""
+"""Rules for the suffix: the human alone after the window (semantics 3.1 rule 3, 3.3)."""
 
 from dataclasses import dataclass
 from itertools import accumulate

@@ -1,4 +1,4 @@
-"""What the human can do alone, as far as it follows from the packed task alone."""
+"""Tables of the human alone that follow from the packed task."""
 
 from collections.abc import Callable
 from functools import cached_property, partial

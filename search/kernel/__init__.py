@@ -1,1 +1,1 @@
-"""What is compiled: generic search over packed states in C, and how it is built and loaded."""
+"""The compiled part: generic search over packed states in C, and how it is built and loaded."""

@@ -104,7 +104,7 @@ def units(source: Path) -> list[Path]:
 
 
 def source_hash(source: Path) -> str:
-    """What tells one state of the source from another; a kernel returns it as ``kernel_source_hash()``."""
+    """A hash of the source and its units; a kernel returns that of its own as ``kernel_source_hash()``."""
     import hashlib
 
     hashes = (f"{unit.name} {hashlib.sha256(unit.read_bytes()).hexdigest()}" for unit in units(source))

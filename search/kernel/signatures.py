@@ -1,4 +1,4 @@
-"""What the kernel's functions take and return, as in ``api.h``.
+"""Arguments and results of the kernel's functions, as in ``api.h``.
 
 They are told to :mod:`ctypes` once, before anybody has the library: other threads may call it at any time.
 """

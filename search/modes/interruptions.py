@@ -27,7 +27,7 @@ from serendipity.model.task.task import HumanPlan
 
 @dataclass(frozen=True, slots=True)
 class WindowOutcome:
-    """What is possible in one window.
+    """The least costs of plans that fit one window.
 
     Attributes:
         window: the window.
@@ -45,7 +45,7 @@ class WindowOutcome:
 
 @dataclass(frozen=True, slots=True)
 class Interruptions:
-    """What is possible in every window.
+    """The report on every window.
 
     Attributes:
         human_plan: ``pi_H``.
@@ -111,7 +111,7 @@ def _examined(
     idling: int,
     on_progress: Callable[[int, int], None] | None,
 ) -> Iterator[WindowOutcome]:
-    """What is possible in each window, those first that say most of the others."""
+    """Outcomes of all windows, those first that say most of the others."""
     if not plan:
         return
     windows = len(plan) * (horizon + 1) - len(plan) * (len(plan) + 1) // 2

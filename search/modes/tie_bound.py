@@ -1,4 +1,4 @@
-"""What no answer costs less than, whichever optimal plan the human follows (semantics 1).
+"""A lower bound on all answers, whichever optimal plan the human follows (semantics 1).
 
 All their optimal plans are as long and cost as much, so one search does for them: before the
 window they do, in each epoch, anything that some optimal plan does then.  That allows at least

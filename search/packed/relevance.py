@@ -1,4 +1,4 @@
-"""What can matter to the goals, whatever anybody does: all else is not packed."""
+"""Relevance: facts and actions that can matter to the goals; all else is not packed."""
 
 from collections.abc import Collection
 from itertools import compress

@@ -1,4 +1,4 @@
-"""What has been worked out for states, as long as it is not too much."""
+"""A cache by state that is emptied when it holds too much."""
 
 from typing import TypeVar
 

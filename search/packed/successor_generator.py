@@ -1,4 +1,4 @@
-"""What the agents can do in one epoch, all of them at once (semantics 2).
+"""Successors: sets of actions that agents can do in one epoch (semantics 2).
 
 Ops are looked up under their leader by the value of one field, the one that most
 of the leader's actions ask for (a position, as a rule).

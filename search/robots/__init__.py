@@ -1,1 +1,1 @@
-"""What robots can do by themselves: transition graphs of variables, decoupled ways."""
+"""Robots by themselves: transition graphs of their variables, decoupled walks."""

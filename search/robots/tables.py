@@ -1,4 +1,4 @@
-"""What robots can do, as far as it follows from the packed task alone."""
+"""Tables of robots that follow from the packed task."""
 
 from functools import partial
 

@@ -1,4 +1,4 @@
-"""What robots can do: their walks, and their ops as a field sees them.
+"""Transition graphs of variables: robots' walks, and their ops as one field sees them.
 
 Glossary: *place* - the value of the field that most of a robot's own ops ask for.
 """

@@ -1,4 +1,4 @@
-"""Which plans with a window of one epoch are better than the incumbent: what every way to tell is given."""
+"""The question about windows of one epoch: plans with one that are better than the incumbent."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace

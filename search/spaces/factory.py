@@ -118,7 +118,7 @@ def free_space(
 
 
 def no_worse(keys: CostLayout, options: Options, most_cost: int | None) -> Callable[[int, int], bool] | None:
-    """What else the first key must not be worse in, to dominate the second."""
+    """The condition, beside the key, under which the first of two keys dominates the second; None: none."""
     if most_cost is None and options.max_window is None and options.preservation == "kernel":
         return None
 

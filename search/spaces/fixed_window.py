@@ -17,7 +17,7 @@ from serendipity.model.task.task import HumanPlan
 
 
 class Weighed:
-    """What the spaces of all windows share: the task under some weights, and bounds.
+    """The task under some weights, and bounds, which the spaces of all windows share.
 
     Args:
         context: of the call.

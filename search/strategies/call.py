@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Allowance(NamedTuple):
-    """What of a call a strategy may take.
+    """The share of a call that a strategy may take.
 
     Attributes:
         deadline: of this part.

@@ -1,4 +1,4 @@
-"""Which calls a strategy is for: each condition once, by name."""
+"""Conditions on the calls that a strategy is for: each once, by name."""
 
 from search.call.context import SearchContext
 from search.strategies.call import Call

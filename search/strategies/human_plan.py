@@ -1,4 +1,4 @@
-"""What the human does alone: ``pi_H``, and what a call knows of it before robots come in."""
+"""The human alone: ``pi_H``, and what a call knows of it before robots come in."""
 
 from collections.abc import Iterator
 
@@ -44,7 +44,7 @@ def optimal_plan(call: Call, part: Allowance) -> None:
 
 
 def known_plan(call: Call, part: Allowance) -> None:
-    """What is left of the last answer, where it is a plan of this call."""
+    """The rest of the last answer, where it is a plan of this call."""
     context = call.under(part.deadline)
     found = replayed(context, call.plan or (), call.epochs, call.most_cost, call.warm)
     if found is not None:
@@ -52,7 +52,7 @@ def known_plan(call: Call, part: Allowance) -> None:
 
 
 def plan_alone(call: Call, part: Allowance) -> None:
-    """What the human gains alone, where the plan that is given is not an optimal one (semantics 1)."""
+    """The human's gain alone, where the plan that is given is not an optimal one (semantics 1)."""
     plan = call.plan
     assert plan is not None and call.given is not None, "it is given"
     optimum = call.context.alone.key(call.context.packed.init)
@@ -89,7 +89,7 @@ def _may_turn_at_once(call: Call, optimum: int) -> bool:
 
 
 def first_bound(call: Call, _: Allowance) -> Iterator[None]:
-    """What the human has to do themselves bounds every plan; and whether that was known to be all."""
+    """A bound on every plan by what the human has to do themselves; the end where that is known to be all."""
     if not is_for_team_first(call):
         call.raise_bound(call.least())
     if call.is_known_best or (call.epochs == 0 and answered(call).key < INFINITE_KEY):
@@ -98,6 +98,6 @@ def first_bound(call: Call, _: Allowance) -> Iterator[None]:
 
 
 def saving(call: Call, part: Allowance) -> None:
-    """What the human does alone, for the saving of an answer that did not have to wait for it."""
+    """The human's plan alone, for the saving of an answer that did not have to wait for it."""
     optimal = call.under(part.deadline).canonical_plan()
     call.compare(None if optimal is None else optimal.actions)

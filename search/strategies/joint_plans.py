@@ -95,7 +95,7 @@ def greedily_within_horizon(call: Call, part: Allowance) -> Iterator[None]:
 
 
 def _incumbent(call: Call) -> Incumbent:
-    """What composite plans within ``T`` have to beat: the best plan so far, one with a window or not."""
+    """The incumbent that composite plans within ``T`` have to beat, one with a window or not."""
     known = min(call.baseline.key, call.best.key)
     return Incumbent(known) if call.options.windowed else call.best
 

@@ -1,4 +1,4 @@
-"""What is known of a call, as an answer (semantics 3)."""
+"""The answer to a call, by what is known of it (semantics 3)."""
 
 from contextlib import suppress
 from fractions import Fraction
@@ -64,12 +64,12 @@ def _score(call: Call, found: Incumbent) -> tuple[Fraction, Fraction]:
 
 
 def answered(call: Call) -> Incumbent:
-    """What is answered: with windows the baseline, where there is no opportunity."""
+    """The incumbent that is answered: with windows the baseline, where there is no opportunity."""
     return call.baseline if call.options.windowed and not helps(call) else call.best
 
 
 def _status(call: Call) -> Status:
-    """What is proved; an infinite bound is a proof."""
+    """The status by what is proved; an infinite bound is a proof."""
     if answered(call).key < INFINITE_KEY:
         return "optimal" if call.is_over and call.knows_alone and _is_best(call) else "feasible"
     is_proved = (call.is_over and call.is_done) or call.progress.bound >= INFINITE_KEY

@@ -11,7 +11,7 @@ if TYPE_CHECKING:  # loaded by the calls that it serves
 
 
 def robots_apart(call: Call, part: Allowance) -> Iterator[None]:
-    """What each robot can bring about by itself, put together, by the epoch of the window."""
+    """Outcomes of each robot by itself, put together, by the epoch of the window."""
     from search.short_windows.independent.short_windows import (
         short_windows,  # only here: most calls come by without
     )

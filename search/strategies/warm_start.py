@@ -1,4 +1,4 @@
-"""What is known of a call before it begins: an answer to it, and what no answer costs less than.
+"""Warm starts: an answer that is known before a call begins, and a lower bound on all answers.
 
 A control loop asks again and again.  What is left of an answer after an epoch is an answer to the
 next call as often as not; whether it is, is found out here, by the rules of that call.
@@ -25,7 +25,7 @@ _SHARE = 0.3
 
 @dataclass(frozen=True, slots=True)
 class WarmStart:
-    """What is known of a call.
+    """A plan and a bound that are known before a call begins.
 
     Attributes:
         steps: a plan; whether it is one here is to be found out.

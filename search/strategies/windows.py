@@ -42,7 +42,7 @@ def _search(
 
 
 def _ties(call: Call) -> Ties | None:
-    """How far plans of the best objective are told apart: all the way, where private distances say enough."""
+    """The limit on telling plans of the best objective apart; none where private distances say enough."""
     return Ties(call.keys.objective_shift, _TIES) if call.context.distances_say_little else None
 
 

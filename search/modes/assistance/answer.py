@@ -63,7 +63,7 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
 
 
 def _most_alone(game: Game) -> int:
-    """What doing nothing is worth at most, by some plan of the prime's at hand; else ``INFINITE_KEY``."""
+    """An upper bound on doing nothing, by some plan of the prime's at hand; else ``INFINITE_KEY``."""
     try:
         plan = first_answer(game.prepared, Options(), game.deadline.part(_PLAN_SHARE)).plan
     except LIMITS:
@@ -77,7 +77,7 @@ def _left_alone(game: Game, lower: Costs, upper: int) -> Answer:
 
 
 def _limit_of(work: Callable[[], object]) -> str | None:
-    """Which limit stopped some work, or None; what the work held is free on return."""
+    """The limit that stopped some work, or None; what the work held is free on return."""
     try:
         work()
     except LIMITS as limit:
@@ -119,7 +119,7 @@ def _without_his_optimum(game: Game, upper: int, limit: str) -> Iterator[Answer]
 
 
 def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None, limit: str) -> Answer:
-    """What is known when the time is up: doing nothing is always an answer, if the prime has a plan."""
+    """The answer when the time is up: doing nothing is always one, if the prime has a plan."""
     known = GameSolution(None, None) if search is None else search.solution(floors=False)
     if search is not None and known.upper is not None and known.lower == known.upper:
         return _answer(writer, search, "optimal")
@@ -220,13 +220,13 @@ def _said(
 
 
 def _least_sum(bounds: PolicyBounds) -> Fraction:
-    """What both costs add up to at least, the human's coming first."""
+    """A lower bound on the sum of both costs, the human's coming first."""
     lower, upper = bounds.lower, bounds.upper
     return sum(lower, Fraction(0)) if upper is not None and lower[0] == upper[0] else lower[0]
 
 
 def _in_time(write: Callable[[], _T]) -> _T | None:
-    """What ``write`` returns; None where the time is up before it knows the prime's choices."""
+    """The result of ``write``; None where the time is up before it knows the prime's choices."""
     try:
         return write()
     except LIMITS:

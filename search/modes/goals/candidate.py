@@ -1,4 +1,4 @@
-"""What is asked about several candidate goals."""
+"""Candidate goals of the human, with plans and probabilities."""
 
 from dataclasses import dataclass
 from fractions import Fraction

@@ -11,7 +11,7 @@ Rank = tuple[int, ...]
 
 
 class Expectation:
-    """How candidates' keys add up.
+    """Expected ranks by the keys of candidates.
 
     Args:
         weights: probability of each candidate; they add up to 1.

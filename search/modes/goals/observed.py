@@ -30,7 +30,7 @@ _At = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Likelihood:
-    """What the observations cost a human who wants one goal.
+    """Costs of a human who wants one goal, with the observations and without them.
 
     Attributes:
         with_observed: ``cost(G, O)``: least cost of their plans that embed them; None if none does.
@@ -44,7 +44,7 @@ class Likelihood:
 
 
 class Explainer:
-    """What explains observations, for each of several goals; tables are kept from question to question.
+    """Explanations of observations by each of several goals; tables are kept from question to question.
 
     Args:
         task: the task; robots idle, its own goal plays no part.
@@ -98,7 +98,7 @@ def _explanation(
     *,
     canonical: bool,
 ) -> Likelihood:
-    """What explains observations, by what explained them before the last ones were made.
+    """The explanation of observations, by the one before the last of them were made.
 
     Plans that embed all of them embed those before, so they cost no less, and as much where the canonical
     one goes on as observed.  Plans that don't embed all of them cost no more than those that don't embed

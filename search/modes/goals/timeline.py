@@ -33,7 +33,7 @@ class Ended(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Situation:
-    """What can have happened after some epochs.
+    """All that can have happened after some epochs.
 
     Attributes:
         follows: the human has followed their plan all the time; None if robots made that impossible.

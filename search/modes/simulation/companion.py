@@ -1,4 +1,4 @@
-"""What robots had best do beside a human who replans, asked again from epoch to epoch.
+"""The best help beside a human who replans, asked for again from epoch to epoch.
 
 The tables, and what was found out about the human, are kept from one question to the next.  A question
 is answered by what is known so far when its time is up: robots one by one first, which takes little

@@ -1,4 +1,4 @@
-"""What the human comes to believe when they look up (semantics 6)."""
+"""Looks: the human's belief after they have looked up (semantics 6)."""
 
 from typing import Protocol
 
@@ -7,7 +7,7 @@ from serendipity.model.task.visibility import Surroundings, Visible
 
 
 class Eyes(Protocol):
-    """How a look changes a belief."""
+    """A way to see, which changes a belief."""
 
     def look(self, belief: int, state: int) -> int:
         """The belief after a look at the packed state."""

@@ -21,7 +21,7 @@ from serendipity.model.task.visibility import Visible
 
 @dataclass(frozen=True, slots=True)
 class Glance:
-    """What a look makes of the human's plan; costs are scaled, None is infinite.
+    """The human's decision after a look; costs are scaled, None is infinite.
 
     Attributes:
         intention: what they mean to do now.

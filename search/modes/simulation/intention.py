@@ -1,4 +1,4 @@
-"""What remains of the human's current plan (``rho`` of semantics 6)."""
+"""Intentions: the rest of the human's current plan (``rho`` of semantics 6)."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -28,7 +28,7 @@ class Skipped:
 
 @dataclass(frozen=True, slots=True)
 class SimulatedEpoch:
-    """What happened in one epoch.
+    """The events of one epoch.
 
     Attributes:
         epoch: from 1.
@@ -102,7 +102,7 @@ def simulate(
     visible: Visible | None = None,
     deadline: Deadline | None = None,
 ) -> Simulation:
-    """What becomes of the robots' part of a plan with a human who replans.
+    """The robots' part of a plan, played beside a human who replans.
 
     Args:
         prepared: the task.
@@ -154,7 +154,7 @@ def simulate_from(
 def way_on(
     start: Start, human: Human, options: Options, steps: Sequence[Step], deadline: Deadline
 ) -> Simulation | None:
-    """What becomes of a plan that was made for another moment; None where it does not lead to the goals.
+    """A plan that was made for another moment, played; None where it does not lead to the goals.
 
     Args:
         start: where it begins.

@@ -32,7 +32,7 @@ class Mind(NamedTuple):
 
 
 class Start(NamedTuple):
-    """Where robots and the human begin.
+    """The state in which robots and the human begin, and what the human has in mind.
 
     Attributes:
         state: packed, as it truly is.

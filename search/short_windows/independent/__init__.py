@@ -1,1 +1,1 @@
-"""What robots can do each on its own while the human follows ``pi_H``: bounds and answers."""
+"""Decoupled search: robots each on its own while the human follows ``pi_H``, for bounds and answers."""

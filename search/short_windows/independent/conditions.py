@@ -1,4 +1,4 @@
-"""Where robots may be looked at one by one."""
+"""Conditions under which robots may be looked at one by one, and dead-end values of the human's goal."""
 
 from collections.abc import Iterator, Sequence
 

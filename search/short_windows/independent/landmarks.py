@@ -1,4 +1,4 @@
-"""Of which actions the human needs one, whatever robots have left behind but for a few values.
+"""Landmarks of the human: actions of which they need one, whatever robots have left behind but a few values.
 
 Landmarks of one state bound what the human pays from others: those hold that no value in which the other
 state differs could make void.
@@ -221,7 +221,7 @@ class _Cuts:
 
 
 def left_to_pay(landmarks: Sequence[Landmark], rows: Rows) -> Amounts:
-    """What the human pays at least from packed states, at most :data:`FAR`.
+    """Lower bounds on what the human pays from packed states, at most :data:`FAR`.
 
     Args:
         landmarks: of one state; the others differ from it in values only that were given then.

@@ -1,4 +1,4 @@
-"""What robots leave behind for the human, each on its own, and all of them together.
+"""Outcomes: values that robots leave behind for the human, each on its own, and all of them together.
 
 An outcome is told by its difference from what is there without any robot.  Where several robots set the same
 field, one of them was the last: so each may do without what another could have set, and no two of them differ
@@ -52,7 +52,7 @@ def outcomes(
     lost: Mapping[int, Collection[int]],
     deadline: Deadline,
 ) -> Outcomes:
-    """What a robot can leave behind.
+    """Outcomes of one robot.
 
     Args:
         layer: what it can have made of the world.
@@ -86,7 +86,7 @@ def outcomes(
 
 
 class Together:
-    """What robots leave behind together.
+    """Outcomes of all robots together.
 
     Args:
         apart: what each of them can leave behind.

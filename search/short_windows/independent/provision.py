@@ -97,7 +97,7 @@ def leaves(packed: PackedTask) -> list[int]:
 
 
 def detours(packed: PackedTask, field: int, robot: int, amount: Callable[[Operator], int]) -> Amounts:
-    """What other robots pay at least to bring a field from one value to another, by both; ``FAR``: no way.
+    """Least costs for other robots to bring a field from one value to another, by both; ``FAR``: no way.
 
     Args:
         packed: the packed task.

@@ -29,7 +29,7 @@ def states(rows: Rows) -> list[int]:
 
 
 def agree(rows: Rows, mask: int, value: int) -> Flags:
-    """Which columns have a value in the fields of a mask."""
+    """Flags of the columns that have a value in the fields of a mask."""
     found = np.ones(rows.shape[1], dtype=np.bool_)
     for word, row in enumerate(rows):
         part = mask >> 64 * word & 2**64 - 1

@@ -55,7 +55,7 @@ class _Literal(NamedTuple):
 
 
 class _Act(NamedTuple):
-    """What the robot can do.
+    """One of the robot's operators.
 
     Attributes:
         op: the operator.

@@ -1,4 +1,4 @@
-"""What robots can have left behind if the window is in one epoch, and which of that may still be worth it."""
+"""One window of one epoch: outcomes that robots can leave behind by its end, and what they are worth."""
 
 from collections.abc import Collection, Mapping, Sequence
 from typing import Final
@@ -22,7 +22,7 @@ _FEW: Final = 50
 
 
 class Window:
-    """What robots can have left behind by the end of a window of one epoch, in which the human waits.
+    """A window of one epoch, in which the human waits, by the outcomes that robots can leave behind.
 
     Args:
         context: of the call.

@@ -121,7 +121,7 @@ class AllTogether:
 
 
 def _epochs(context: SearchContext, deadline: Deadline) -> Epochs | None:
-    """What the kernel looks at; None where it can't."""
+    """The kernel's layers of states; None where it can't."""
     packed, kernel = context.packed, library()
     operators = (*packed.own, *packed.joint, *packed.others)
     if kernel is None or len(operators) > _MOST_ACTIONS or len(context.task.agents) > _MOST_AGENTS:

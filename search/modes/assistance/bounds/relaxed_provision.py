@@ -1,4 +1,4 @@
-"""What the prime still pays if the supporter provides whatever they need, in time.
+"""A lower bound on what the prime still pays: the supporter provides whatever they need, in time.
 
 Their *private* fields are those that only they change, *provided* ones those that only the
 supporter changes.  Projected onto the private fields, each of their actions is a

@@ -66,7 +66,7 @@ class _Back(NamedTuple):
 
 
 class PackedPlaces:
-    """Where states are in the array.
+    """Places of states in the array.
 
     Args:
         arcs: the transitions.

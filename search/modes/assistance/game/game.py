@@ -29,7 +29,7 @@ NOOP: Final = -1
 
 
 class Move(NamedTuple):
-    """What one of the two may do: its value, the state after it, the action's id."""
+    """A move of one of the two: its value, the state after it, the action's id."""
 
     value: int
     after: int

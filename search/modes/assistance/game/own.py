@@ -95,7 +95,7 @@ class OwnCosts:
 
 
 def _within(condition: PackedGoal, changed: int, context: int) -> PackedGoal | None:
-    """What a condition asks of the ``changed`` fields; None if the context denies it."""
+    """The part of a condition on the ``changed`` fields; None if the context denies the rest."""
     rest = condition.need_mask & ~changed
     if condition.need < 0 or context & rest != condition.need & rest:
         return None

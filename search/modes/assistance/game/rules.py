@@ -1,4 +1,4 @@
-"""How the prime's optimal actions count: the worst of them, or their mean."""
+"""Rules for the prime's choice among optimal actions: the worst of them, or their mean."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -13,7 +13,7 @@ Value = Any
 
 
 class ChoiceRule(Protocol):
-    """What robust and expected differ in."""
+    """The operations in which robust and expected differ."""
 
     infinite: Value
 

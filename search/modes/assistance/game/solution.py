@@ -1,4 +1,4 @@
-"""What a solver of the game hands over."""
+"""Solutions of the game: a policy with bounds on its value."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -15,7 +15,7 @@ MAX_FLOORS: Final = 20_000
 
 
 class PolicyEntry(NamedTuple):
-    """What the supporter does in a state: the value of it, the action, the state after it."""
+    """The supporter's action in a state: the value of it, the action, the state after it."""
 
     value: Costs
     action: int
