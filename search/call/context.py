@@ -2,7 +2,6 @@
 
 from bisect import bisect_left
 from collections.abc import Callable, Collection, Sequence
-from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -223,10 +222,6 @@ class SearchContext:
         """The node after an epoch in which ops happen together."""
         key, actions = node.key + sum(map(self.weights.team, ops)), tuple(op.action for op in ops)
         return Node(key, node.epoch + 1, changed(node.state, ops), 0, node.start, node, actions)
-
-    def team_cost(self, action: int) -> Fraction:
-        """What an action costs the team, communication left out."""
-        return Fraction(self.weights.scaled_cost(self.packed.op(action)), self.keys.scale)
 
     @property
     def goals(self) -> tuple[PackedGoal, ...]:

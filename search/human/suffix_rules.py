@@ -1,15 +1,19 @@
 """Rules for the suffix: the human alone after the window (semantics 3.1 rule 3, 3.3)."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 from typing import Protocol
 
 from search.human.individual_planner import IndividualPlanner, canonical
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
-from search.packed.operators import applicable
-from search.packed.packed_task import PackedGoal, PackedTask
+from search.packed.operators import Operator, applicable
+from search.packed.packed_task import PackedGoal
+from search.packed.successor_generator import JointAction
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.task import HumanPlan
+
+PlannedSteps = Sequence[tuple[Operator, JointAction]]
+"""The packed actions of ``pi_H`` and what they do, in order."""
 
 _Rest = tuple[int, int, int]
 """The first step of ``pi_H`` that is left, a packed state, and how many epochs are left."""
@@ -73,15 +77,8 @@ class Replan:
 class Subplan:
     """A subsequence of ``pi_H`` in its order, between noops (Def. 2.0, eq. 9)."""
 
-    def __init__(
-        self,
-        packed: PackedTask,
-        plan: HumanPlan,
-        weights: list[int],
-        goals: list[PackedGoal],
-        deadline: Deadline,
-    ) -> None:
-        self._steps = list(zip((packed.op(i) for i in plan), weights, strict=True))
+    def __init__(self, steps: PlannedSteps, goals: Sequence[PackedGoal], deadline: Deadline) -> None:
+        self._steps = [(op, option.weight) for op, option in steps]
         self._goals = goals
         self._deadline = deadline
         self._known: dict[_Rest, tuple[int, bool]] = {}
@@ -140,17 +137,13 @@ class Preserved:
     """
 
     def __init__(
-        self,
-        packed: PackedTask,
-        plan: HumanPlan,
-        weights: list[int],
-        goals: list[PackedGoal],
-        expected: list[PackedGoal],
+        self, steps: PlannedSteps, goals: Sequence[PackedGoal], expected: Sequence[PackedGoal]
     ) -> None:
-        self._ops = [packed.op(i) for i in plan]
+        self._ops = [op for op, _ in steps]
         self._goals = goals
         self._expected = expected
-        self._rest = list(accumulate(reversed(weights), initial=0))[::-1]
+        weights = (option.weight for _, option in reversed(steps))
+        self._rest = list(accumulate(weights, initial=0))[::-1]
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
         """See :class:`Suffix`."""

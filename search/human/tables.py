@@ -1,7 +1,7 @@
 """Tables of the human alone that follow from the packed task."""
 
 from collections.abc import Callable
-from functools import cached_property, partial
+from functools import partial
 
 from search.human.individual_planner import Memory
 from search.human.pattern_database import (
@@ -29,12 +29,13 @@ class HumanTables:
         graph: the human's actions, projected onto their private variables, or onto as many as stay tractable.
         projection: their private distances to the goal, in the unit of :func:`.own_weights`.
         steps: the same, counting their actions.
+        memory: what calls have found out about the human alone.
     """
 
     def __init__(
         self, packed: PackedTask, project: Callable[[Deadline], PatternDatabase] | None = None
     ) -> None:
-        self._packed = packed
+        self.memory = Memory(packed)
         whole = Table(partial(whole_graph, packed))
         graph = Table(lambda deadline: whole(deadline) or partial_graph(packed, deadline))
         own = Table(lambda deadline: own_projection(packed, graph(deadline), deadline))
@@ -55,8 +56,3 @@ class HumanTables:
     def keeps_all(self, deadline: Deadline) -> bool:
         """Whether the projection keeps all private variables: where they are too many, it says less."""
         return self._whole is None or self._whole(deadline) is not None
-
-    @cached_property
-    def memory(self) -> Memory:
-        """What calls have found out about the human alone."""
-        return Memory(self._packed)

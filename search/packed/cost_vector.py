@@ -56,25 +56,20 @@ def require_room(bits: int) -> None:
 class CostLayout:
     """Widths of the fields, low to high: announced, actions, start, length, cost, objective.
 
-    ``epoch_weight`` is the increment of one more epoch of the window.  ``announced`` holds
-    the communication cost of a suffix, which ranks below the human's own preferences while
-    they replan and is moved into the objective afterwards.
+    ``action_shift`` is the lowest bit of the number of actions, ``epoch_weight`` the increment of one
+    more epoch of the window.  ``announced`` holds the communication cost of a suffix, which ranks below
+    the human's own preferences while they replan and is moved into the objective afterwards.
     """
 
     scale: int
-    announced_bits: int
+    action_shift: int
     cost_bits: int
     epoch_weight: int
 
     @property
-    def action_shift(self) -> int:
-        """Lowest bit of the number of actions."""
-        return self.announced_bits
-
-    @property
     def start_shift(self) -> int:
         """Lowest bit of the start field (horizon + 1 - xi1)."""
-        return self.announced_bits + ACTIONS_BITS
+        return self.action_shift + ACTIONS_BITS
 
     @property
     def length_shift(self) -> int:
@@ -93,7 +88,7 @@ class CostLayout:
 
     def actions(self, key: int) -> int:
         """Number of actions in a key."""
-        return (key >> self.action_shift) & ((1 << ACTIONS_BITS) - 1)
+        return (key >> self.action_shift) & _ACTIONS
 
     def start_field(self, key: int) -> int:
         """``horizon + 1 - xi1`` in a key: smaller for a later start."""
@@ -150,7 +145,7 @@ class CostLayout:
 
     def announce(self, key: int) -> int:
         """Moves the low ``announced`` field of a suffix's key into the objective."""
-        low = key & ((1 << self.announced_bits) - 1)
+        low = key & ((1 << self.action_shift) - 1)
         return key - low + (low << self.objective_shift)
 
 

@@ -295,13 +295,12 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
 def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
     """Rule 3 as the options have it."""
     options, task, packed = context.options, context.task, context.packed
-    weights = [option.weight for _, option in context.followed(plan)]
-    goals = list(context.goals)
+    steps = context.followed(plan)
     if options.preservation == "state":
         own = human_facts(task)
         states = task.replay_alone(plan)
         expected = [packed.condition(Condition(tuple(sorted(own & state)))) for state in states]
-        return Preserved(packed, plan, weights, goals, expected)
+        return Preserved(steps, context.goals, expected)
     if options.suffix == "subplan":
-        return Subplan(packed, plan, weights, goals, context.deadline)
+        return Subplan(steps, context.goals, context.deadline)
     return Replan(context.alone, context.alone_to_both, packed.robot_goal, context.keys)

@@ -7,7 +7,6 @@ next call as often as not; whether it is, is found out here, by the rules of tha
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import groupby
 
 from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node
@@ -50,11 +49,6 @@ class WarmStart:
             isinstance(known, int) and isinstance(horizon, int) and horizon <= known
         )
         return self.bound if covers else None
-
-    @property
-    def sets(self) -> list[tuple[int, ...]]:
-        """What is done together, one after another."""
-        return [tuple(s.action for s in group) for _, group in groupby(self.steps, lambda s: s.epoch)]
 
 
 def replayed(

@@ -30,11 +30,6 @@ class ValueBound:
         except ClosureTooLargeError:
             self._joint = None
 
-    @property
-    def exact(self) -> bool:
-        """Whether it is the joint optimum, not a relaxation."""
-        return self._joint is not None
-
     def __call__(self, state: int) -> int:
         """A value that no policy undercuts from ``state``."""
         if self._joint is None:

@@ -1,9 +1,11 @@
 """Arrays of numbers of one kind, all with one axis: what tables of distances consist of."""
 
-from typing import Any, TypeVar
+from typing import Any, Final, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+
+from serendipity.model.resources.deadline import Deadline
 
 Words = NDArray[np.int64]
 """Packed states, distances or offsets, an ``int64`` each."""
@@ -20,6 +22,9 @@ Indices = NDArray[np.intp]
 Stored = NDArray[np.unsignedinteger[Any]]
 """Distances as they are stored, a ``uint32`` or a ``uint16`` each."""
 
+_LARGE: Final = 1 << 20
+"""Bytes; what is smaller is noticed in time when it has been allocated."""
+
 Number = TypeVar("Number", bound=np.signedinteger[Any])
 
 
@@ -33,3 +38,17 @@ def distinct(values: NDArray[Number]) -> NDArray[Number]:
     first = np.ones(len(values), dtype=bool)
     first[1:] = values[1:] != values[:-1]
     return values[first]
+
+
+def require_room(size: int, deadline: Deadline) -> None:
+    """Ask for the memory of arrays that are large; asking takes a moment.
+
+    Args:
+        size: bytes.
+        deadline: is asked.
+
+    Raises:
+        LimitReachedError: there is not that much.
+    """
+    if size > _LARGE:
+        deadline.require(size)

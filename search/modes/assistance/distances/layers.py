@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from search.engine.shortest_paths import LevelQueue
 from search.modes.assistance.distances.arcs import Arc, ClosureTooLargeError
-from search.modes.assistance.distances.arrays import Indices, Kinds, Places, Words, distinct
+from search.modes.assistance.distances.arrays import Indices, Kinds, Places, Words, distinct, require_room
 from search.packed.cost_vector import FAR, INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.resources.deadline import Deadline
@@ -20,9 +20,6 @@ _SORTING: Final = 24
 
 _AT_ONCE: Final = 1 << 18
 """States that are sorted within some 20 ms, the same ones found in several ways counted as often."""
-
-_LARGE: Final = 1 << 20
-"""Bytes; what is smaller is noticed in time when it has been allocated."""
 
 
 class _Compressed:
@@ -96,11 +93,6 @@ class Layers:
         found = int(self._distances[at])
         return INFINITE_KEY if found >= FAR else found
 
-    def _require(self, size: int) -> None:
-        """Ask for the memory of arrays that are large; asking takes a moment."""
-        if size > _LARGE:
-            self._deadline.require(size)
-
     def _too_many_unless(self, fits: bool) -> None:
         if not fits:
             raise ClosureTooLargeError
@@ -137,7 +129,7 @@ class Layers:
                     size = len(found[0])
                     most = max(_AT_ONCE, 2 * size)
                     self._too_many_unless(size <= self._limit)
-            self._require(_SORTING * (size + len(known)))
+            require_room(_SORTING * (size + len(known)), self._deadline)
             after = distinct(np.concatenate(found))
             self._deadline.check()
             frontier = after[~_contains(known, after)]
@@ -159,7 +151,7 @@ class Layers:
             self._too_many_unless(level + self._heaviest < FAR)
             nodes = distinct(np.concatenate(parts))
             nodes = nodes[distances[nodes] == level]
-            self._require(_SORTING * int((pointers[nodes + 1] - pointers[nodes]).sum()))
+            require_room(_SORTING * int((pointers[nodes + 1] - pointers[nodes]).sum()), self._deadline)
             edges = _slices(pointers, nodes)
             before, kinds = sources[edges], weight_ids[edges]
             for kind, weight in enumerate(self._weights):
@@ -176,7 +168,7 @@ class Layers:
         Of shapes ``(states + 1,)``, ``(edges,)`` and ``(edges,)``.
         """
         parts = list(self._edges())
-        self._require(_SORTING * sum(len(target) for _, target, _ in parts))
+        require_room(_SORTING * sum(len(target) for _, target, _ in parts), self._deadline)
         empty = np.empty(0, dtype=np.int32)
         targets = np.concatenate([empty, *(target for _, target, _ in parts)])
         sources = np.concatenate([empty, *(source for source, _, _ in parts)])

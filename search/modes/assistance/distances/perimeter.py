@@ -16,7 +16,7 @@ import numpy as np
 
 from search.engine.shortest_paths import LevelQueue
 from search.modes.assistance.distances.arcs import Arc
-from search.modes.assistance.distances.arrays import Places, Stored, distinct
+from search.modes.assistance.distances.arrays import Places, Stored, distinct, require_room
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.errors import LIMITS, LimitReachedError
@@ -41,9 +41,6 @@ _MOST_GOALS: Final = 1_000_000
 
 _SORTING: Final = 16
 """Bytes for each place that is concatenated and sorted, at the least."""
-
-_LARGE: Final = 1 << 20
-"""Bytes; what is smaller is noticed in time when it has been allocated."""
 
 
 class _PerimeterAxis(NamedTuple):
@@ -290,9 +287,7 @@ class Perimeter:
         Of the parts one is left, with what does lie on the level, each once.
         """
         known, minor_mask = self._known, (1 << self._minor_bits) - 1
-        size = _SORTING * sum(map(len, parts))
-        if size > _LARGE:
-            self._deadline.require(size)
+        require_room(_SORTING * sum(map(len, parts)), self._deadline)
         places = distinct(np.concatenate(parts))
         parts[:] = [places[(known[places] - 1 >> self._minor_bits) == level]]
         places = parts[0]

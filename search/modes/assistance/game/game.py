@@ -4,7 +4,6 @@ A *value* is one integer, ``prime * unit + supporter``: adding values adds both 
 comparing them compares lexicographically.  Costs are scaled to integers.
 """
 
-from collections.abc import Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property
@@ -132,8 +131,3 @@ class Game:
     def value_alone(self, plan: HumanPlan) -> int:
         """The value of a plan of the prime's: what the supporter's doing nothing is worth at most."""
         return sum(int(self.task.actions[i].cost * self.scale) for i in plan) << self.unit_bits
-
-    def facts(self, state: int) -> frozenset[int]:
-        """Ids of the relevant facts that are true in a packed state."""
-        bits: Sequence[tuple[int, int] | None] = self.packed.fact_bits
-        return frozenset(i for i, pair in enumerate(bits) if pair is not None and state & pair[0] == pair[1])

@@ -43,8 +43,7 @@ def test_without_room_for_layers_there_are_too_many_states(monkeypatch: pytest.M
     arcs, goal, mask = line(40)
     values = [list(range(40))]
     assert Closure(arcs, goal, [mask], values, 1000, Deadline()).key(0) == 39 * ((1 << ACTIONS_BITS) + 1)
-    monkeypatch.setattr("search.modes.assistance.distances.layers._LARGE", 0)
-    monkeypatch.setattr("search.modes.assistance.distances.perimeter._LARGE", 0)
+    monkeypatch.setattr("search.modes.assistance.distances.arrays._LARGE", 0)
     with pytest.raises(ClosureTooLargeError):
         Closure(arcs, goal, [mask], values, 1000, Full()).key(0)
     with pytest.raises(LimitReachedError):
@@ -62,7 +61,7 @@ def test_a_ball_asks_for_all_it_may_touch() -> None:
 def test_layers_ask_before_they_sort(monkeypatch: pytest.MonkeyPatch) -> None:
     arcs, goal, mask = line(40)
     Layers(arcs, goal, [mask], 0, 1000, Full())  # little is not asked for
-    monkeypatch.setattr("search.modes.assistance.distances.layers._LARGE", 0)
+    monkeypatch.setattr("search.modes.assistance.distances.arrays._LARGE", 0)
     with pytest.raises(LimitReachedError):
         Layers(arcs, goal, [mask], 0, 1000, Full())
 
@@ -85,6 +84,6 @@ def test_edges_are_in_order_of_their_targets() -> None:
 def test_answers_are_the_same_without_tables(ties: str, monkeypatch: pytest.MonkeyPatch) -> None:
     full = serendipity.plan(case_5(), mode="assistance", ties=ties)
     monkeypatch.setattr(closure, "SMALL", 1)
-    monkeypatch.setattr("search.modes.assistance.distances.layers._LARGE", 0)
+    monkeypatch.setattr("search.modes.assistance.distances.arrays._LARGE", 0)
     answer = serendipity.plan(case_5(), mode="assistance", ties=ties, deadline=Full())
     assert (answer.status, answer.bounds) == (full.status, full.bounds)
