@@ -231,3 +231,13 @@ def _in_time(write: Callable[[], _T]) -> _T | None:
         return write()
     except LIMITS:
         return None
+
+
+def joint_optimum(prepared: PreparedTask, deadline: Deadline | None = None) -> Costs | None:
+    """The bound on every policy from ``I``: both together, without turns, or a relaxation of it.
+
+    None where not even both together reach the goal.
+    """
+    game = Game(prepared, deadline or Deadline())
+    value = ValueBound(game)(game.init)
+    return None if value >= INFINITE_KEY else game.pair(value)

@@ -8,11 +8,8 @@ from hypothesis import strategies as st
 
 import serendipity
 from search import PreparedTask
-from search.modes.assistance.bounds.bound import ValueBound
-from search.modes.assistance.game.game import Game
-from search.packed.cost_vector import INFINITE_KEY
+from search.modes.assistance import joint_optimum
 from serendipity import Result, Task
-from serendipity.model import Deadline
 from serendipity.testing.oracle.assistance import Costs, by_rounds, explore, mean_over_all_policies
 from tests.search.modes.assistance.strategies import games
 
@@ -61,7 +58,5 @@ def test_values_stand_in_order(task: Task, no_block: bool) -> None:
         ties: solve(task, ties, no_block=no_block) or never
         for ties in ("optimistic", "fixed", "expected", "robust")
     }
-    game = Game(PreparedTask(task), Deadline())
-    bound = ValueBound(game)(game.init)
-    assert (never if bound >= INFINITE_KEY else game.pair(bound)) <= values["optimistic"] <= values["fixed"]
+    assert (joint_optimum(PreparedTask(task)) or never) <= values["optimistic"] <= values["fixed"]
     assert values["optimistic"] <= values["expected"] <= values["robust"]
