@@ -66,22 +66,17 @@ class FirstAnswer:
         if self.plan is None and given is None and context.distances_say_little:
             self.plan = context.alone.first_plan(context.packed.init)
 
-    def answers(self, *, bounded: bool = False) -> Iterator[Answer]:
-        """The answer, where nothing speaks against it.
-
-        Args:
-            bounded: give it once more with what all agents together pay at least, if that is found soon.
-        """
+    def answers(self) -> Iterator[Answer]:
+        """The answer, where nothing speaks against it; once more with a bound, if one is found soon."""
         if self.plan is None:
             return
         answer = self.beside(self.plan)
         if answer is None:
             return
         yield answer
-        if bounded:
-            self._bound()
-            if self.least:
-                yield answer._replace(lower_bound=self.least)
+        self._bound()
+        if self.least:
+            yield answer._replace(lower_bound=self.least)
 
     def last(self, limit: str | None) -> Answer:
         """The answer so far, at a limit beside the best plan that was come across; ``unknown`` without one.

@@ -39,7 +39,7 @@ def _over_ties(call: Request) -> Iterator[Answer]:
     except LIMITS as limit:
         yield Answer("unknown", reason=limit_reason(limit), gap=())
         return
-    for answer in known.answers(bounded=True):
+    for answer in known.answers():
         yield _by_itself(call, answer)
     late = call.deadline if known.plan is None else call.deadline.part(_SHARE)
     graph, why = _all_plans(call, late)

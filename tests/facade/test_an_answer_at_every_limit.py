@@ -213,6 +213,6 @@ def test_the_bound_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> Non
     known = first_answer(PreparedTask(_switches()), Options(), Deadline())
     monkeypatch.setattr(ClassicalPlanner, "__del__", freed)
     with no_collection():
-        *_, answer = known.answers(bounded=True)
+        *_, answer = known.answers()
         assert answer.lower_bound
         assert gone[0] == 1

@@ -20,7 +20,6 @@ from itertools import count
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.paths import path_steps, plan_steps
-from search.modes.goals.candidate import Candidate
 from search.modes.goals.expectation import Expectation, Rank
 from search.modes.goals.timeline import Ended, GoalTimeline, Situation
 from search.packed.cost_vector import INFINITE_KEY
@@ -31,11 +30,30 @@ from serendipity.model.answers.answer import Answer, ServedGoal, Status, saved
 from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition
 from serendipity.model.task.horizon import common_horizon
 from serendipity.model.task.plans import Step, Window
+from serendipity.model.task.task import HumanPlan
 
 _SAME = 2
 """How many components of a rank decide; later ones only choose among what was met first."""
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A goal that the human may have.
+
+    Attributes:
+        goal: the goal.
+        plan: their current plan, if that is their goal.
+        weight: its probability, more than 0.
+        name: for people.
+    """
+
+    goal: Condition
+    plan: HumanPlan
+    weight: Fraction
+    name: str = ""
 
 
 def solve_expected(

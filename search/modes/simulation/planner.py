@@ -59,7 +59,7 @@ def solve_for_human(
         if plan is None:
             context = SearchContext(prepared, options, deadline)
             first = FirstAnswer(context, None)
-            yield from first.answers(bounded=True)
+            yield from first.answers()
             predicted = context.canonical_plan()
             plan = None if predicted is None else predicted.actions
     except LIMITS as limit:
