@@ -116,7 +116,7 @@ class Human:
         return belief, self.decide(belief, intention)
 
     def goes_on(self, belief: int, state: int, look: Glance) -> HumanStep:
-        """Step 3 without a joint action: they do the first step of their plan, fail in it, or wait."""
+        """Step 3, without a joint action: they do the first step of their plan, fail in it, or wait."""
         intention = look.intention
         own = None if look.best is None else intention.op
         if own is None:
@@ -126,7 +126,7 @@ class Human:
         return HumanStep(intention.option, belief & own.keep | own.put, intention.rest, True)
 
     def joins(self, joint: Operator, belief: int, look: Glance) -> HumanStep:
-        """Step 3 with a joint action that they accept."""
+        """Step 2: a joint action that they have accepted."""
         option = as_option(joint, self.weights.team(joint))
         return HumanStep(option, belief & joint.keep | joint.put, look.intention, False)
 
