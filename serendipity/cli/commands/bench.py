@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
-from serendipity.cli.choices import choices
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
@@ -42,72 +42,60 @@ def bench(
         ),
     ] = None,
     stride: Annotated[
-        int,
-        typer.Option(
-            metavar="N", min=1, help="Take every N-th task of the folder, of each domain of a suite."
-        ),
+        int, option("--stride N", "Take every N-th task of the folder, of each domain of a suite.", min=1)
     ] = 1,
-    domains: Annotated[str, typer.Option(metavar="NAME,...", help="Of a suite; by default all.")] = "",
-    rooms: Annotated[int, typer.Option(metavar="N", min=2, help="Rooms of generated buildings.")] = 21,
-    medkits: Annotated[int, typer.Option(metavar="M", min=1, help="Their medkits.")] = 2,
+    domains: Annotated[str, option("--domains NAME,...", "Of a suite; by default all.")] = "",
+    rooms: Annotated[int, option("--rooms N", "Rooms of generated buildings.", min=2)] = 21,
+    medkits: Annotated[int, option("--medkits M", "Their medkits.", min=1)] = 2,
     robots: Annotated[
-        int | None, typer.Option(metavar="K", min=1, help="Their robots: 1; of a suite's tasks the most: 2.")
+        int | None, option("--robots K", "Their robots: 1; of a suite's tasks the most: 2.", min=1)
     ] = None,
     seeds: Annotated[
         int | None,
-        typer.Option(
-            metavar="N", min=1, help="How many to generate: 10; for each value of a scaling series 5."
-        ),
+        option("--seeds N", "How many to generate: 10; for each value of a scaling series 5.", min=1),
     ] = None,
     modes: Annotated[
         str | None,
-        typer.Option(
-            metavar="MODE,...",
-            help="Modes; composite-inf is composite mode without a horizon. Fast "
+        option(
+            "--modes MODE,...",
+            "Modes; composite-inf is composite mode without a horizon. Fast "
             "Downward knows that one, and individual in suites, where serendipity-k0 has K = 0.",
         ),
     ] = None,
     discounts: Annotated[
-        str | None, typer.Option(metavar="D,...", help="Discounts: 0,0.5,0.9; one for a suite: 0.9.")
+        str | None, option("--discounts D,...", "Discounts: 0,0.5,0.9; one for a suite: 0.9.")
     ] = None,
     contenders: Annotated[
         str | None,
-        typer.Option(
-            metavar="NAME,...",
-            help="Some of search (first calls), in-turn (each task's discounts one after another), again "
+        option(
+            "--contenders NAME,...",
+            "Some of search (first calls), in-turn (each task's discounts one after another), again "
             "(the same call again), automata, paper, fast-downward; of a suite some "
             "of search, fast-downward, fast-downward-ipdb.",
         ),
     ] = None,
     scaling: Annotated[
         str | None,
-        typer.Option(
-            help="How the search scales instead: some of rooms, medkits, robots, length, modes, discounts.",
-            **choices("AXES", "all"),
+        option(
+            "--scaling AXES|all",
+            "How the search scales instead: some of rooms, medkits, robots, length, modes, discounts.",
         ),
     ] = None,
     repeat: Annotated[
-        int, typer.Option(metavar="N", min=1, help="Calls per figure, after a warm-up; passes for in-turn.")
+        int, option("--repeat N", "Calls per figure, after a warm-up; passes for in-turn.", min=1)
     ] = 5,
-    time_limit: Annotated[
-        float, typer.Option(metavar="SECONDS", min=0, help="Seconds for each call.")
-    ] = 20.0,
+    time_limit: Annotated[float, option("--time-limit SECONDS", "Seconds for each call.", min=0)] = 20.0,
     output_file: Annotated[
         Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            help="Write every timing here: as CSV, or as FILE ends in .jsonl or .parquet.",
+        option(
+            "-o, --output FILE", "Write every timing here: as CSV, or as FILE ends in .jsonl or .parquet."
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(
-            "--plot", metavar="FILE", help="Plot, a suite's over time: .png, .svg or .pdf (needs matplotlib)."
-        ),
+        option("--plot FILE", "Plot, a suite's over time: .png, .svg or .pdf (needs matplotlib)."),
     ] = None,
-    markdown: Annotated[bool, typer.Option("--markdown", help="A suite's tables as Markdown.")] = False,
+    markdown: Annotated[bool, option("--markdown", "A suite's tables as Markdown.")] = False,
 ) -> int:
     """Measure the search beside integer programs and others. -o writes every timing."""
     _check_files(output_file, plot)

@@ -6,8 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated, Final
 
-import typer
-
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import naming
 from serendipity.cli.streams import output, progress
@@ -21,43 +20,37 @@ _DISCOUNTS: Final = ("0", "0.5", "0.9")
 def crosscheck(
     *,
     task: naming.TaskName,
-    count: Annotated[int, typer.Option(min=1, help="Random calls to check.", metavar="N")] = 100,
-    seed: Annotated[
-        int | None, typer.Option(help="Of the first random call; by default a new one.", metavar="S")
-    ] = None,
+    count: Annotated[int, option("--count N", "Random calls to check.", min=1)] = 100,
+    seed: Annotated[int | None, option("--seed S", "Of the first random call; by default a new one.")] = None,
     judges: Annotated[
         str,
-        typer.Option(
-            metavar="NAME,...",
-            help="Who answers: search, automata, paper, cbc, program, exhaustive; or false-certificates.",
+        option(
+            "--judges NAME,...",
+            "Who answers: search, automata, paper, cbc, program, exhaustive; or false-certificates.",
         ),
     ] = "search,automata,paper",
     judge: Annotated[
         list[str] | None,
-        typer.Option(
-            "--judge",
-            help="A judge from outside: up:ENGINE (unified-planning) or package.module:function.",
-            metavar="NAME",
+        option(
+            "--judge NAME", "A judge from outside: up:ENGINE (unified-planning) or package.module:function."
         ),
     ] = None,
     judge_command: Annotated[
         list[str] | None,
-        typer.Option(
-            "--judge-command",
-            help="One as a command line; {domain}, {problem} and {plan} in it stand for files.",
-            metavar="COMMAND",
+        option(
+            "--judge-command COMMAND",
+            "One as a command line; {domain}, {problem} and {plan} in it stand for files.",
         ),
     ] = None,
     time_limit: Annotated[
-        float | None,
-        typer.Option(min=0, help="Seconds for each answer and each certificate.", metavar="SECONDS"),
+        float | None, option("--time-limit SECONDS", "Seconds for each answer and each certificate.", min=0)
     ] = None,
     memory_limit: Annotated[
-        float | None, typer.Option(min=0, help="MiB of memory for the process.", metavar="MIB")
+        float | None, option("--memory-limit MIB", "MiB of memory for the process.", min=0)
     ] = None,
-    folder: Annotated[
-        Path, typer.Option("-o", "--output", help="Where a disagreement is written.", metavar="DIR")
-    ] = Path("disagreement"),
+    folder: Annotated[Path, option("-o, --output DIR", "Where a disagreement is written.")] = Path(
+        "disagreement"
+    ),
 ) -> int:
     """Check that independent methods agree. On random tasks, or on one task in every mode.
 

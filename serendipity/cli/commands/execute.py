@@ -4,10 +4,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 import serendipity
-from serendipity.cli.choices import choices
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import goals as goal_options
 from serendipity.cli.options import naming, planning
@@ -26,86 +24,78 @@ def execute(
     files: naming.Files = None,
     human: Annotated[
         str,
-        typer.Option(
-            "--human",
-            help="Who the person is; the FILE of 'recorded' may also stand behind TASK.",
-            **choices("recorded:FILE", "omniscient", "observant", "local", "noisy:P"),
+        option(
+            "--human recorded:FILE|omniscient|observant|local|noisy:P",
+            "Who the person is; the FILE of 'recorded' may also stand behind TASK.",
         ),
     ] = "observant",
     person: Annotated[
-        str | None,
-        typer.Option(metavar="H", help="Which agent is the person; by default the only one with a goal."),
+        str | None, option("--person H", "Which agent is the person; by default the only one with a goal.")
     ] = None,
     task: Annotated[naming.TaskName, ("robot", "agent", "team", "example")],
     mode: Annotated[
         str | None,
-        typer.Option(
-            help="Communication: robots' plan may ask an omniscient person to leave their own.",
-            **choices("serendipity", "communication"),
+        option(
+            "--mode serendipity|communication",
+            "Communication: robots' plan may ask an omniscient person to leave their own.",
         ),
     ] = None,
-    discount: Annotated[str | None, planning.option("discount")] = None,
+    discount: Annotated[str | None, planning.told("discount")] = None,
     human_model: Annotated[
         str | None,
-        typer.Option(
-            help="What robots take the person to be; by default what they are, else observant.",
-            **choices("omniscient", "observant", "local"),
+        option(
+            "--human-model omniscient|observant|local",
+            "What robots take the person to be; by default what they are, else observant.",
         ),
     ] = None,
-    interference: Annotated[str | None, planning.option("interference")] = None,
+    interference: Annotated[str | None, planning.told("interference")] = None,
     goals: goal_options.Goals = None,
     beta: goal_options.Beta = None,
-    runs: Annotated[int, typer.Option(metavar="N", help="How many runs.")] = 1,
-    seed: Annotated[int, typer.Option(metavar="S", help="Of the first run's dice.")] = 0,
+    runs: Annotated[int, option("--runs N", "How many runs.")] = 1,
+    seed: Annotated[int, option("--seed S", "Of the first run's dice.")] = 0,
     ties: Annotated[
         str,
-        typer.Option(
-            help="The person follows the canonical one of their optimal plans, or any.",
-            **choices("fixed", "drawn"),
-        ),
+        option("--ties fixed|drawn", "The person follows the canonical one of their optimal plans, or any."),
     ] = "fixed",
     faults: Annotated[
         str | None,
-        typer.Option(
-            metavar="fail=P,slow=P,drop=P",
-            help="How often a robot's action fails or takes longer, and a robot drops out.",
+        option(
+            "--faults fail=P,slow=P,drop=P",
+            "How often a robot's action fails or takes longer, and a robot drops out.",
         ),
     ] = None,
     adapter: Annotated[
         str | None,
-        typer.Option(
-            help="What carries out what robots do; by default simulated where there are durations or faults, "
+        option(
+            "--adapter simulated|pybullet",
+            "What carries out what robots do; by default simulated where there are durations or faults, "
             "else all that is possible is done within its epoch. pybullet: figures in physics.",
-            **choices("simulated", "pybullet"),
         ),
     ] = None,
     durations: Annotated[
         str | None,
-        typer.Option(
-            metavar="VERB=SECONDS,...",
-            help="How long simulated robots take for actions of that first word, '*' for all others: "
+        option(
+            "--durations VERB=SECONDS,...",
+            "How long simulated robots take for actions of that first word, '*' for all others: "
             "move=2..4,*=1.",
         ),
     ] = None,
     epoch_seconds: Annotated[
-        str | None,
-        typer.Option(metavar="SECONDS", help="How long an epoch is for robots; 1, in physics 5."),
+        str | None, option("--epoch-seconds SECONDS", "How long an epoch is for robots; 1, in physics 5.")
     ] = None,
     clip: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Film figures in physics, as .gif, .webp or animated .png."),
+        Path | None, option("--clip FILE", "Film figures in physics, as .gif, .webp or animated .png.")
     ] = None,
     deadline: Annotated[
-        str | None,
-        typer.Option(metavar="SECONDS", help="For each decision; without one in time robots do nothing."),
+        str | None, option("--deadline SECONDS", "For each decision; without one in time robots do nothing.")
     ] = None,
-    epochs: Annotated[int | None, typer.Option(metavar="N", help="The most epochs of a run.")] = None,
-    jobs: Annotated[int, typer.Option("-j", "--jobs", metavar="N", help="Processes.")] = 1,
+    epochs: Annotated[int | None, option("--epochs N", "The most epochs of a run.")] = None,
+    jobs: Annotated[int, option("-j, --jobs N", "Processes.")] = 1,
     log: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Also write every epoch of every run as JSON lines.")
+        Path | None, option("--log FILE", "Also write every epoch of every run as JSON lines.")
     ] = None,
     replay: Annotated[
-        Path | None, typer.Option(metavar="LOG", help="Play the runs of a log again, and compare.")
+        Path | None, option("--replay LOG", "Play the runs of a log again, and compare.")
     ] = None,
     to: Annotated[output.Destination, output.ROWS_TOO],
 ) -> int:

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from serendipity.cli.choices import choices
+from serendipity.cli.choices import option
 from serendipity.cli.help_examples import epilog
 from serendipity.cli.streams.output import say
 from serendipity.model.printable import printable
@@ -25,33 +25,25 @@ def _group() -> None:
 
 @app.command(epilog=epilog("generate"))
 def usar(
-    output: Annotated[Path, typer.Option("-o", "--output", metavar="DIR", help="Folder to write to.")],
-    rooms: Annotated[int, typer.Option(metavar="N", help="Locations, halls included.")] = 21,
-    medkits: Annotated[int, typer.Option(metavar="M", help="Medkits.")] = 2,
-    robots: Annotated[int, typer.Option(metavar="K", help="Robots.")] = 1,
-    seed: Annotated[int, typer.Option(metavar="S", help="Equal seeds give equal files.")] = 0,
+    output: Annotated[Path, option("-o, --output DIR", "Folder to write to.")],
+    rooms: Annotated[int, option("--rooms N", "Locations, halls included.")] = 21,
+    medkits: Annotated[int, option("--medkits M", "Medkits.")] = 2,
+    robots: Annotated[int, option("--robots K", "Robots.")] = 1,
+    seed: Annotated[int, option("--seed S", "Equal seeds give equal files.")] = 0,
     extra_edges: Annotated[
-        int, typer.Option(metavar="E", help="Connections beyond a tree; each closes a cycle.")
+        int, option("--extra-edges E", "Connections beyond a tree; each closes a cycle.")
     ] = 0,
     corridors: Annotated[
         int | None,
-        typer.Option(
-            metavar="C", help="Corridors that the halls form: fewer are longer; by chance by default."
-        ),
+        option("--corridors C", "Corridors that the halls form: fewer are longer; by chance by default."),
     ] = None,
     preset: Annotated[
         str | None,
-        typer.Option(
-            help="The paper's building; or one of its examples.",
-            **choices("figure2", "room2", "room5", "room7"),
-        ),
+        option("--preset figure2|room2|room5|room7", "The paper's building; or one of its examples."),
     ] = None,
     layout: Annotated[
         str,
-        typer.Option(
-            help="A folder per agent and superagent/, or one domain and one problem.",
-            **choices("agents", "pair"),
-        ),
+        option("--layout agents|pair", "A folder per agent and superagent/, or one domain and one problem."),
     ] = "agents",
 ) -> None:
     """Write a search-and-rescue building: a human, robots, medkits and a place for triage."""

@@ -3,9 +3,8 @@
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
-import typer
-
 import serendipity
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.files.human_plan import checked_plan
 from serendipity.cli.options import limits, naming, planning
@@ -28,10 +27,10 @@ def interruptions(
     task: naming.TaskName,
     options: Annotated[planning.Planning, planning.WINDOWS],
     heat_map: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Also draw savings by start and end (.svg, .png).")
+        Path | None, option("--heat-map FILE", "Also draw savings by start and end (.svg, .png).")
     ] = None,
     every: Annotated[
-        bool, typer.Option("--all", help="Every window, also where a smaller one within saves as much.")
+        bool, option("--all", "Every window, also where a smaller one within saves as much.")
     ] = False,
     limited: limits.Limits,
     to: Annotated[output.Destination, output.ROWS_TOO],

@@ -5,9 +5,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Final
 
-import typer
-
 import serendipity
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
 from serendipity.cli.options import goals as goal_options
 from serendipity.cli.options import limits, naming, planning
@@ -31,10 +30,9 @@ def plan(
     observed: goal_options.Observed = None,
     beta: goal_options.Beta = None,
     limited: limits.Limits,
-    certify: Annotated[bool, typer.Option("--verify", help="Add the certificate of `verify`.")] = False,
+    certify: Annotated[bool, option("--verify", "Add the certificate of `verify`.")] = False,
     save_plan: Annotated[
-        Path | None,
-        typer.Option("--save-plan", metavar="FILE", help="Also write the plan, as in planning competitions."),
+        Path | None, option("--save-plan FILE", "Also write the plan, as in planning competitions.")
     ] = None,
     to: output.Destination,
 ) -> int:
@@ -61,9 +59,9 @@ def plan(
         _tell_strategies(expected)
         refuted = proof is not None and proof.verdict == "refuted"
         return _code(expected, cancelled, refuted=refuted)
-    for option, value in (("--observed", observed), ("--beta", beta)):
+    for name, value in (("--observed", observed), ("--beta", beta)):
         if value is not None:
-            raise UsageError(f"{option}: goes with --goals only")
+            raise UsageError(f"{name}: goes with --goals only")
     with progress.working("planning") as on_news, cancelling() as cancelled:
         result = _last(serendipity.plan_anytime(loaded, cancelled=cancelled, **asked), on_news, cancelled)
     if result is None:

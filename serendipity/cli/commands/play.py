@@ -4,9 +4,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final
 
-import typer
-
-from serendipity.cli.choices import choices
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import goals as goal_options
 from serendipity.cli.options import naming
@@ -31,67 +29,49 @@ def play(
     *,
     task: naming.TaskName,
     discount: Annotated[
-        str | None,
-        typer.Option(
-            "--discount", metavar="D", help="Taken off the cost of robots' actions, 0 to 1; by default 0.6."
-        ),
+        str | None, option("--discount D", "Taken off the cost of robots' actions, 0 to 1; by default 0.6.")
     ] = None,
     view: Annotated[
         str | None,
-        typer.Option(
-            "--view",
-            help="Whether you see everything (the default), or what is where you are.",
-            **choices(*_VIEWS),
+        option(
+            f"--view {'|'.join(_VIEWS)}",
+            "Whether you see everything (the default), or what is where you are.",
         ),
     ] = None,
     robots: Annotated[
         str | None,
-        typer.Option(
-            "--robots-are",
-            help="Whether robots help, and say so; by default silent.",
-            **choices(*_CONDITIONS),
+        option(
+            f"--robots-are {'|'.join(_CONDITIONS)}", "Whether robots help, and say so; by default silent."
         ),
     ] = None,
     goals: goal_options.Goals = None,
     deadline: Annotated[
-        str | None,
-        typer.Option("--deadline", metavar="SECONDS", help="For each decision of the robots; by default 2."),
+        str | None, option("--deadline SECONDS", "For each decision of the robots; by default 2.")
     ] = None,
     labels: Annotated[
-        Path | None,
-        typer.Option("--labels", metavar="FILE", help="Sentences for the actions and goals of the domain."),
+        Path | None, option("--labels FILE", "Sentences for the actions and goals of the domain.")
     ] = None,
     study: Annotated[
-        Path | None,
-        typer.Option(
-            "--study", metavar="FOLDER", help="Run a study, or go on with it; records go to the folder."
-        ),
+        Path | None, option("--study FOLDER", "Run a study, or go on with it; records go to the folder.")
     ] = None,
     report: Annotated[
-        bool, typer.Option("--report", help="Say what the conditions of the study come to, and end.")
+        bool, option("--report", "Say what the conditions of the study come to, and end.")
     ] = False,
     records: Annotated[
         Path | None,
-        typer.Option(
-            "--records",
-            metavar="PLACE",
-            help="A folder for records, by default serendipity-play; or a record, to go on with it.",
+        option(
+            "--records PLACE",
+            "A folder for records, by default serendipity-play; or a record, to go on with it.",
         ),
     ] = None,
-    rounds: Annotated[
-        int | None, typer.Option("--rounds", metavar="N", help="Scenarios of a study; by default 4.")
-    ] = None,
+    rounds: Annotated[int | None, option("--rounds N", "Scenarios of a study; by default 4.")] = None,
     seed: Annotated[
-        int | None,
-        typer.Option("--seed", metavar="S", help="Of a study: scenarios and conditions; by default drawn."),
+        int | None, option("--seed S", "Of a study: scenarios and conditions; by default drawn.")
     ] = None,
-    host: Annotated[
-        str, typer.Option("--host", metavar="ADDRESS", help="Where a study listens.")
-    ] = "127.0.0.1",
-    port: Annotated[int, typer.Option("--port", metavar="N", help="0 for any that is free.")] = 8124,
+    host: Annotated[str, option("--host ADDRESS", "Where a study listens.")] = "127.0.0.1",
+    port: Annotated[int, option("--port N", "0 for any that is free.")] = 8124,
     allow_host: Annotated[
-        list[str] | None,
-        typer.Option("--allow-host", metavar="NAME", help="Another name under which it may be asked."),
+        list[str] | None, option("--allow-host NAME", "Another name under which it may be asked.")
     ] = None,
 ) -> int:
     """Play the human yourself, on a page of this machine. It needs serendipity-planner[live]."""
@@ -171,9 +151,9 @@ def _say(text: str) -> None:
 
 def _checked(given: dict[str, str | None], robots: str | None) -> dict[str, Any]:
     """How a round is played, by what is given or usual."""
-    for option, value, known in (("--view", given["view"], _VIEWS), ("--robots-are", robots, _CONDITIONS)):
+    for name, value, known in (("--view", given["view"], _VIEWS), ("--robots-are", robots, _CONDITIONS)):
         if value is not None and value not in known:
-            raise UsageError(f"{option}: expected one of {', '.join(known)}, got '{value}'")
+            raise UsageError(f"{name}: expected one of {', '.join(known)}, got '{value}'")
     told = {name: given[name] or usual for name, usual in _USUAL.items()}
     share = exact(told["discount"], "discount")
     if not 0 <= share <= 1:

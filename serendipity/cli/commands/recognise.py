@@ -3,9 +3,8 @@
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 import serendipity
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import goals as goal_options
 from serendipity.cli.options import limits, naming, planning
@@ -18,11 +17,7 @@ def recognise(
     task: naming.TaskName,
     goals: Annotated[
         Path,
-        typer.Option(
-            "--goals",
-            metavar="FILE",
-            help="Goals that the human may have: JSON, or 'prior: fact, fact' on each line.",
-        ),
+        option("--goals FILE", "Goals that the human may have: JSON, or 'prior: fact, fact' on each line."),
     ],
     observed: goal_options.Observed = None,
     beta: goal_options.Beta = None,

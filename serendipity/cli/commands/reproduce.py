@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
-from serendipity.cli.choices import choices
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.streams import output
 from serendipity.cli.streams.broken_tasks import broken_tasks
@@ -40,51 +40,39 @@ def reproduce(
         ),
     ],
     modes: Annotated[
-        str, typer.Option(metavar="MODE,...", help="Modes to solve each task in.")
+        str, option("--modes MODE,...", "Modes to solve each task in.")
     ] = "individual,serendipity,communication,composite",
-    discounts: Annotated[
-        str, typer.Option(metavar="D,...", help="Discounts, 0 to 1.")
-    ] = "0,0.1,0.3,0.5,0.7,0.9",
-    jobs: Annotated[int, typer.Option("-j", "--jobs", metavar="N", help="Processes.")] = 1,
+    discounts: Annotated[str, option("--discounts D,...", "Discounts, 0 to 1.")] = "0,0.1,0.3,0.5,0.7,0.9",
+    jobs: Annotated[int, option("-j, --jobs N", "Processes.")] = 1,
     dask: Annotated[
         str | None,
-        typer.Option(
-            help="Work on a Dask cluster (needs serendipity-planner[dask]).", **choices("ADDRESS", "local")
-        ),
+        option("--dask ADDRESS|local", "Work on a Dask cluster (needs serendipity-planner[dask])."),
     ] = None,
     time_limit: Annotated[
-        str | None,
-        typer.Option(
-            "--time-limit",
-            metavar="SECONDS",
-            help="Seconds for each row, and for reading each task.",
-        ),
+        str | None, option("--time-limit SECONDS", "Seconds for each row, and for reading each task.")
     ] = None,
     memory_limit: Annotated[
-        str | None,
-        typer.Option("--memory-limit", metavar="MIB", help="MiB of memory for each process."),
+        str | None, option("--memory-limit MIB", "MiB of memory for each process.")
     ] = None,
     journal: Annotated[
         Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="Append finished tasks to FILE and skip those in it; by default OUTPUT.journal.",
+        option(
+            "--journal FILE", "Append finished tasks to FILE and skip those in it; by default OUTPUT.journal."
         ),
     ] = None,
     report: Annotated[
         Path | None,
-        typer.Option(metavar="FILE.html", help="Also write tables, and charts with matplotlib, to one page."),
+        option("--report FILE.html", "Also write tables, and charts with matplotlib, to one page."),
     ] = None,
     tables: Annotated[
-        Path | None,
-        typer.Option(metavar="PREFIX", help="Also write Table I and II to PREFIX1.csv and PREFIX2.csv."),
+        Path | None, option("--tables PREFIX", "Also write Table I and II to PREFIX1.csv and PREFIX2.csv.")
     ] = None,
     to: Annotated[output.Destination, _FORMAT],
 ) -> int:
     """Run a folder of tasks through modes and discounts. A run that was killed goes on where it was."""
     form = to.prepare(_FORMATS)
-    for option, file in (("--report", report), ("--journal", journal), ("--tables", tables)):
-        output.check_output(file, option)
+    for name, file in (("--report", report), ("--journal", journal), ("--tables", tables)):
+        output.check_output(file, name)
     from serendipity.cli.streams.progress import shown
     from serendipity.evaluation.reproduction import reproduce as run_all
     from serendipity.evaluation.reproduction.tables import tables as tables_of

@@ -4,8 +4,7 @@ import os
 from pathlib import Path
 from typing import Annotated, Final
 
-import typer
-
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.files.reading import read_text
 from serendipity.cli.streams import output
@@ -18,35 +17,26 @@ _MIB: Final = 2**20
 
 
 def serve(
-    host: Annotated[str, typer.Option("--host", metavar="ADDRESS", help="Where to listen.")] = "127.0.0.1",
-    port: Annotated[int, typer.Option("--port", metavar="N", help="0 for any that is free.")] = 8123,
+    host: Annotated[str, option("--host ADDRESS", "Where to listen.")] = "127.0.0.1",
+    port: Annotated[int, option("--port N", "0 for any that is free.")] = 8123,
     allow_host: Annotated[
-        list[str] | None,
-        typer.Option("--allow-host", metavar="NAME", help="Another name under which it may be asked."),
+        list[str] | None, option("--allow-host NAME", "Another name under which it may be asked.")
     ] = None,
     token_file: Annotated[
-        Path | None,
-        typer.Option("--token-file", metavar="FILE", help=f"A token that requests need; or in {_TOKEN}."),
+        Path | None, option("--token-file FILE", f"A token that requests need; or in {_TOKEN}.")
     ] = None,
     workers: Annotated[
-        int | None,
-        typer.Option("--workers", metavar="N", help="Processes; by default as many as processors."),
+        int | None, option("--workers N", "Processes; by default as many as processors.")
     ] = None,
-    queue: Annotated[int, typer.Option("--queue", metavar="N", help="Requests that may wait.")] = 64,
-    body_limit: Annotated[
-        str, typer.Option("--body-limit", metavar="MIB", help="The most that a request may have.")
-    ] = "4",
-    time_limit: Annotated[
-        str, typer.Option("--time-limit", metavar="SECONDS", help="The most that a request may take.")
-    ] = "60",
-    memory_limit: Annotated[
-        str, typer.Option("--memory-limit", metavar="MIB", help="The most that a process may use.")
-    ] = "2000",
+    queue: Annotated[int, option("--queue N", "Requests that may wait.")] = 64,
+    body_limit: Annotated[str, option("--body-limit MIB", "The most that a request may have.")] = "4",
+    time_limit: Annotated[str, option("--time-limit SECONDS", "The most that a request may take.")] = "60",
+    memory_limit: Annotated[str, option("--memory-limit MIB", "The most that a process may use.")] = "2000",
 ) -> int:
     """Answer requests over HTTP: plan, verify, sessions. It needs serendipity-planner[live]."""
-    for option, number, least in (("--workers", workers, 1), ("--queue", queue, 0)):
+    for name, number, least in (("--workers", workers, 1), ("--queue", queue, 0)):
         if number is not None and number < least:
-            raise UsageError(f"{option}: expected at least {least}, got {number}")
+            raise UsageError(f"{name}: expected at least {least}, got {number}")
     try:
         from serendipity.live.guards import addresses
         from serendipity.live.guards.connections import serve as run

@@ -3,8 +3,7 @@
 from pathlib import Path
 from typing import Annotated, Final
 
-import typer
-
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.files.reading import Strict, about, broken_rule
 from serendipity.cli.options import naming
@@ -19,14 +18,10 @@ def show(
     *,
     task: Annotated[naming.TaskName, naming.AND_RESULT],
     epoch: Annotated[
-        int | None,
-        typer.Option(
-            "--epoch", metavar="N", help="The epoch of a still; by default that of the first hand-over."
-        ),
+        int | None, option("--epoch N", "The epoch of a still; by default that of the first hand-over.")
     ] = None,
     output_file: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="FILE", help="A page .html, or a still .svg or .png."),
+        Path | None, option("-o, --output FILE", "A page .html, or a still .svg or .png.")
     ] = None,
     strict: Strict = False,
 ) -> int:

@@ -2,10 +2,8 @@
 
 from typing import Annotated
 
-import typer
-
 import serendipity
-from serendipity.cli.choices import choices
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.files.reading import Strict, about, broken_rule
 from serendipity.cli.options import limits, naming, planning
@@ -18,10 +16,7 @@ def simulate(
     *,
     task: Annotated[naming.TaskName, naming.AND_RESULT],
     human_model: Annotated[
-        str,
-        typer.Option(
-            help="Sees everything, or only what is at the same place.", **choices("observant", "local")
-        ),
+        str, option("--human-model observant|local", "Sees everything, or only what is at the same place.")
     ] = "observant",
     limited: limits.Limits,
     to: output.Destination,

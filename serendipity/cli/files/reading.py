@@ -5,13 +5,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
 import serendipity
+from serendipity.cli.choices import option
 from serendipity.model import Deadline, InputError, Result, Task
 
 Strict = Annotated[
-    bool, typer.Option("--strict", help="Exit with 1 where the result breaks a rule; else that is a warning.")
+    bool, option("--strict", "Exit with 1 where the result breaks a rule; else that is a warning.")
 ]
 
 

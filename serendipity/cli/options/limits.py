@@ -5,8 +5,7 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Annotated, Final
 
-import typer
-
+from serendipity.cli.choices import option
 from serendipity.cli.groups import Group
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.errors import LIMITS, limit_reason
@@ -23,12 +22,10 @@ class Limits(Group):
     """The limits of a command, as texts."""
 
     time_limit: Annotated[
-        str | None,
-        typer.Option("--time-limit", metavar="SECONDS", help="Stop after so many seconds, reading included."),
+        str | None, option("--time-limit SECONDS", "Stop after so many seconds, reading included.")
     ] = None
     memory_limit: Annotated[
-        str | None,
-        typer.Option("--memory-limit", metavar="MIB", help="Stop when so many MiB of memory are in use."),
+        str | None, option("--memory-limit MIB", "Stop when so many MiB of memory are in use.")
     ] = None
 
     @property

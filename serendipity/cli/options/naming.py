@@ -7,6 +7,7 @@ from typing import Annotated, Final
 
 import typer
 
+from serendipity.cli.choices import option
 from serendipity.cli.files.reading import read_json
 from serendipity.cli.groups import Group
 from serendipity.cli.options import limits, settings
@@ -49,32 +50,24 @@ class TaskName(Group):
     """The words that name a task; exactly one of the four ways."""
 
     files: Files = None
-    human: Annotated[
-        str | None,
-        typer.Option("--human", metavar="H", help="The human; by default the only agent with a goal."),
-    ] = None
+    human: Annotated[str | None, option("--human H", "The human; by default the only agent with a goal.")] = (
+        None
+    )
     robot: Annotated[
         list[str] | None,
-        typer.Option(
-            "--robot",
-            metavar="R",
-            help="A robot (with DOMAIN PROBLEM; repeat it). "
-            "In MA-PDDL 'all', or none, means all other agents.",
+        option(
+            "--robot R",
+            "A robot (with DOMAIN PROBLEM; repeat it). In MA-PDDL 'all', or none, means all other agents.",
         ),
     ] = None
     agent: Annotated[
-        list[str] | None,
-        typer.Option("--agent", metavar="A=DOMAIN,PROBLEM", help="An agent and its own files (repeat it)."),
+        list[str] | None, option("--agent A=DOMAIN,PROBLEM", "An agent and its own files (repeat it).")
     ] = None
     team: Annotated[
-        str | None,
-        typer.Option(
-            "--team", metavar="DOMAIN,PROBLEM", help="With --agent: the files of the joint actions."
-        ),
+        str | None, option("--team DOMAIN,PROBLEM", "With --agent: the files of the joint actions.")
     ] = None
     example: Annotated[
-        str | None,
-        typer.Option("--example", metavar="NAME", help="A task that is shipped.", autocompletion=_examples),
+        str | None, option("--example NAME", "A task that is shipped.", autocompletion=_examples)
     ] = None
 
     def load(self, deadline: Deadline | None = None) -> Task:

@@ -9,9 +9,7 @@ from inspect import Parameter
 from pathlib import Path
 from typing import Annotated, Any, Final
 
-import typer
-
-from serendipity.cli.choices import choices
+from serendipity.cli.choices import option
 from serendipity.cli.groups import Group
 from serendipity.model.keywords import CHOICES, InterruptionOptions
 from serendipity.model.options import Options
@@ -38,14 +36,13 @@ _TEXTS: Final[Mapping[str, tuple[str, str]]] = {
 """Help, and what stands for a value; without that, values are those of ``CHOICES``."""
 
 
-def option(name: str) -> Any:
+def told(name: str) -> Any:
     """An option of :class:`Options` that is told as a text, as typer has it."""
-    told, metavar = _TEXTS[name]
+    text, metavar = _TEXTS[name]
     default = getattr(Options(), name)
-    return typer.Option(
-        f"--{name.replace('_', '-')}",
-        **choices(*(metavar.split("|") if metavar else CHOICES[name])),
-        help=told if default is None else f"{told} [default: {default}]",
+    return option(
+        f"--{name.replace('_', '-')} {metavar or '|'.join(CHOICES[name])}",
+        text if default is None else f"{text} [default: {default}]",
         show_default=False,
     )
 
@@ -53,15 +50,15 @@ def option(name: str) -> Any:
 _OTHERS: Final[Mapping[str, Any]] = {
     "human_plan": Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="What the human will do, an action a line; predicted by default."),
+        option("--human-plan FILE", "What the human will do, an action a line; predicted by default."),
     ],
     "keep_prefix": Annotated[
         bool | None,
-        typer.Option("--keep-prefix", help="In communication mode: windows, as in the paper's second (7b)."),
+        option("--keep-prefix", "In communication mode: windows, as in the paper's second (7b)."),
     ],
     "no_block": Annotated[
         bool | None,
-        typer.Option("--no-block/--allow-block", help="Whether robots may leave the human without a plan."),
+        option("--no-block/--allow-block", "Whether robots may leave the human without a plan."),
     ],
 }
 
@@ -104,7 +101,7 @@ class Planning(Group):
 
 
 def _shown(name: str) -> Any:
-    return _OTHERS[name] if name in _OTHERS else Annotated[str | None, option(name)]
+    return _OTHERS[name] if name in _OTHERS else Annotated[str | None, told(name)]
 
 
 def given(**options: str | bool | Path | None) -> dict[str, Any]:

@@ -3,23 +3,18 @@
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from serendipity.cli.choices import option
 
-from serendipity.cli.choices import choices
-
-Solver = Annotated[str, typer.Option(help="highs, or cbc as a cross-check.", **choices("highs", "cbc"))]
-Encoding = Annotated[
-    str, typer.Option(help="Agent automata, or the paper's equations.", **choices("automata", "paper"))
-]
+Solver = Annotated[str, option("--solver highs|cbc", "highs, or cbc as a cross-check.")]
+Encoding = Annotated[str, option("--encoding automata|paper", "Agent automata, or the paper's equations.")]
 Method = Annotated[
     str,
-    typer.Option(
-        help="What proves that nothing is better; program: the solver, even where reachability could; "
+    option(
+        "--method auto|program|exhaustive",
+        "What proves that nothing is better; program: the solver, even where reachability could; "
         "exhaustive: a search of all states; auto: both in turns.",
-        **choices("auto", "program", "exhaustive"),
     ),
 ]
 Proof = Annotated[
-    Path | None,
-    typer.Option("--proof", metavar="FILE", help="Write what convinced it, for `check-proof`; .gz packs it."),
+    Path | None, option("--proof FILE", "Write what convinced it, for `check-proof`; .gz packs it.")
 ]

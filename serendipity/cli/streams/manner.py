@@ -4,9 +4,7 @@ import sys
 from contextvars import ContextVar
 from typing import Annotated, Final
 
-import typer
-
-from serendipity.cli.choices import choices
+from serendipity.cli.choices import option
 from serendipity.cli.groups import Group
 from serendipity.model.errors import UsageError
 
@@ -76,22 +74,17 @@ class Manner(Group):
     """Options that every command has, and that none needs to know: each is heeded when it is read."""
 
     quiet: Annotated[
-        bool,
-        typer.Option("--quiet", "-q", callback=be_quiet, help="No warnings and no progress on stderr."),
+        bool, option("--quiet, -q", "No warnings and no progress on stderr.", callback=be_quiet)
     ] = False
     progress: Annotated[
         str,
-        typer.Option(
-            "--progress",
+        option(
+            f"--progress {'|'.join(STYLES)}",
+            "How progress is shown: a bar on a terminal, plain lines elsewhere; or JSON lines.",
             callback=_choose,
-            help="How progress is shown: a bar on a terminal, plain lines elsewhere; or JSON lines.",
-            **choices(*STYLES),
             show_default=False,
         ),
     ] = "auto"
     verbose: Annotated[
-        int,
-        typer.Option(
-            "--verbose", "-v", count=True, callback=start_logging, help="Log to stderr; -vv logs more."
-        ),
+        int, option("--verbose, -v", "Log to stderr; -vv logs more.", count=True, callback=start_logging)
     ] = 0

@@ -8,9 +8,7 @@ from inspect import Parameter
 from pathlib import Path
 from typing import Annotated, Any, Final, NamedTuple
 
-import typer
-
-from serendipity.cli.choices import choices
+from serendipity.cli.choices import option
 from serendipity.cli.groups import Group
 from serendipity.cli.streams.manner import is_quiet
 from serendipity.cli.streams.stderr import tell
@@ -25,8 +23,8 @@ DATA: Final = (*FORMATS, *ROWS)
 
 def formats(names: Sequence[str], help: str) -> Parameter:  # noqa: A002 - typer's word
     """``--format`` of a command whose answers have other formats than text and JSON."""
-    option = typer.Option("--format", help=help, **choices(*names))
-    return Parameter("format", Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[str | None, option])
+    kind = Annotated[str | None, option(f"--format {'|'.join(names)}", help)]
+    return Parameter("format", Parameter.KEYWORD_ONLY, default=None, annotation=kind)
 
 
 ROWS_TOO: Final = formats(DATA, "By default after -o's name, else text.")
@@ -36,12 +34,10 @@ ROWS_TOO: Final = formats(DATA, "By default after -o's name, else text.")
 class Destination(Group):
     """Where an answer goes, and in which format."""
 
-    format: Annotated[
-        str | None, typer.Option("--format", help="Text, or JSON for -o *.json.", **choices(*FORMATS))
-    ] = None
-    output_file: Annotated[
-        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write the answer here.")
-    ] = None
+    format: Annotated[str | None, option(f"--format {'|'.join(FORMATS)}", "Text, or JSON for -o *.json.")] = (
+        None
+    )
+    output_file: Annotated[Path | None, option("-o, --output FILE", "Write the answer here.")] = None
 
     def prepare(self, formats: Collection[str] = FORMATS) -> str:
         """Before the work: what can be known to be wrong with ``-o``, and the format in force.
