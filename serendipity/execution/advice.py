@@ -65,7 +65,6 @@ class Adviser(Protocol):
         Args:
             following: what the person may be following.
             now: where things stand.
-            deadline: polled.
 
         Raises:
             LimitReachedError: the deadline came before there was any.

@@ -23,7 +23,6 @@ class Beliefs:
     summed up: the posterior becomes the prior, and the present state the initial one.
 
     Args:
-        task: the task.
         goals: candidates, with their priors.
         beta: how strictly the person is taken to minimise cost.
 
@@ -67,7 +66,6 @@ class Beliefs:
 
         Args:
             state: ids of the facts that are true now.
-            deadline: polled.
 
         Raises:
             LimitReachedError: the deadline came first; the weights stay as they were.

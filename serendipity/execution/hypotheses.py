@@ -30,8 +30,6 @@ class Hypothesis:
     """One goal.
 
     Args:
-        task: the task with that goal.
-        options: in force.
         actions: what robots can do.
         state: ids of the facts that are true, as the person knows.
         deadline: polled while tables are built.
@@ -127,7 +125,6 @@ class Hypotheses:
 
     Args:
         tasks: the task with each of the goals.
-        options: in force.
         told: the person keeps to the robots' plan: then there is nothing to promise.
         surely: whether robots manage whatever is possible.
 
@@ -195,7 +192,6 @@ class Hypotheses:
         """What may happen in the epoch that is to come, whichever of some goals the person has.
 
         Args:
-            goals: the goals.
             beside: ids of what robots do in any case.
         """
         human, actions = self._tasks[0].human, self._tasks[0].actions

@@ -34,7 +34,6 @@ def log_lines(run: Execution, /, **notes: Any) -> Iterator[dict[str, Any]]:
     """All lines of a log; the first one, its header, says what was asked.
 
     Args:
-        run: the execution.
         **notes: whatever else the header is to remember: seed, who the person was.
     """
     options = run.options
@@ -91,7 +90,6 @@ def replay(task: Task, lines: Sequence[LogLine], file: object = None) -> Executi
     Every line has to come out as it is written: what took place, what it cost, and what changed.
 
     Args:
-        task: what was executed.
         lines: of one run, its header first.
         file: named in errors.
 

@@ -47,7 +47,6 @@ class Persona:
         """Somebody who acts like that.
 
         Args:
-            task: where they begin.
             dice: for what they leave to chance.
             drawn: whether that includes which of their optimal plans they follow.
             prepared: the task made ready, whose tables they go on with; None: it is made ready.

@@ -164,7 +164,6 @@ class Noisy:
     Args:
         task: where they begin; its goal is theirs.
         probability: of something else, in each epoch.
-        dice: draws.
         ties: whether the dice also draw which of their optimal plans they follow.
         prepared: as for :class:`Replanner`.
     """

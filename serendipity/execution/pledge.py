@@ -46,7 +46,6 @@ class Pledge:
         """What there is to go on with; None where that does not lead to the goal any more.
 
         Args:
-            task: the task.
             now: from where, and without what.
             mend: the person waits for what did not take place, so the whole plan is an epoch late.
             hopeless: the person has no plan alone: robots' own goals can wait.

@@ -55,10 +55,6 @@ def best_for_all(prospects: Sequence[Prospect], deadline: Deadline) -> Prospect 
     react.  Robots can still change their mind when they know more, so the mean is what a plan is good
     for at least.
 
-    Args:
-        prospects: one for each goal.
-        deadline: polled.
-
     Raises:
         LimitReachedError: the deadline came first.
     """

@@ -42,7 +42,6 @@ class ReactiveAdviser:
     with: what is found then has to be better, whatever the person has done meanwhile.
 
     Args:
-        task: the task with that goal.
         discount: of robots' costs.
         companion: who plans.
         actions: what robots can do.

@@ -42,8 +42,6 @@ class RobotPolicy:
     """Recognises, plans, and leaves alone what the person may need.
 
     Args:
-        task: the task.
-        options: in force.
         goals: goals that the person may have; None: they are known to have the task's.
         beta: of the posterior.
         told: the person keeps to the robots' plan.

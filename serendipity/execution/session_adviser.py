@@ -24,8 +24,6 @@ class SessionAdviser:
     help is finished that was interrupted, and how what was taken is given back.
 
     Args:
-        task: the task with that goal.
-        options: of the planning calls.
         actions: what robots can do.
         told: the person keeps to the robots' plan: nothing has to be left alone.
     """

@@ -19,7 +19,6 @@ class Unbound:
 
     Args:
         task: the task with one of the goals that the person may have.
-        options: in force.
         companion: plays the person, and plans beside them; None: robots have goals of their own, or take the
             person to be omniscient.
     """

@@ -48,7 +48,6 @@ class World:
     """A task's true state, which actions change.
 
     Args:
-        task: where it begins.
         discount: of robots' costs.
         strict: whether interference is strict.
 

@@ -17,10 +17,8 @@ class Ask:
     """Repeats one planning call with some options changed; equal calls are made once.
 
     Args:
-        task: the task.
         options: of the call that is explained.
         human_plan: names of ``pi_H``, or None to predict it.
-        deadline: of all calls together.
     """
 
     def __init__(

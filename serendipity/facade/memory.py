@@ -184,9 +184,7 @@ class RememberedQuestion:
         """An answer; none where a limit left nothing but one that is worse than to finish what was begun.
 
         Args:
-            task: that it is about.
             answer: the best one that is known.
-            limit: what has come, or None.
         """
         warm = self.warm
         if limit is None or answer.status != "feasible" or warm is None or not warm.is_sure:

@@ -14,7 +14,6 @@ def is_better(rest: WarmStart, answer: Answer, task: Task, options: Options) -> 
         rest: what is left; so far all has gone as planned.
         answer: a feasible one.
         task: from the present state.
-        options: in force.
     """
     if answer.cost is None or answer.objective is None or answer.human_plan is None:
         return False

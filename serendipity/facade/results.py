@@ -21,8 +21,6 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
 
     Args:
         task: what was asked; with several goals, its own plays no part.
-        options: in force.
-        answer: what was found.
         elapsed: seconds that it took.
     """
     discount = _discount(options)

@@ -22,9 +22,7 @@ def reachable(task: Task, actions: Sequence[GroundAction], deadline: Deadline) -
     be reached at all, and what is may still be out of reach.
 
     Args:
-        task: the task.
         actions: those to use.
-        deadline: polled.
     """
     reached = {(fact, fact in task.init) for fact in range(len(task.facts))}
     waiting: defaultdict[Fact, list[GroundAction]] = defaultdict(list)

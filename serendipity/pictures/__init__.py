@@ -23,7 +23,6 @@ def draw(scene: Scene, suffix: str, epoch: int | None = None) -> str | bytes:
     """A scene as the content of a file.
 
     Args:
-        scene: what to draw.
         suffix: ``.html`` for a page; ``.svg`` or ``.png`` for a still.
         epoch: of a still; None for the one that says most.
 

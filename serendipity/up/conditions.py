@@ -31,7 +31,6 @@ class Reader:
     """Reads the expressions of one action or goal.
 
     Args:
-        vocabulary: of the problem.
         owner: whose action or goal it is.
 
     Attributes:

@@ -16,11 +16,6 @@ from serendipity.up.conditions import Bound, Reader
 def effects_of(reader: Reader, effect: UPEffect, precondition: Formula) -> Iterator[Effect]:
     """What one effect does.
 
-    Args:
-        reader: of the action.
-        effect: the effect.
-        precondition: of the action.
-
     Raises:
         InputError: it changes a number.
     """

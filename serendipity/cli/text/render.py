@@ -23,7 +23,6 @@ def rendered(parts: Iterable[Line | Grid], *, terminal: bool | None = None) -> s
     """Text for stdout, or for a file.
 
     Args:
-        parts: from top to bottom.
         terminal: with colours and folded to the terminal's width; None asks stdout.
     """
     if (sys.stdout is not None and sys.stdout.isatty()) if terminal is None else terminal:

@@ -17,7 +17,6 @@ class Access:
     """Middleware that refuses others.
 
     Args:
-        app: who answers those that are let in.
         hosts: what ``Host`` may say, ports apart.
         token: what has to come as ``Authorization: Bearer TOKEN``, or None.
     """

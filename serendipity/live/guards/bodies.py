@@ -11,7 +11,6 @@ class BodyLimits:
     """Middleware that ends requests whose bodies are too long, or too long in coming.
 
     Args:
-        app: who answers the others.
         most: bytes of a body.
         seconds: until all of it has to be there.
     """

@@ -35,7 +35,6 @@ class Responses:
     Secrets in addresses are left out.
 
     Args:
-        app: who answers.
         inline: whether pages have scripts in them, and not beside them.
         count: told of each response, too.
     """

@@ -48,7 +48,6 @@ def application(host: Host, hosts: Sequence[str]) -> FastAPI:
     """The application.
 
     Args:
-        host: what is behind the pages.
         hosts: names under which it may be asked, ports apart.
     """
     app = FastAPI(

@@ -25,9 +25,6 @@ _EXPLAINING = 10.0
 class Round:
     """A person, robots and the world.
 
-    Args:
-        setting: what is played.
-
     Raises:
         UsageError: the person has no way to reach the goal alone.
     """
@@ -98,7 +95,6 @@ class Round:
         """Play a recorded epoch: what robots had decided, and what the person did.
 
         Args:
-            event: the record.
             file: named in errors.
 
         Raises:

@@ -96,7 +96,6 @@ class SharedRounds(RecordedRounds):
     """Rounds of one setting, again and again, for whoever opens the page: every page shows the same one.
 
     Args:
-        setting: what is played.
         file: where every event is written down when it happens; None: nowhere.  A round in it that is not
             over goes on.
 

@@ -15,8 +15,6 @@ class Phrases:
     """Words for a task, said to its human.
 
     Args:
-        task: the task.
-        places: its map.
         labels: of its domain; what has none is said by its name.
     """
 

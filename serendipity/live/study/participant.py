@@ -36,7 +36,6 @@ class Participant(RecordedRounds):
     """Somebody who takes part.
 
     Args:
-        design: of the study.
         records: theirs, which begin with how they joined.
 
     Attributes:

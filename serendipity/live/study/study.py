@@ -26,7 +26,6 @@ class Study:
     """Participants, each with a link and a file of their own.
 
     Args:
-        design: of the study.
         folder: where the files are; whoever has begun goes on.
 
     Attributes:

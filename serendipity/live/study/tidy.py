@@ -41,7 +41,6 @@ def rounds_table(design: Design, people: Sequence[tuple[Sequence[Event], str]]) 
     """The table as CSV.
 
     Args:
-        design: of the study.
         people: each one's events, and state.
     """
     answers = [name for name, _ in _answers(design)]

@@ -18,7 +18,6 @@ def png(picture: Picture, scale: float = 2.0) -> bytes:
     """A picture as PNG.
 
     Args:
-        picture: what to paint.
         scale: pixels per unit; less where the picture would have more than 10,000 a side.
 
     Raises:

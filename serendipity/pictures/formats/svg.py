@@ -22,7 +22,6 @@ def svg(picture: Picture, *, inline: bool = False, **attributes: str) -> str:
     """A picture as an SVG element.
 
     Args:
-        picture: what to write.
         inline: for a page, which sets the size; else a file of its own, on white.
         **attributes: of the element, e.g. ``id``.
     """

@@ -118,7 +118,6 @@ def lay_out(places: Places, size: Size | None = None) -> MapLayout:
     """Lay out a map; parts that no way connects stand side by side.
 
     Args:
-        places: the map.
         size: of a cell; a place has at least one. None: by how many things there are.
     """
     if size is None:

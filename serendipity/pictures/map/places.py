@@ -321,7 +321,6 @@ class _PlaceFinder:
     """Finds the place, agent or object that a fact's name mentions.
 
     Args:
-        task: the task.
         places: names of places.
         predicates: of facts that tell where something is, rather than who holds it.
     """

@@ -102,7 +102,6 @@ def fitted(text: str, width: float, size: float, least: float, *, bold: bool = F
     """A text and the font size at which it fits into a width; shortened below ``least``.
 
     Args:
-        text: the text.
         width: in pixels.
         size: font size to begin with, in pixels.
         least: the smallest font size.

@@ -97,7 +97,6 @@ def _trail(layout: MapLayout, stops: Sequence[str | None], lane: float) -> tuple
     """The points that each step adds to the line of an agent.
 
     Args:
-        layout: of the map.
         stops: its place after each epoch, from 0; None while it is nowhere.
         lane: from 1; how many lanes to the right of the middle; fractions lie between.
 

@@ -27,7 +27,6 @@ def still(scene: Scene, epoch: int | None = None) -> Picture:
     """The picture of one epoch.
 
     Args:
-        scene: what to draw.
         epoch: from 0 to the last frame's; None for the one that says most.
     """
     now = scene.key_epoch if epoch is None else epoch

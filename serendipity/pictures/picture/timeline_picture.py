@@ -78,7 +78,6 @@ def timeline_picture(
     """The columns of epochs ``first`` to ``last``.
 
     Args:
-        scene: what to draw.
         first: the first epoch; 0 is the start.
         last: the last epoch; None for the end.
         now: the epoch that is marked.

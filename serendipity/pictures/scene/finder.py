@@ -74,12 +74,7 @@ class Finder:
         return next((places[fact] for fact in action.add if fact in places), None)
 
     def phrase(self, action: GroundAction, agents: Sequence[str]) -> tuple[str, str]:
-        """An action in two short lines, without who does it and where they are; a move is "go to" a place.
-
-        Args:
-            action: the action.
-            agents: names of all agents.
-        """
+        """An action in two short lines, without who does it and where they are; a move is "go to" a place."""
         place = self.target(action, action.participants[0])
         if place is not None:
             return "go to", place

@@ -34,8 +34,6 @@ class Camera:
     """Looks at the whole of a building.
 
     Args:
-        engine: the world that it is in.
-        building: what it looks at.
         width: of its pictures in pixels; their height follows from the building.
 
     Attributes:

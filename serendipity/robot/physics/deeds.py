@@ -34,7 +34,6 @@ class Bodies:
     """What figures can do in a building.
 
     Args:
-        engine: their world.
         building: where they are.
     """
 

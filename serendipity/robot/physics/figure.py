@@ -57,7 +57,6 @@ class StickFigure:
     """A body that walks.
 
     Args:
-        engine: its world.
         at: where it stands.
         colour: of trunk and limbs.
         cap: of its head.
@@ -125,7 +124,6 @@ class StickFigure:
         """Lead it towards a point for a moment; whether it is there.
 
         Args:
-            target: the point.
             speed: in metres a second.
         """
         left = self.away(target)

@@ -69,10 +69,7 @@ class Film:
         """Set up the camera.
 
         Args:
-            engine: the world.
             building: what is to be seen.
-            figures: by name.
-            things: by name.
         """
         self._engine = engine
         self._camera = Camera(engine, building, self._width)

@@ -22,7 +22,6 @@ class Kit:
     """A box; a first-aid kit is red, with a cross on it.
 
     Args:
-        engine: its world.
         at: where it lies.
         first_aid: whether it is one.
 
