@@ -4,64 +4,15 @@ Every action costs 1 (the domain has no costs).  ``conduct_triage`` is the human
 and does not use the kit up; ``hand_over`` is joint, between two agents in one place.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
+from pathlib import Path
 from typing import Final
 
 from serendipity.model.errors import UsageError
 from serendipity.scenarios.usar import HUMAN, Usar
 
-_TYPES: Final = """\
-  (:types
-    location thing - object
-    agent medkit - thing
-    person machine - agent)"""
-
-_PREDICATES: Final = """\
-  (:predicates
-    (connected ?from ?to - location)
-    (at ?what - thing ?where - location)
-    (has ?who - agent ?kit - medkit)
-    (has_medkit ?who - agent)
-    (loc_has_medkit ?where - location)
-    (delivered ?who - agent ?kit - medkit ?where - location)
-    (conducted_triage ?who - person ?where - location))"""
-
-_OWN_ACTIONS: Final = """\
-  (:action move
-    :parameters (?who - agent ?from ?to - location)
-    :precondition (and (at ?who ?from) (connected ?from ?to))
-    :effect (and (at ?who ?to) (not (at ?who ?from))))
-
-  (:action move_reverse
-    :parameters (?who - agent ?from ?to - location)
-    :precondition (and (at ?who ?from) (connected ?to ?from))
-    :effect (and (at ?who ?to) (not (at ?who ?from))))
-
-  (:action pick_up_medkit
-    :parameters (?who - agent ?kit - medkit ?where - location)
-    :precondition (and (at ?who ?where) (at ?kit ?where))
-    :effect (and (has_medkit ?who) (has ?who ?kit)
-                 (not (at ?kit ?where)) (not (loc_has_medkit ?where))))
-
-  (:action drop_off
-    :parameters (?who - agent ?kit - medkit ?where - location)
-    :precondition (and (at ?who ?where) (has ?who ?kit))
-    :effect (and (delivered ?who ?kit ?where) (loc_has_medkit ?where) (at ?kit ?where)
-                 (not (has ?who ?kit)) (not (has_medkit ?who))))"""
-
-_TRIAGE: Final = """\
-  (:action conduct_triage
-    :parameters (?who - person ?where - location)
-    :precondition (and (at ?who ?where) (has_medkit ?who))
-    :effect (conducted_triage ?who ?where))"""
-
-_HAND_OVER: Final = """\
-  (:action hand_over
-    :parameters (?giver ?taker - agent ?kit - medkit ?where - location)
-    :precondition (and (not (= ?giver ?taker)) (at ?giver ?where) (at ?taker ?where)
-                       (has_medkit ?giver) (has ?giver ?kit))
-    :effect (and (has_medkit ?taker) (has ?taker ?kit)
-                 (not (has ?giver ?kit)) (not (has_medkit ?giver))))"""
+_DOMAIN: Final = Path(__file__).parent / "data" / "usar" / "domain.pddl"
+"""The domain of all agents; blank lines separate its head and its actions, and hand-over is the last."""
 
 
 def pddl_files(task: Usar, layout: str = "agents") -> dict[str, str]:
@@ -77,7 +28,7 @@ def pddl_files(task: Usar, layout: str = "agents") -> dict[str, str]:
 
 def _pair(task: Usar) -> dict[str, str]:
     return {
-        "domain.pddl": _domain("usar", [_OWN_ACTIONS, _TRIAGE, _HAND_OVER], equality=True),
+        "domain.pddl": _DOMAIN.read_text(encoding="utf-8"),
         "problem.pddl": _problem(task, "usar", task.agents),
     }
 
@@ -85,8 +36,7 @@ def _pair(task: Usar) -> dict[str, str]:
 def _folders(task: Usar) -> dict[str, str]:
     files: dict[str, str] = {}
     for agent, place in task.agents.items():
-        actions = [_OWN_ACTIONS, _TRIAGE] if agent == HUMAN else [_OWN_ACTIONS]
-        files[f"{agent}/domain.pddl"] = _domain(f"usar-{agent}", actions)
+        files[f"{agent}/domain.pddl"] = _own_domain(agent)
         files[f"{agent}/problem.pddl"] = _problem(task, f"usar-{agent}", {agent: place})
     return files | {f"superagent/{path}": text for path, text in _pair(task).items()}
 
@@ -96,10 +46,12 @@ LAYOUTS: Final[dict[str, Callable[[Usar], dict[str, str]]]] = {"agents": _folder
 one problem, agents are objects."""
 
 
-def _domain(name: str, actions: Sequence[str], *, equality: bool = False) -> str:
-    requirements = ":strips :typing" + (" :equality :negative-preconditions" if equality else "")
-    head = [f"(define (domain {name})", f"  (:requirements {requirements})", _TYPES, _PREDICATES]
-    return "\n".join(head) + "\n\n" + "\n\n".join(actions) + ")\n"
+def _own_domain(agent: str) -> str:
+    """The domain of what one agent can do alone, which compares no objects."""
+    head, *actions, _ = _DOMAIN.read_text(encoding="utf-8").split("\n\n")
+    head = head.replace("usar", f"usar-{agent}").replace(" :equality :negative-preconditions", "")
+    own = [action for action in actions if agent == HUMAN or "conduct_triage" not in action]
+    return "\n\n".join([head, *own]) + ")\n"
 
 
 def _problem(task: Usar, domain: str, agents: dict[str, str]) -> str:
