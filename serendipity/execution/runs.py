@@ -7,7 +7,7 @@ from typing import Any, Final
 from serendipity.execution.decided import event_lines
 from serendipity.model.numbers import plain
 from serendipity.model.table import Table, Tabular, table_of
-from serendipity.model.telling import Grid, Line, Told, json_of
+from serendipity.model.telling import Grid, Line, Output
 
 SCHEMA: Final = "serendipity.executions/1"
 
@@ -62,7 +62,7 @@ class Run:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Runs(Tabular, Told):
+class Runs(Tabular, Output):
     """Several executions of one task.
 
     Attributes:
@@ -123,10 +123,6 @@ class Runs(Tabular, Told):
             )
         yield f"a decision within the deadline in {found['kept']:.2%} of the epochs"
 
-    def to_json(self) -> str:
-        """The JSON text, as the command line writes it."""
-        return json_of(self.to_dict())
-
     def told(self) -> Iterator[Line | Grid]:
         """What ``execute`` prints: the story of a single run, the rows, the figures over all of them."""
         if len(self.rows) == 1:
@@ -136,7 +132,6 @@ class Runs(Tabular, Told):
         yield from (Line(), *map(Line, self.summary_lines()))
 
     def _in_short(self) -> Iterator[str]:
-        """What stands between the brackets of its ``repr``."""
         found = self.summary()
         yield f"{found['runs']} of a person who is {self.human}"
         yield f"goal reached in {found['reached']:.2%}"

@@ -11,13 +11,16 @@ from serendipity.explanation.misses import Miss
 from serendipity.explanation.moments import Moment
 from serendipity.facade.interruptibility import Removal
 from serendipity.model import Result
-from serendipity.model.telling import Grid, Line, Told, json_of
+from serendipity.model.answers.fields import written
+from serendipity.model.telling import Grid, Line, Output
 
 SCHEMA: Final = "serendipity.explanation/1"
 
+_OF_ANSWER: Final = ("mode", "opportunity", "human_cost", "cost", "saving", "reason")
+
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Explanation(Told):
+class Explanation(Output):
     """Why an answer is what it is.
 
     Attributes:
@@ -52,10 +55,6 @@ class Explanation(Told):
         """Whether nothing is missing for want of time or memory."""
         return self.limit is None
 
-    def to_json(self) -> str:
-        """The JSON text, as the command line writes it."""
-        return json_of(self.to_dict())
-
     def told(self) -> Iterator[Line | Grid]:
         """What ``explain`` prints: the sentences, topic by topic."""
         for i, (topic, several) in enumerate(groupby(self.sentences, key=lambda sentence: sentence[0])):
@@ -64,7 +63,6 @@ class Explanation(Told):
             yield from (Line(f"  {text}") for _, text in several)
 
     def _in_short(self) -> Iterator[str]:
-        """What stands between the brackets of its ``repr``."""
         yield from self.answer._in_short()
         yield f"{len(self.sentences)} sentences"
 
@@ -74,25 +72,19 @@ class Explanation(Told):
         return {
             "schema": SCHEMA,
             "complete": self.complete,
-            "limit": self.limit,
-            "left_out": list(self.left_out),
-            "mode": answer.mode,
-            "opportunity": answer.opportunity,
-            "human_cost": answer.human_cost,
-            "cost": answer.cost,
-            "saving": answer.saving,
-            "reason": answer.reason,
+            **written(self, ("limit", "left_out")),
+            **{name: getattr(answer, name) for name in _OF_ANSWER},
             "removed": None if gone is None else list(gone.removed),
             "removed_first": None if gone is None else gone.first,
             "removed_last": None if gone is None else gone.last,
             "replacement": None if gone is None else list(gone.replacement),
             "human_part": None if self.parts is None else float(self.parts.human),
             "robot_part": None if self.parts is None else float(self.parts.discounted(answer.options)),
-            "moments": [moment.to_dict() for moment in self.moments],
+            **written(self, ("moments",)),
             "break_even_discount": None if self.discount is None else self.discount.to_dict(),
             "break_even_window_weight": None if self.window_weight is None else self.window_weight.to_dict(),
             "announcement": None if told is None else {"cost": told.cost, "opportunity": told.opportunity},
-            "misses": [miss.to_dict() for miss in self.misses],
+            **written(self, ("misses",)),
             "sentences": [{"topic": topic, "text": text} for topic, text in self.sentences],
             "options": answer.options.to_dict(),
         }

@@ -6,6 +6,7 @@ from typing import Any, Final
 from serendipity.explanation.ask import Ask
 from serendipity.facade.interruptibility import InterruptionReport, Removal, removal
 from serendipity.model import Result, Window
+from serendipity.model.answers.fields import written
 
 RULES: Final = {
     "window-length": "a longer interruption (window_weight 0)",
@@ -49,10 +50,7 @@ class Miss:
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
         return {
-            "rule": self.rule,
-            "cost": self.cost,
-            "saving": self.saving,
-            "window": None if self.window is None else self.window.to_dict(),
+            **written(self, ("rule", "cost", "saving", "window")),
             "removed": list(self.removal.removed),
             "replacement": list(self.removal.replacement),
         }

@@ -2,11 +2,12 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Final
+from typing import Final
 
 from serendipity.facade.interruptibility import Interruption, InterruptionReport
 from serendipity.model import Result, Window
-from serendipity.model.numbers import as_written, rounded
+from serendipity.model.answers.fields import Written
+from serendipity.model.numbers import as_written
 
 WHY: Final = {
     "chosen": "this is the answer",
@@ -21,7 +22,7 @@ WHY: Final = {
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class Moment(Written):
     """One start of the window.
 
     Attributes:
@@ -39,17 +40,6 @@ class Moment:
     why: str
     instead: Window | None = None
     saving: Fraction | None = None
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object."""
-        return {
-            "start": self.start,
-            "window": self.window.to_dict(),
-            "cost": rounded(self.cost),
-            "why": self.why,
-            "instead": None if self.instead is None else self.instead.to_dict(),
-            "saving": rounded(self.saving),
-        }
 
 
 def moments(report: InterruptionReport, answer: Result) -> tuple[Moment, ...]:
