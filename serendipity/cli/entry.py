@@ -7,6 +7,7 @@ but what Python has loaded anyway, or nearly so.
 import gc
 import os
 import signal
+import sys
 
 from serendipity.cli.process.signals import SIGNALS
 
@@ -28,12 +29,11 @@ def run() -> None:
     _refuse_strangers()
     from serendipity.cli.app import main
     from serendipity.cli.process.interrupts import interrupt
-    from serendipity.cli.process.leaving import leave
 
     _on_signals(interrupt)
     code = main()
     _on_signals(signal.SIG_DFL)  # all is said and done
-    leave(code)
+    _end(code)
 
 
 def _refuse_strangers() -> None:
@@ -68,3 +68,17 @@ def _leave(_number: int, _frame: object) -> None:
         os.write(2, b"Interrupted.\n")
     finally:
         os._exit(INTERRUPTED)
+
+
+def _end(code: int) -> None:
+    """End the process with all that was written, and without giving memory back piece by piece.
+
+    Beside a large task that would take seconds.  Commands have closed their files and ended
+    their workers when they return.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            stream.flush()
+        except (AttributeError, OSError, ValueError):  # none, closed, or nobody reads: it was told before
+            continue
+    os._exit(code)

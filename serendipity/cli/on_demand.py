@@ -15,24 +15,9 @@ from serendipity.cli.options import overwriting
 from serendipity.cli.streams.manner import Manner
 
 NAMES: Final = (
-    "plan",
-    "check-task",
-    "verify",
-    "check-proof",
-    "simulate",
-    "execute",
-    "explain",
-    "interruptions",
-    "recognise",
-    "reproduce",
-    "show",
-    "solve",
-    "crosscheck",
-    "bench",
-    "examples",
-    "generate",
-    "play",
-    "serve",
+    *("plan", "check-task", "verify", "check-proof", "simulate", "execute", "explain", "interruptions"),
+    *("recognise", "reproduce", "show", "solve", "crosscheck", "bench"),
+    *("examples", "generate", "play", "serve"),
 )
 """As ``--help`` lists them: each a function in a module, both of its name, or a group ``app`` there."""
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.cli.files.human_plan import read_human_plan
+from serendipity.cli.files.human_plan import checked_plan
 from tests.cli.conftest import Run, assert_one_line
 
 
@@ -77,7 +77,7 @@ def test_half_a_bracket_is_named(tmp_path: Path) -> None:
     path = tmp_path / "plan.txt"
     path.write_text("move a b\n(move b c\n")
     with pytest.raises(serendipity.InputError, match=r"plan\.txt:2: .*expected one action"):
-        read_human_plan(path)
+        checked_plan(path, serendipity.example("room2"))
 
 
 @pytest.mark.parametrize("text", ["[1, 2]", '["a",', "[[]]"])
@@ -85,4 +85,4 @@ def test_json_that_is_no_list_of_names(text: str, tmp_path: Path) -> None:
     path = tmp_path / "plan.txt"
     path.write_text(text)
     with pytest.raises(serendipity.InputError, match=r"plan\.txt"):
-        read_human_plan(path)
+        checked_plan(path, serendipity.example("room2"))

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 
 from search.strategies.portfolio import chosen as chosen_turns
-from serendipity.cli.text.strategies import table_of
+from serendipity.cli.text.answers import table_of
 from tests.cli.conftest import Run, assert_one_line
 
 

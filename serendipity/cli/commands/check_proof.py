@@ -8,7 +8,7 @@ from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.files.reading import about
 from serendipity.cli.options import limits, naming
 from serendipity.cli.streams import output, progress
-from serendipity.cli.text.shown import shown
+from serendipity.cli.text.render import shown
 from serendipity.model import Result, Task, UsageError
 
 _FILES: Final = naming.files(

@@ -6,7 +6,7 @@ import serendipity
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import limits, naming
 from serendipity.cli.streams import output, progress
-from serendipity.cli.text.shown import shown
+from serendipity.cli.text.render import shown
 
 
 def check_task(*, task: naming.TaskName, limited: limits.Limits, to: output.Destination) -> int:

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 import serendipity
 from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.options import goals as goal_options
 from serendipity.cli.options import naming, planning
 from serendipity.cli.streams import output, progress
-from serendipity.cli.text.shown import shown
+from serendipity.cli.text.render import shown
 from serendipity.model import InputError, UsageError
 from serendipity.model.numbers import plain
 from serendipity.model.options import limit_of
@@ -49,8 +48,8 @@ def execute(
         ),
     ] = None,
     interference: Annotated[str | None, planning.told("interference")] = None,
-    goals: goal_options.Goals = None,
-    beta: goal_options.Beta = None,
+    goals: planning.Goals = None,
+    beta: planning.Beta = None,
     runs: Annotated[int, option("--runs N", "How many runs.")] = 1,
     seed: Annotated[int, option("--seed S", "Of the first run's dice.")] = 0,
     ties: Annotated[

@@ -9,7 +9,7 @@ from serendipity.cli.files.human_plan import checked_plan
 from serendipity.cli.files.reading import about, read_json
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
-from serendipity.cli.text.shown import shown
+from serendipity.cli.text.render import shown
 from serendipity.model import Deadline, InputError, Result, Task
 
 _FILES: Final = naming.files(

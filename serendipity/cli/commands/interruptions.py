@@ -9,7 +9,7 @@ from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.files.human_plan import checked_plan
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
-from serendipity.cli.text.shown import shown
+from serendipity.cli.text.render import shown
 from serendipity.model import UsageError
 from serendipity.writing.rows import FORMATS as ROWS
 

@@ -8,7 +8,6 @@ from typing import Annotated, Final
 import serendipity
 from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
-from serendipity.cli.options import goals as goal_options
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
@@ -26,9 +25,9 @@ def plan(
     *,
     task: naming.TaskName,
     options: planning.Planning,
-    goals: goal_options.Goals = None,
-    observed: goal_options.Observed = None,
-    beta: goal_options.Beta = None,
+    goals: planning.Goals = None,
+    observed: planning.Observed = None,
+    beta: planning.Beta = None,
     limited: limits.Limits,
     certify: Annotated[bool, option("--verify", "Add the certificate of `verify`.")] = False,
     save_plan: Annotated[
@@ -83,7 +82,7 @@ def _tell_strategies(result: Result) -> None:
     """What came of each turn of the search (``-v``); modes with but one have no table."""
     tried = result.statistics.get("strategies")
     if tried and is_verbose():
-        from serendipity.cli.text.strategies import table_of
+        from serendipity.cli.text.answers import table_of
 
         for line in table_of(tried).splitlines():
             write_line(line)

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 
 from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.options import goals as goal_options
-from serendipity.cli.options import naming
+from serendipity.cli.options import naming, planning
 from serendipity.cli.streams import output, progress
 from serendipity.cli.streams.manner import is_quiet
 from serendipity.cli.streams.stderr import tell
@@ -44,7 +43,7 @@ def play(
             f"--robots-are {'|'.join(_CONDITIONS)}", "Whether robots help, and say so; by default silent."
         ),
     ] = None,
-    goals: goal_options.Goals = None,
+    goals: planning.Goals = None,
     deadline: Annotated[
         str | None, option("--deadline SECONDS", "For each decision of the robots; by default 2.")
     ] = None,

@@ -4,23 +4,18 @@ from pathlib import Path
 from typing import Annotated
 
 import serendipity
-from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.options import goals as goal_options
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
-from serendipity.cli.text.shown import shown
+from serendipity.cli.text.render import shown
 
 
 def recognise(
     *,
     task: naming.TaskName,
-    goals: Annotated[
-        Path,
-        option("--goals FILE", "Goals that the human may have: JSON, or 'prior: fact, fact' on each line."),
-    ],
-    observed: goal_options.Observed = None,
-    beta: goal_options.Beta = None,
+    goals: Annotated[Path, planning.GOALS],
+    observed: planning.Observed = None,
+    beta: planning.Beta = None,
     limited: limits.Limits,
     to: Annotated[output.Destination, output.ROWS_TOO],
 ) -> int:

@@ -9,7 +9,7 @@ from serendipity.cli.files.reading import Strict, about, broken_rule
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
 from serendipity.cli.streams.stderr import tell
-from serendipity.cli.text.shown import shown
+from serendipity.cli.text.render import shown
 
 
 def simulate(

@@ -5,7 +5,7 @@ from typing import Annotated, Final
 import serendipity
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
 from serendipity.cli.files.human_plan import checked_plan
-from serendipity.cli.options import limits, naming, planning, programs
+from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
 from serendipity.cli.text.answers import plan_report
 
@@ -18,8 +18,8 @@ def solve(
     task: naming.TaskName,
     options: Annotated[planning.Planning, planning.PROGRAMS],
     limited: limits.Limits,
-    solver: programs.Solver = "highs",
-    encoding: programs.Encoding = "automata",
+    solver: planning.Solver = "highs",
+    encoding: planning.Encoding = "automata",
     to: output.Destination,
 ) -> int:
     """Answer as `plan` does, by integer programming alone. It is slower, and independent of the search."""

@@ -5,18 +5,18 @@ from typing import Annotated
 import serendipity
 from serendipity.cli.exit_codes import OF_VERDICT
 from serendipity.cli.files.reading import about
-from serendipity.cli.options import limits, naming, planning, programs
+from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
-from serendipity.cli.text.shown import shown
+from serendipity.cli.text.render import shown
 
 
 def verify(
     *,
     task: Annotated[naming.TaskName, naming.AND_RESULT],
-    solver: programs.Solver = "highs",
-    encoding: programs.Encoding = "automata",
-    method: programs.Method = "auto",
-    proof: programs.Proof = None,
+    solver: planning.Solver = "highs",
+    encoding: planning.Encoding = "automata",
+    method: planning.Method = "auto",
+    proof: planning.Proof = None,
     limited: limits.Limits,
     to: output.Destination,
 ) -> int:

@@ -77,6 +77,34 @@ PROGRAMS: Final = tuple(name for name in _ALL if name not in ("human_model", "no
 """What integer programs know."""
 
 
+GOALS: Final = option(
+    "--goals FILE", "Goals that the human may have: JSON, or 'prior: fact, fact' on each line."
+)
+Goals = Annotated[Path | None, GOALS]
+Observed = Annotated[
+    Path | None, option("--observed FILE", "What the human has done so far, an action a line.")
+]
+Beta = Annotated[
+    str | None, option("--beta B", "How strictly the human saves cost; 0 and more. [default: 1]")
+]
+"""Where the human's goal is not known (semantics 8)."""
+
+Solver = Annotated[str, option("--solver highs|cbc", "highs, or cbc as a cross-check.")]
+Encoding = Annotated[str, option("--encoding automata|paper", "Agent automata, or the paper's equations.")]
+Method = Annotated[
+    str,
+    option(
+        "--method auto|program|exhaustive",
+        "What proves that nothing is better; program: the solver, even where reachability could; "
+        "exhaustive: a search of all states; auto: both in turns.",
+    ),
+]
+Proof = Annotated[
+    Path | None, option("--proof FILE", "Write what convinced it, for `check-proof`; .gz packs it.")
+]
+"""Of an integer program, and of what proves."""
+
+
 class Planning(Group):
     """Options of a planning call.
 

@@ -22,6 +22,8 @@ class _Lines(Display, ABC):
     """Says again and again how far some work is, from a thread of its own."""
 
     first: ClassVar[float]
+    growth: ClassVar[float]
+    """By which each pause is longer than the one before."""
 
     def __init__(self, what: str) -> None:
         self.what = what
@@ -60,21 +62,17 @@ class _Lines(Display, ABC):
     def say(self) -> None:
         """Write a line."""
 
-    @abstractmethod
-    def longer(self, pause: float) -> float:
-        """The pause after one of ``pause`` seconds."""
-
     def _repeat(self) -> None:
         pause = self.first
         while not self._over.wait(pause):
             self.say()
-            pause = self.longer(pause)
+            pause = min(self.growth * pause, RAREST)
 
 
 class PlainLines(_Lines):
     """``searches: 12 of 182 (4 s, 56 s left)``."""
 
-    first = PATIENCE
+    first, growth = PATIENCE, 2.0
     _said = False
 
     def say(self) -> None:
@@ -91,10 +89,6 @@ class PlainLines(_Lines):
         pace = self.seconds() / (self.done - self.first_done)
         return f", {pace * (self.total - self.done):.0f} s left"
 
-    def longer(self, pause: float) -> float:
-        """See the base."""
-        return min(2 * pause, RAREST)
-
     def close(self, *, finished: bool) -> None:
         """See the base."""
         super().close(finished=finished)
@@ -105,7 +99,7 @@ class PlainLines(_Lines):
 class JsonLines(_Lines):
     """``{"event": "answer", "what": "planning", "seconds": 0.12, "cost": 12.6, ...}``."""
 
-    first = EVERY
+    first, growth = EVERY, 1.0
 
     def news(self, words: str, **figures: float | None) -> None:
         """See the base."""
@@ -115,10 +109,6 @@ class JsonLines(_Lines):
     def say(self) -> None:
         """See the base."""
         self._write("working")
-
-    def longer(self, pause: float) -> float:
-        """See the base."""
-        return pause
 
     def close(self, *, finished: bool) -> None:
         """See the base."""

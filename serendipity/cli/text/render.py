@@ -1,4 +1,4 @@
-"""Lines and grids as text: coloured and folded by rich on a terminal, plain elsewhere.
+"""Answers as JSON, rows or text, which rich colours and folds on a terminal.
 
 rich takes longer to load than a plan to find, so what is piped does without it.
 """
@@ -8,9 +8,11 @@ import shutil
 import sys
 from collections.abc import Iterable
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from serendipity.model.telling import GAP, Grid, Line, as_text
+from serendipity.writing.rows import FORMATS as ROWS
+from serendipity.writing.rows import written
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -28,6 +30,21 @@ def rendered(parts: Iterable[Line | Grid], *, terminal: bool | None = None) -> s
     if (sys.stdout is not None and sys.stdout.isatty()) if terminal is None else terminal:
         return _coloured([part.printable() for part in parts])
     return as_text(parts)
+
+
+def shown(answer: Any, form: str, **how: Any) -> str | bytes:
+    """An answer as JSON, as rows, or as text.
+
+    Args:
+        answer: with ``to_json``, ``told`` and, where it has rows, ``table``.
+        form: a format of the command.
+        how: keywords of ``told``.
+    """
+    if form == "json":
+        return str(answer.to_json())
+    if form in ROWS:
+        return written(answer.table(), form)
+    return rendered(answer.told(**how))
 
 
 def _coloured(parts: Iterable[Line | Grid]) -> str:

@@ -7,7 +7,7 @@ import pytest
 
 import serendipity
 from serendipity import Result, UsageError
-from serendipity.cli.text.policy_text import policy_lines
+from serendipity.cli.text.answers import policy_lines
 from serendipity.testing.builders import task
 from serendipity.testing.cases import case_5, case_6, case_8
 
