@@ -1,12 +1,13 @@
 """What robots decide for an epoch, and what came of it: the values that callers see and logs hold."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from itertools import groupby
 from typing import Any, Final
 
 from serendipity.execution.why import Why
 from serendipity.execution.world import WHY, Unfinished
+from serendipity.model.answers.fields import written
 from serendipity.model.numbers import plain
 from serendipity.model.table import Cell
 from serendipity.model.task.plans import PlanStep, Window
@@ -81,21 +82,7 @@ class Decided:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
-        return {
-            "verdict": self.verdict,
-            "reason": self.reason,
-            "actions": [step.to_dict() for step in self.actions],
-            "offers": [step.to_dict() for step in self.offers],
-            "expected": None if self.expected is None else self.expected.to_dict(),
-            "plan": None if self.plan is None else [step.to_dict() for step in self.plan],
-            "window": None if self.window is None else self.window.to_dict(),
-            "cost": self.cost,
-            "alone": self.alone,
-            "proved": self.proved,
-            "goals": dict(self.goals),
-            "seconds": self.seconds,
-            "because": None if self.because is None else self.because.to_dict(),
-        }
+        return written(self, (field.name for field in fields(self) if field.name != "epoch"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,11 +94,7 @@ class Reported:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
-        return {
-            "agents": list(self.order.agents),
-            "action": self.order.action,
-            **self.report.to_dict(),
-        }
+        return {**written(self.order), **self.report.to_dict()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,18 +130,9 @@ class Passed:
     def to_dict(self) -> dict[str, Any]:
         """The JSON object: a line of a log."""
         return {
-            "epoch": self.epoch,
-            "human": self.human,
-            "in_vain": self.in_vain,
-            "steps": [step.to_dict() for step in self.steps],
-            "unfinished": [
-                {**unfinished.step.to_dict(), "why": unfinished.why} for unfinished in self.unfinished
-            ],
-            **({"reports": [reported.to_dict() for reported in self.reports]} if self.reports else {}),
-            "changes": list(self.changes),
-            "human_cost": self.human_cost,
-            "cost": self.cost,
-            "done": self.done,
+            **written(self, ("epoch", "human", "in_vain", "steps", "unfinished")),
+            **written(self, ("reports",) if self.reports else ()),
+            **written(self, ("changes", "human_cost", "cost", "done")),
             "decision": self.decided.to_dict(),
         }
 

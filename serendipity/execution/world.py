@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Final
+from typing import Any, Final
 
 from serendipity.model.errors import UsageError
 from serendipity.model.task.actions import apply, conflicting, fitted
@@ -29,6 +29,10 @@ class Unfinished:
 
     step: PlanStep
     why: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object: the step, and why."""
+        return {**self.step.to_dict(), "why": self.why}
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,9 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Final, Literal, NamedTuple, Protocol, get_args
+from typing import Final, Literal, NamedTuple, Protocol, get_args
+
+from serendipity.model.answers.fields import Written
 
 Outcome = Literal["done", "failed", "running"]
 """What became of an action by the end of an epoch: it took place, it never will, or it takes longer."""
@@ -39,7 +41,7 @@ class Epoch(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Report:
+class Report(Written):
     """What came of an order.
 
     Attributes:
@@ -51,10 +53,6 @@ class Report:
     outcome: Outcome
     seconds: float = 0.0
     note: str = ""
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON object."""
-        return {"outcome": self.outcome, "seconds": self.seconds, "note": self.note}
 
 
 class Adapter(Protocol):
