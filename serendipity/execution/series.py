@@ -11,12 +11,10 @@ from typing import TYPE_CHECKING, Any, Final, Literal, TypedDict, Unpack
 
 from search import PreparedTask
 from search.kernel.library import library
-from serendipity.execution.adapters import AdapterChoice, Maker
+from serendipity.execution.adapters import AdapterChoice, Faults, Maker
 from serendipity.execution.execution import Execution
-from serendipity.execution.faults import Faults
 from serendipity.execution.log import log_lines
-from serendipity.execution.personas import Persona, persona_from, recorded_actions
-from serendipity.execution.persons import Person, moment_of
+from serendipity.execution.persons import Person, Persona, moment_of, persona_from, recorded_actions
 from serendipity.execution.robot_policy import RobotPolicy
 from serendipity.execution.runs import Run, Runs
 from serendipity.facade.planning import plan

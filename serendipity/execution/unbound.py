@@ -3,7 +3,7 @@
 from search.modes.simulation.companion import Companion
 from serendipity.execution.advice import DecisionPoint
 from serendipity.execution.guard import Following
-from serendipity.execution.sessions import RestrictedSessions
+from serendipity.execution.session_adviser import RestrictedSessions
 from serendipity.execution.why import Why
 from serendipity.facade.session import Session
 from serendipity.model.errors import LimitReachedError, PlanError

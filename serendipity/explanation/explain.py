@@ -7,8 +7,7 @@ from typing import Final, TypeVar, Unpack
 from serendipity.explanation.ask import PROVED, Ask, parts_of
 from serendipity.explanation.break_even import discount_threshold, window_weight_threshold
 from serendipity.explanation.explanation import Explanation
-from serendipity.explanation.misses import misses, removal_of
-from serendipity.explanation.moments import moments
+from serendipity.explanation.misses import misses, moments, removal_of
 from serendipity.explanation.wording import sentences
 from serendipity.facade.call import options_from
 from serendipity.facade.interruptibility import InterruptionReport, interruptions

@@ -7,8 +7,7 @@ from typing import Any, Final
 
 from serendipity.explanation.ask import Parts
 from serendipity.explanation.break_even import Threshold
-from serendipity.explanation.misses import Miss
-from serendipity.explanation.moments import Moment
+from serendipity.explanation.misses import Miss, Moment
 from serendipity.facade.interruptibility import Removal
 from serendipity.model import Result
 from serendipity.model.answers.fields import written

@@ -7,8 +7,7 @@ from typing import Final
 
 from serendipity.explanation.break_even import Threshold
 from serendipity.explanation.explanation import Explanation
-from serendipity.explanation.misses import RULES, Miss
-from serendipity.explanation.moments import WHY, Moment
+from serendipity.explanation.misses import RULES, WHY, Miss, Moment
 from serendipity.model import Result, Window
 from serendipity.model.errors import limit_words
 from serendipity.model.numbers import as_written, plain

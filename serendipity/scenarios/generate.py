@@ -7,8 +7,7 @@ from typing import Final, Literal
 from serendipity.model.arguments import PATH, TEXT, WHOLE, expect, expect_or_none
 from serendipity.model.errors import UsageError
 from serendipity.scenarios.building import Building, figure2, random_building
-from serendipity.scenarios.usar import Usar
-from serendipity.scenarios.usar_pddl import pddl_files
+from serendipity.scenarios.usar import Usar, pddl_files
 from serendipity.writing.together import write_together
 
 _WORKED_EXAMPLES: Final = {"room2": "room2", "room5": "room5", "room7": "room7"}

@@ -21,10 +21,10 @@ from serendipity._siblings import require_siblings
 require_siblings("search", "verify")
 
 from serendipity.up.engine import SerendipityEngine  # noqa: E402  # checked before anything loads them
+from serendipity.up.kinds import ENGINE, register  # noqa: E402
 from serendipity.up.plans import EpochPlan, to_plan  # noqa: E402
 from serendipity.up.predicting import predict  # noqa: E402
 from serendipity.up.reading import from_problem  # noqa: E402
-from serendipity.up.registration import ENGINE, register  # noqa: E402
 from serendipity.up.writing import to_problem  # noqa: E402
 
 __all__ = [

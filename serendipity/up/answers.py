@@ -12,11 +12,10 @@ from serendipity.facade.planning import plan_anytime
 from serendipity.model import Deadline, InputError, LimitReachedError, PlanError, Result, SerendipityError
 from serendipity.model.resources.limits import limits_from
 from serendipity.up.calls import EngineCall
-from serendipity.up.kinds import with_metric
+from serendipity.up.kinds import ENGINE, with_metric
 from serendipity.up.plans import human_plan_of, plan_of
 from serendipity.up.predicting import predict
 from serendipity.up.reading import Reading, read
-from serendipity.up.registration import ENGINE
 
 _FIGURES: Final = (
     *("cost", "objective", "lower_bound", "human_cost", "saving", "saving_alone", "opportunity"),

@@ -15,9 +15,8 @@ from unified_planning.plans import Plan, PlanKind
 from serendipity.model import SerendipityError, UsageError
 from serendipity.up.answers import Answers
 from serendipity.up.calls import call_of
-from serendipity.up.kinds import PLANS, supported_kind, with_metric
+from serendipity.up.kinds import ENGINE, PLANS, supported_kind, with_metric
 from serendipity.up.reading import read
-from serendipity.up.registration import ENGINE
 from serendipity.up.validation import judged
 
 _CREDITS: Final = Credits(

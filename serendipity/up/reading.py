@@ -28,8 +28,7 @@ from serendipity.pddl.parsing.lifted import Problem as CheckedProblem
 from serendipity.pddl.participants import by_arguments, by_owner
 from serendipity.pddl.work import Work, within_limits
 from serendipity.up.agents import Cast, cast_of
-from serendipity.up.conditions import Reader
-from serendipity.up.effects import effects_of
+from serendipity.up.conditions import Reader, effects_of
 from serendipity.up.kinds import refusal, require_supported
 from serendipity.up.vocabulary import Owner, UPProblem, Vocabulary
 

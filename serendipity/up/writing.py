@@ -12,8 +12,7 @@ from unified_planning.model.multi_agent import Agent, MultiAgentProblem
 
 from serendipity.model import Condition, GroundAction, Task, UsageError
 from serendipity.model.numbers import Number, exact
-from serendipity.up.names import legal, unused
-from serendipity.up.vocabulary import UPProblem
+from serendipity.up.vocabulary import UPProblem, legal, unused
 
 
 def to_problem(

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 
 import serendipity
-from serendipity.lint.reach import relevant
+from serendipity.lint.task_rules import relevant
 from serendipity.model import Condition, Deadline, Task
 from serendipity.testing import cases
 from serendipity.testing.builders import task as built

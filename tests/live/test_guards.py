@@ -11,9 +11,9 @@ from fastapi import FastAPI
 from starlette.middleware import Middleware
 
 from serendipity.live.guards import addresses, connections
-from serendipity.live.guards.bodies import BodyLimits
 from serendipity.live.guards.connections import ImpatientProtocol
-from serendipity.live.service.refusals import HANDLERS
+from serendipity.live.guards.middleware import BodyLimits
+from serendipity.live.service.answering import HANDLERS
 
 HEAD = "POST / HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n"
 

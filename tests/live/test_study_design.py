@@ -10,9 +10,8 @@ import pytest
 import serendipity
 from serendipity.cli.app import main
 from serendipity.live.play.setting import CONDITIONS, RoundSetting
-from serendipity.live.study.balance import order, places
 from serendipity.live.study.design import open_design
-from serendipity.live.study.drawing import draw
+from serendipity.live.study.drawing import draw, order, places
 from serendipity.live.study.rehearsal import fault, rehearse
 from serendipity.model import InputError, UsageError
 from tests.live.studies import PLAIN

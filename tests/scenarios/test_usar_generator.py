@@ -13,8 +13,7 @@ from serendipity.model import Task
 from serendipity.scenarios.building import Building, figure2, random_building
 from serendipity.scenarios.examples import DATA, EXAMPLES
 from serendipity.scenarios.generate import PRESETS, make_usar
-from serendipity.scenarios.usar import Usar
-from serendipity.scenarios.usar_pddl import LAYOUTS, pddl_files
+from serendipity.scenarios.usar import LAYOUTS, Usar, pddl_files
 
 
 def load(folder: Path, layout: str, robots: int) -> Task:

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.model import Task
-from serendipity.pictures.map.floor_plan import corridor, floor_plan
-from serendipity.pictures.map.layout import Box, MapLayout, lay_out
+from serendipity.pictures.map.layout import Box, MapLayout, corridor, floor_plan, lay_out
 from serendipity.pictures.map.places import Places, find_places
 from serendipity.testing.builders import task as build
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from serendipity.model.errors import InputError, UsageError
-from serendipity.writing.lines import append
+from serendipity.writing.together import append
 
 T = TypeVar("T")
 

@@ -10,9 +10,7 @@ from fastapi import FastAPI, Response, WebSocket, WebSocketDisconnect
 from fastapi.responses import HTMLResponse, PlainTextResponse
 from starlette.middleware import Middleware
 
-from serendipity.live.guards.access import Access
-from serendipity.live.guards.bodies import BodyLimits
-from serendipity.live.guards.responses import Responses
+from serendipity.live.guards.middleware import Access, BodyLimits, Responses
 from serendipity.live.play.records import Download
 from serendipity.model import SerendipityError
 

@@ -9,7 +9,7 @@ from typing import Any, Final, NamedTuple
 
 from serendipity.model import UsageError
 from serendipity.writing.csv_text import as_csv as csv_of
-from serendipity.writing.lines import append
+from serendipity.writing.together import append
 
 Event = dict[str, Any]
 

@@ -7,11 +7,10 @@ import serendipity
 from serendipity.execution import Decided, Passed
 from serendipity.execution.decided import account
 from serendipity.execution.log import decision_of
-from serendipity.live.play.knowledge import Knowledge
-from serendipity.live.play.map_view import MapView
+from serendipity.live.play.labels import Phrases
+from serendipity.live.play.map_view import Knowledge, MapView
 from serendipity.live.play.records import Event
 from serendipity.live.play.setting import RoundSetting
-from serendipity.live.play.words import Phrases
 from serendipity.model import GroundAction, InputError, UsageError
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named

@@ -1,23 +1,131 @@
-"""The service as an ASGI application."""
+"""The service as an ASGI application: calls that stand for themselves, and those of sessions."""
 
 from collections.abc import AsyncIterator, Sequence
-from contextlib import asynccontextmanager
+from contextlib import aclosing, asynccontextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from fastapi import FastAPI, Response
+from fastapi import APIRouter, FastAPI, Request, Response
 from fastapi_offline import FastAPIOffline
 from starlette.middleware import Middleware
 
 from serendipity import __version__
-from serendipity.live.guards.access import Access
-from serendipity.live.guards.bodies import BodyLimits
-from serendipity.live.guards.responses import Responses
-from serendipity.live.service.calls import call_router, session_router
+from serendipity.live.guards.middleware import Access, BodyLimits, Responses
+from serendipity.live.service import requests as asked
+from serendipity.live.service.answering import (
+    HANDLERS,
+    REFUSALS,
+    Answers,
+    all_of,
+    answers,
+    as_events,
+    as_json,
+)
 from serendipity.live.service.metrics import Metrics
-from serendipity.live.service.refusals import HANDLERS, REFUSALS
-from serendipity.live.service.sessions import SessionStore
+from serendipity.live.service.sessions import Remembered, SessionStore
 from serendipity.live.workers.pool import Pool, PoolLimits
+
+Described = dict[int | str, dict[str, Any]]
+
+
+def _says(description: str, kind: str = "application/json") -> Described:
+    schema = {"type": "object" if kind == "application/json" else "string"}
+    return {200: {"description": description, "content": {kind: {"schema": schema}}}}
+
+
+_RESULT = _says("schema `serendipity.result/1`")
+_CERTIFICATE = _says("schema `serendipity.certificate/1`")
+_STREAM = _says("events `answer` with results that get better; then `end`, or `error`", "text/event-stream")
+
+
+def call_router(pool: Pool) -> APIRouter:
+    """The paths of calls that stand for themselves."""
+    router = APIRouter(tags=["calls"])
+
+    def said(job: str, call: asked.RequestPart) -> Answers:
+        return answers(pool, job, call.model_dump_json().encode())
+
+    @router.post("/plan", responses=_RESULT, response_class=Response)
+    async def plan(call: asked.PlanRequest, request: Request) -> Response:
+        """The best plan in which robots help the human, with a proof that none is better."""
+        return await as_json(request, said("plan", call))
+
+    @router.post("/plan/anytime", responses=_STREAM, response_class=Response)
+    async def plan_anytime(call: asked.AnytimeRequest, request: Request) -> Response:
+        """The same with answers on the way, as server-sent events; the last one stands."""
+        return await as_events(request, said("plan_anytime", call))
+
+    @router.post("/verify", responses=_CERTIFICATE, response_class=Response)
+    async def verify(call: asked.VerifyRequest, request: Request) -> Response:
+        """Check a result claim by claim, independently of the search."""
+        return await as_json(request, said("verify", call))
+
+    return router
+
+
+def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
+    """The paths of sessions' calls."""
+    router = APIRouter(prefix="/sessions", tags=["sessions"])
+
+    async def said(name: str, call: str, given: asked.RequestPart) -> Answers:
+        with sessions.calling(name) as session:
+            async with aclosing(_said(pool, session, call, given.model_dump())) as bodies:
+                async for body in bodies:
+                    yield body
+
+    async def moved(request: Request, name: str, call: str, given: asked.RequestPart) -> dict[str, Any]:
+        with sessions.calling(name) as session:
+            await all_of(request, _said(pool, session, call, given.model_dump()))
+            return session.stands
+
+    @router.post("", status_code=201, response_model=asked.SessionState)
+    async def begin(call: asked.SessionRequest, request: Request) -> dict[str, Any]:
+        """Begin a session."""
+        session = sessions.begin(call.model_dump())
+        await all_of(request, _said(pool, session, "begin", {}))
+        sessions.add(session)
+        return session.stands
+
+    @router.get("/{name}", response_model=asked.SessionState)
+    async def state(name: str) -> dict[str, Any]:
+        """Where a session stands."""
+        return sessions.named(name).stands
+
+    @router.delete("/{name}", status_code=204)
+    async def end(name: str) -> None:
+        """End a session."""
+        sessions.end(name)
+
+    @router.post("/{name}/plan", responses=_RESULT, response_class=Response)
+    async def plan(name: str, call: asked.SessionPlanRequest, request: Request) -> Response:
+        """The best answer from where the session stands."""
+        return await as_json(request, said(name, "plan", call))
+
+    @router.post("/{name}/plan/anytime", responses=_STREAM, response_class=Response)
+    async def plan_anytime(name: str, call: asked.SessionPlanRequest, request: Request) -> Response:
+        """The same with answers on the way, as server-sent events; the last one stands."""
+        return await as_events(request, said(name, "plan_anytime", call))
+
+    @router.post("/{name}/execute", response_model=asked.SessionState)
+    async def execute(name: str, call: asked.ExecuteRequest, request: Request) -> dict[str, Any]:
+        """Move on by one epoch in which these actions were executed (none: everybody waited)."""
+        return await moved(request, name, "execute", call)
+
+    @router.post("/{name}/change", response_model=asked.SessionState)
+    async def change(name: str, call: asked.ChangeRequest, request: Request) -> dict[str, Any]:
+        """Set facts to true or false, as they were seen."""
+        return await moved(request, name, "change", call)
+
+    @router.post("/{name}/goal", response_model=asked.SessionState)
+    async def set_goal(name: str, call: asked.GoalRequest, request: Request) -> dict[str, Any]:
+        """Give the human another goal: facts, with ``!`` in front of those to be false."""
+        return await moved(request, name, "set_goal", call)
+
+    return router
+
+
+def _said(pool: Pool, session: Remembered, call: str, given: dict[str, Any]) -> Answers:
+    return answers(pool, "session", session.asked(call, given), session)
 
 
 @dataclass(frozen=True, slots=True)

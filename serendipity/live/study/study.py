@@ -11,8 +11,8 @@ from typing import Any, Final
 
 import serendipity
 from serendipity.live.play.records import Download, Event, Records, as_csv, as_json, read
-from serendipity.live.study.balance import order, places
 from serendipity.live.study.design import Design
+from serendipity.live.study.drawing import order, places
 from serendipity.live.study.participant import Participant, page_facts
 from serendipity.live.study.tidy import codebook, rounds_table
 from serendipity.model import InputError, UsageError

@@ -6,8 +6,7 @@ from typing import Any, Final
 import serendipity
 from serendipity.facade.call import options_from
 from serendipity.facade.session import Session
-from serendipity.live.workers.given_tasks import GivenTasks
-from serendipity.live.workers.held_sessions import HeldSessions
+from serendipity.live.workers.held_sessions import GivenTasks, HeldSessions
 from serendipity.model import Deadline, Result, UsageError
 
 Given = Mapping[str, Any]
