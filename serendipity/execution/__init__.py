@@ -5,10 +5,9 @@ from serendipity._siblings import require_siblings
 require_siblings("search", "verify")
 
 from serendipity.execution.adapters import Faults  # noqa: E402
-from serendipity.execution.decided import VERDICTS, Decided, Passed, Reported  # noqa: E402  # checked before
+from serendipity.execution.decided import VERDICTS, Decided, Outlook, Passed, Reported, Robots  # noqa: E402  # checked before  # noqa: E402
 from serendipity.execution.execution import Execution  # noqa: E402
 from serendipity.execution.log import LogLine, as_text, log_lines, read_logs, replay  # noqa: E402
-from serendipity.execution.outlook import Outlook, Robots  # noqa: E402
 from serendipity.execution.persons import (  # noqa: E402
     Moment,
     Noisy,

@@ -1,14 +1,15 @@
-"""What robots decide for an epoch, and what came of it: the values that callers see and logs hold."""
+"""Decisions for an epoch: what robots see and decide, and what came of it, as callers see it and logs hold it."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from itertools import groupby
-from typing import Any, Final
+from typing import Any, Final, NamedTuple, Protocol
 
 from serendipity.execution.why import Why
-from serendipity.execution.world import WHY, Unfinished
+from serendipity.execution.world import WHY, Unfinished, World
 from serendipity.model.answers.fields import written
 from serendipity.model.numbers import plain
+from serendipity.model.resources.deadline import Deadline
 from serendipity.model.table import Cell
 from serendipity.model.task.plans import PlanStep, Window
 from serendipity.robot import Order, Report
@@ -217,3 +218,50 @@ def _reported(report: Mapping[str, Any] | None) -> str:
         return ""
     note = f", {report['note']}" if report["note"] else ""
     return f": {report['seconds']:.3g} s{note}"
+
+
+class Outlook(NamedTuple):
+    """What robots see when they decide.
+
+    Attributes:
+        epoch: the epoch that is to come.
+        world: the world.
+        running: what they have begun and not finished.
+    """
+
+    epoch: int
+    world: World
+    running: tuple[PlanStep, ...]
+
+
+class Robots(Protocol):
+    """Whoever decides for the robots."""
+
+    @property
+    def goals(self) -> Mapping[str, float]:
+        """The posterior of each candidate goal; empty where there is only one."""
+
+    def decide(self, outlook: Outlook, deadline: Deadline) -> Decided:
+        """What robots do in the epoch that is to come.
+
+        Raises:
+            LimitReachedError: the deadline came first; robots had better do nothing.
+        """
+
+    def saw(self, own: int | None, executed: Sequence[int], tried: int | None = None) -> None:
+        """Take in an epoch, by action ids.
+
+        Args:
+            own: what the person did alone, or None.
+            executed: everything that took place.
+            tried: what the person tried alone in vain, or None.
+        """
+
+    def surprised(self) -> None:
+        """The world is other than what actions have made it."""
+
+    def drop(self, robots: Iterable[int]) -> None:
+        """Robots, by agent ids, are out of order: nothing that they take part in is possible any more."""
+
+    def unable(self, actions: Iterable[int]) -> None:
+        """Actions, by id, have turned out to be more than robots can do."""

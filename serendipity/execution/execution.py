@@ -5,8 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final, Literal
 
-from serendipity.execution.decided import COLUMNS, Decided, Passed, Reported
-from serendipity.execution.outlook import Outlook, Robots
+from serendipity.execution.decided import COLUMNS, Decided, Outlook, Passed, Reported, Robots
 from serendipity.execution.robot_policy import RobotPolicy
 from serendipity.execution.why import Why
 from serendipity.execution.world import Unfinished, World

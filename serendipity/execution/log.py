@@ -5,9 +5,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from os import PathLike
 from typing import Any, Final, NamedTuple
 
-from serendipity.execution.decided import Decided
+from serendipity.execution.decided import Decided, Outlook
 from serendipity.execution.execution import Execution
-from serendipity.execution.outlook import Outlook
 from serendipity.execution.why import Why
 from serendipity.model.answers.fields import MalformedError, read_fields
 from serendipity.model.errors import InputError, UsageError

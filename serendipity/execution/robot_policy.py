@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Final
 
 from serendipity.execution.advice import DecisionPoint
 from serendipity.execution.beliefs import Beliefs
-from serendipity.execution.decided import Decided
+from serendipity.execution.decided import Decided, Outlook
 from serendipity.execution.history import HelpHistory, Untouched
 from serendipity.execution.hypotheses import Hypotheses, Hypothesis
-from serendipity.execution.outlook import Outlook
 from serendipity.execution.prospects import Prospect, best_for_all
 from serendipity.execution.why import Why
 from serendipity.model.errors import LIMITS

@@ -4,22 +4,23 @@ import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Unpack
 
 from search import PreparedTask
-from serendipity.facade.call import Given, Request, checked_call, options_from
+from serendipity.facade import one_plan, ties
+from serendipity.facade.call import Given, Request, Solver, checked_call, options_from
 from serendipity.facade.logs import record, recorded
 from serendipity.facade.memory import SessionMemory
-from serendipity.facade.one_plan import with_verdicts
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import to_result
-from serendipity.facade.solvers import SOLVERS
 from serendipity.model.answers.answer import Answer
 from serendipity.model.answers.result import Result
 from serendipity.model.arguments import FUNCTION, expect_or_none
 from serendipity.model.errors import UsageError
 from serendipity.model.keywords import PlanOptions, listing
 from serendipity.model.numbers import Number
+from serendipity.model.options import Options
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task, several
@@ -184,7 +185,7 @@ def _begun(
     chosen = options_from(options)
     if goals is not None and chosen.mode != "serendipity":
         raise UsageError(f"goals: are for mode 'serendipity' only, not for '{chosen.mode}'")
-    solver = SOLVERS[chosen.mode](chosen)
+    solver = _solver(chosen)
     if goals is not None:
         # Loaded only here, before time counts: calls with a known goal do not need it.
         from serendipity.facade.unknown_goals import asked_about, settled
@@ -198,6 +199,18 @@ def _begun(
     if goals is not None:
         call, solver = settled(call, goals, observed, beta)
     return call, solver(call)
+
+
+def _solver(options: Options) -> Solver:
+    """The solver that answers a call in a mode; it loads what that needs, before time counts."""
+    if options.mode != "assistance":
+        return ties.answers if options.mode in ("serendipity", "communication") else one_plan.answers
+    from search.modes.assistance import assist
+
+    if options.time_limit is not None:  # what only large tasks need takes longer to load than a short limit
+        import_module("search.modes.assistance.distances.layers")
+        import_module("search.modes.assistance.distances.perimeter")
+    return lambda call: assist(call.prepared, call.options, call.deadline)
 
 
 def _results(call: Request, answers: Iterator[Answer]) -> Iterator[Result]:
@@ -251,7 +264,7 @@ def _result(call: Request, answer: Answer, *, last: bool = True) -> Result:
     if question is not None:
         limit = call.deadline.reached() or call.limits.reached()
         answer = question.unless_worse(call.task, question.better(answer), limit)
-    answer = with_verdicts(call, answer, last=last)
+    answer = one_plan.with_verdicts(call, answer, last=last)
     if question is not None:
         question.answered(call.task, answer)
     return to_result(call.task, call.options, answer, call.deadline.elapsed())

@@ -15,7 +15,7 @@ from serendipity.model.keywords import CHOICES
 from serendipity.model.numbers import plain
 from serendipity.model.telling import Grid, Line
 from serendipity.pictures import build_scene
-from serendipity.pictures.scene.headline import headline
+from serendipity.pictures.scene.scene import headline
 from serendipity.testing.builders import task
 from tests.cli.conftest import Run
 

@@ -9,7 +9,7 @@ import serendipity
 from serendipity.model import Condition, InputError, PlanStep, Window
 from serendipity.pictures import Scene, build_scene
 from serendipity.pictures.map.places import Whereabouts
-from serendipity.pictures.scene.headline import headline
+from serendipity.pictures.scene.scene import headline
 from serendipity.testing import cases
 from serendipity.testing.builders import task
 from serendipity.testing.cases import WORKED, Worked

@@ -11,7 +11,7 @@ from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
-from serendipity.cli.streams.broken_tasks import broken_tasks
+from serendipity.cli.streams.stderr import broken_tasks
 from serendipity.cli.text.render import rendered
 from serendipity.model import InputError, Task, UsageError
 from serendipity.model.errors import DisagreementError

@@ -10,9 +10,8 @@ import typer
 from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.streams import output
-from serendipity.cli.streams.broken_tasks import broken_tasks
 from serendipity.cli.streams.manner import is_quiet
-from serendipity.cli.streams.stderr import is_terminal, tell
+from serendipity.cli.streams.stderr import broken_tasks, is_terminal, tell
 from serendipity.model.options import limit_of
 from serendipity.model.printable import message
 from serendipity.model.telling import json_of

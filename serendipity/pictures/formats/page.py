@@ -9,9 +9,8 @@ from typing import Any, Final
 from serendipity.model.numbers import plain
 from serendipity.model.printable import markup, printable
 from serendipity.pictures.formats.svg import path, svg
-from serendipity.pictures.picture.drawing import Picture
+from serendipity.pictures.picture.drawing import Picture, agent_colours, on
 from serendipity.pictures.picture.map_picture import MARGIN, map_picture, trails
-from serendipity.pictures.picture.palette import agent_colours, on
 from serendipity.pictures.picture.timeline_picture import (
     COLUMN,
     columns,
@@ -20,8 +19,7 @@ from serendipity.pictures.picture.timeline_picture import (
     timeline_picture,
 )
 from serendipity.pictures.picture.tokens import Token, agent_key, tokens
-from serendipity.pictures.scene.headline import headline, subtitle
-from serendipity.pictures.scene.scene import Frame, Scene
+from serendipity.pictures.scene.scene import Frame, Scene, headline, subtitle
 
 _WIDE: Final = 1200.0
 _SMALLEST: Final = 0.46  # nearly all of a building of nine cells on a phone

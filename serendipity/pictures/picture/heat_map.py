@@ -5,8 +5,7 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model.task.plans import Window
-from serendipity.pictures.picture.drawing import Group, Picture, Rect, Shape, Style, Text
-from serendipity.pictures.picture.palette import INK, PAPER, WALL
+from serendipity.pictures.picture.drawing import INK, PAPER, WALL, Group, Picture, Rect, Shape, Style, Text
 
 Savings = Mapping[Window, Fraction | None]
 """What is saved in each window; None where no plan fits."""

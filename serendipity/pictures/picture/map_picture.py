@@ -11,18 +11,6 @@ from serendipity.pictures.map.layout import Box, MapLayout
 from serendipity.pictures.map.names import ems
 from serendipity.pictures.picture.drawing import (
     BOLD,
-    Circle,
-    Group,
-    Picture,
-    Point,
-    Polyline,
-    Rect,
-    Shape,
-    Style,
-    Text,
-    fitted,
-)
-from serendipity.pictures.picture.palette import (
     CORRIDOR,
     FAINT_INK,
     FLOOR,
@@ -32,7 +20,17 @@ from serendipity.pictures.picture.palette import (
     MEETING,
     PAPER,
     WALL,
+    Circle,
+    Group,
+    Picture,
+    Point,
+    Polyline,
+    Rect,
+    Shape,
+    Style,
+    Text,
     agent_colours,
+    fitted,
     on,
 )
 from serendipity.pictures.picture.tokens import FORMER as FORMER_TOKEN

@@ -4,9 +4,24 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final
 
-from serendipity.pictures.picture.drawing import Circle, Group, Picture, Polyline, Rect, Shape, Style, Text
+from serendipity.pictures.picture.drawing import (
+    FAINT_INK,
+    FORMER,
+    INK,
+    MEETING,
+    PAPER,
+    WINDOW,
+    Circle,
+    Group,
+    Picture,
+    Polyline,
+    Rect,
+    Shape,
+    Style,
+    Text,
+    agent_colours,
+)
 from serendipity.pictures.picture.map_picture import map_picture
-from serendipity.pictures.picture.palette import FAINT_INK, FORMER, INK, MEETING, PAPER, WINDOW, agent_colours
 from serendipity.pictures.picture.timeline_picture import (
     COLUMN,
     LABELS,
@@ -14,8 +29,7 @@ from serendipity.pictures.picture.timeline_picture import (
     lane_labels,
     timeline_picture,
 )
-from serendipity.pictures.scene.headline import headline, subtitle
-from serendipity.pictures.scene.scene import Scene
+from serendipity.pictures.scene.scene import Scene, headline, subtitle
 
 _MARGIN: Final = 20.0
 _LEAST: Final = 1000.0

@@ -4,6 +4,13 @@ from collections.abc import Iterator
 from typing import Final
 
 from serendipity.pictures.picture.drawing import (
+    FAINT_INK,
+    FORMER,
+    GOAL,
+    INK,
+    MEETING,
+    PAPER,
+    WINDOW,
     Circle,
     Group,
     Picture,
@@ -12,19 +19,10 @@ from serendipity.pictures.picture.drawing import (
     Shape,
     Style,
     Text,
-    fitted,
-    wrapped,
-)
-from serendipity.pictures.picture.palette import (
-    FAINT_INK,
-    FORMER,
-    GOAL,
-    INK,
-    MEETING,
-    PAPER,
-    WINDOW,
     agent_colours,
+    fitted,
     tint,
+    wrapped,
 )
 from serendipity.pictures.scene.changes import Change
 from serendipity.pictures.scene.scene import Act, Scene
