@@ -16,7 +16,8 @@ from serendipity.cli.options import settings
 from serendipity.cli.streams import output
 from serendipity.cli.streams.manner import log_origin
 from serendipity.cli.streams.stderr import tell
-from serendipity.model.errors import REPORT, LimitReachedError, SerendipityError, limit_words, told
+from serendipity.model import LimitReachedError, SerendipityError
+from serendipity.model.errors import REPORT, limit_words, told
 
 app = typer.Typer(
     name="serendipity",

@@ -5,10 +5,8 @@ from dataclasses import dataclass, fields
 from random import Random
 from typing import Final
 
+from serendipity.model import Task, UsageError, exact
 from serendipity.model.arguments import Kind, expect_or_none, shown
-from serendipity.model.errors import UsageError
-from serendipity.model.numbers import exact
-from serendipity.model.task.task import Task
 from serendipity.robot import Adapter, Durations, Simulated
 
 

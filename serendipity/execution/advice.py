@@ -6,9 +6,7 @@ from fractions import Fraction
 from typing import Protocol
 
 from serendipity.execution.guard import Following
-from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.plans import PlanStep, Window
-from serendipity.model.task.task import Task
+from serendipity.model import Deadline, PlanStep, Task, Window
 
 Allows = Callable[[Sequence[int]], bool]
 """Whether actions, those of the person left aside, may be what happens in the epoch that is to come."""

@@ -5,9 +5,8 @@ from dataclasses import replace
 from typing import Final
 
 from search.modes.goals import Explainer
+from serendipity.model import Deadline, Task
 from serendipity.model.numbers import Number
-from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.task import Task
 from serendipity.recognition.candidates import GoalsGiven, candidate_goals
 from serendipity.recognition.recognise import posterior, strictness
 

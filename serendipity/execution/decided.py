@@ -1,4 +1,4 @@
-"""Decisions for an epoch: what robots see and decide, and what came of it, as callers see it and logs hold it."""
+"""Decisions for an epoch: what robots see and decide, and what came of it, as callers and logs have it."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
@@ -7,11 +7,10 @@ from typing import Any, Final, NamedTuple, Protocol
 
 from serendipity.execution.why import Why
 from serendipity.execution.world import WHY, Unfinished, World
+from serendipity.model import Deadline, PlanStep, Window
 from serendipity.model.answers.fields import written
 from serendipity.model.numbers import plain
-from serendipity.model.resources.deadline import Deadline
 from serendipity.model.table import Cell
-from serendipity.model.task.plans import PlanStep, Window
 from serendipity.robot import Order, Report
 
 VERDICTS: Final = {

@@ -10,17 +10,16 @@ from serendipity.execution.robot_policy import RobotPolicy
 from serendipity.execution.why import Why
 from serendipity.execution.world import Unfinished, World
 from serendipity.facade.results import named_steps
+from serendipity.model import Deadline, HumanModel, Options, PlanStep, Step, Table, Task, UsageError
 from serendipity.model.arguments import BY_NAME, TASK, TEXT, expect, expect_or_none
-from serendipity.model.errors import LIMITS, UsageError
-from serendipity.model.keywords import HumanModel, Interference
+from serendipity.model.errors import LIMITS
+from serendipity.model.keywords import Interference
 from serendipity.model.numbers import Number
-from serendipity.model.options import Options, limit_of
+from serendipity.model.options import limit_of
 from serendipity.model.resources.collection import no_collection
-from serendipity.model.resources.deadline import Deadline
-from serendipity.model.table import Table, Tabular
+from serendipity.model.table import Tabular
 from serendipity.model.task.execution import actions_named
-from serendipity.model.task.plans import PlanStep, Step
-from serendipity.model.task.task import Task, canonical_name, several
+from serendipity.model.task.task import canonical_name, several
 from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
 
 if TYPE_CHECKING:

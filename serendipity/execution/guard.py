@@ -19,9 +19,7 @@ from search.modes.simulation.intention import Intention
 from search.modes.simulation.space import Start
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
-from serendipity.model.options import Options
-from serendipity.model.task.actions import Condition
-from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model import Condition, HumanPlan, Options, Task
 
 
 class Following:

@@ -5,10 +5,9 @@ from dataclasses import replace
 
 from serendipity.execution.decided import Decided
 from serendipity.execution.why import Cause
+from serendipity.model import PlanStep, Task
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import participants
-from serendipity.model.task.plans import PlanStep
-from serendipity.model.task.task import Task
 
 _AT_IT = ("helps", "waits")
 """Verdicts of a decision that follows a plan which pays."""

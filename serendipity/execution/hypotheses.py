@@ -18,12 +18,9 @@ from serendipity.execution.reactive_adviser import ReactiveAdviser
 from serendipity.execution.session_adviser import SessionAdviser
 from serendipity.execution.unbound import Unbound
 from serendipity.facade.results import named_steps
+from serendipity.model import Condition, Deadline, Options, Task
 from serendipity.model.numbers import total
-from serendipity.model.options import Options
-from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.actions import Condition
 from serendipity.model.task.execution import actions_of, steps_named
-from serendipity.model.task.task import Task
 
 
 class Hypothesis:

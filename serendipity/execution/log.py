@@ -8,11 +8,9 @@ from typing import Any, Final, NamedTuple
 from serendipity.execution.decided import Decided, Outlook
 from serendipity.execution.execution import Execution
 from serendipity.execution.why import Why
+from serendipity.model import Deadline, InputError, Task, UsageError
 from serendipity.model.answers.fields import MalformedError, read_fields
-from serendipity.model.errors import InputError, UsageError
-from serendipity.model.resources.deadline import Deadline
 from serendipity.model.schemas import schema_fault
-from serendipity.model.task.task import Task
 from serendipity.pddl.parsing.files import read_text
 from serendipity.robot import Epoch, Report
 

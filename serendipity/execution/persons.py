@@ -14,13 +14,10 @@ from search import PreparedTask
 from search.modes.simulation.human import Human
 from search.packed.operators import applicable
 from serendipity.execution.adapters import probability
-from serendipity.model.errors import InputError, UsageError
-from serendipity.model.options import Options
-from serendipity.model.resources.deadline import Deadline
+from serendipity.model import Deadline, HumanPlan, InputError, Options, PlanStep, Task, UsageError
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named
-from serendipity.model.task.plans import PlanStep
-from serendipity.model.task.task import HumanPlan, Task, canonical_name
+from serendipity.model.task.task import canonical_name
 from serendipity.recognition.candidates import ObservedGiven, named_actions
 
 if TYPE_CHECKING:

@@ -6,9 +6,8 @@ from fractions import Fraction
 
 from serendipity.execution.advice import Advice
 from serendipity.execution.hypotheses import Hypothesis
-from serendipity.model.resources.deadline import Deadline
+from serendipity.model import Deadline, PlanStep
 from serendipity.model.task.execution import steps_named
-from serendipity.model.task.plans import PlanStep
 
 
 @dataclass(frozen=True, slots=True)

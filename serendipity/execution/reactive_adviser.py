@@ -9,10 +9,8 @@ from search.modes.simulation.companion import Companion, Course
 from serendipity.execution.advice import Advice, DecisionPoint
 from serendipity.execution.guard import Following, RobotActions
 from serendipity.facade.results import named_steps
-from serendipity.model.resources.deadline import Deadline
+from serendipity.model import Deadline, Step, Task
 from serendipity.model.task.actions import apply
-from serendipity.model.task.plans import Step
-from serendipity.model.task.task import Task
 
 _RESCUE: Final = 10.0
 """The most seconds for a way out where the person has no plan alone: nothing says how far it may be."""

@@ -13,12 +13,9 @@ from serendipity.execution.history import HelpHistory, Untouched
 from serendipity.execution.hypotheses import Hypotheses, Hypothesis
 from serendipity.execution.prospects import Prospect, best_for_all
 from serendipity.execution.why import Why
+from serendipity.model import Deadline, Options, PlanStep, Task
 from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import Number
-from serendipity.model.options import Options
-from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.plans import PlanStep
-from serendipity.model.task.task import Task
 
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven

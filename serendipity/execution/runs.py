@@ -5,8 +5,9 @@ from dataclasses import asdict, dataclass, fields
 from typing import Any, Final
 
 from serendipity.execution.decided import event_lines
+from serendipity.model import Table
 from serendipity.model.numbers import plain
-from serendipity.model.table import Table, Tabular, table_of
+from serendipity.model.table import Tabular, table_of
 from serendipity.model.telling import Grid, Line, Output
 
 SCHEMA: Final = "serendipity.executions/1"

@@ -18,14 +18,13 @@ from serendipity.execution.persons import Person, Persona, moment_of, persona_fr
 from serendipity.execution.robot_policy import RobotPolicy
 from serendipity.execution.runs import Run, Runs
 from serendipity.facade.planning import plan
+from serendipity.model import HumanModel, HumanPlan, PlanError, Task, UsageError
 from serendipity.model.arguments import FUNCTION, TASK, WHOLE, expect, expect_or_none
-from serendipity.model.errors import PlanError, UsageError
-from serendipity.model.keywords import CHOICES, HumanModel, Interference, listing
+from serendipity.model.keywords import CHOICES, Interference, listing
 from serendipity.model.numbers import Number
 from serendipity.model.resources.processes import in_processes
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
-from serendipity.model.task.task import HumanPlan, Task
 from serendipity.recognition.candidates import candidate_goals
 from serendipity.robot import Durations
 

@@ -12,15 +12,21 @@ from typing import Any, Final
 from serendipity.execution.advice import Advice, DecisionPoint
 from serendipity.execution.guard import Following, RobotActions
 from serendipity.facade.session import Session
-from serendipity.model.answers.result import Result
-from serendipity.model.errors import LIMITS, LimitReachedError
+from serendipity.model import (
+    INFINITE,
+    Condition,
+    Deadline,
+    LimitReachedError,
+    Options,
+    PlanStep,
+    Result,
+    Task,
+    Window,
+)
+from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import as_written, total
-from serendipity.model.options import INFINITE, Options
-from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.actions import Condition, apply
+from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named, variant_named
-from serendipity.model.task.plans import PlanStep, Window
-from serendipity.model.task.task import Task
 
 
 @dataclass(frozen=True, slots=True)

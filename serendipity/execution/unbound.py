@@ -6,12 +6,18 @@ from serendipity.execution.guard import Following
 from serendipity.execution.session_adviser import RestrictedSessions
 from serendipity.execution.why import Why
 from serendipity.facade.session import Session
-from serendipity.model.errors import LimitReachedError, PlanError
-from serendipity.model.keywords import HumanModel
-from serendipity.model.options import INFINITE, Options
-from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.actions import Condition, apply
-from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model import (
+    INFINITE,
+    Condition,
+    Deadline,
+    HumanModel,
+    HumanPlan,
+    LimitReachedError,
+    Options,
+    PlanError,
+    Task,
+)
+from serendipity.model.task.actions import apply
 
 
 class Unbound:

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
-from serendipity.model.errors import UsageError
+from serendipity.model import PlanStep, Task, UsageError
 from serendipity.model.task.actions import apply, conflicting, fitted
 from serendipity.model.task.execution import actions_named, variant_named
 from serendipity.model.task.facts import Facts
-from serendipity.model.task.plans import PlanStep
-from serendipity.model.task.task import Task, canonical_name
+from serendipity.model.task.task import canonical_name
 from serendipity.robot import Outcome
 
 WHY: Final = {

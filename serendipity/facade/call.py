@@ -7,13 +7,9 @@ from typing import Any, Final
 
 from search import PreparedTask, WarmStart
 from serendipity.facade.memory import RememberedQuestion
+from serendipity.model import Deadline, HumanPlan, Options, Task, UsageError, Visible
 from serendipity.model.answers.answer import Answer
-from serendipity.model.errors import UsageError
-from serendipity.model.options import Options
-from serendipity.model.resources.deadline import Deadline
 from serendipity.model.resources.limits import limits_from
-from serendipity.model.task.task import HumanPlan, Task
-from serendipity.model.task.visibility import Visible
 
 _ANSWER_SHARE: Final = 0.05
 """The share of the time limit that is kept for the end: dropping what the search has made takes time, too."""

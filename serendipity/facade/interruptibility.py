@@ -10,7 +10,7 @@ from search.modes.interruptions import interruptions as search_windows
 from serendipity.facade.call import options_from
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
-from serendipity.model import Deadline, Options, PlanStep, Step, Task, UsageError, Window
+from serendipity.model import Deadline, Options, PlanStep, Step, Table, Task, UsageError, Window
 from serendipity.model.answers.fields import written
 from serendipity.model.arguments import FUNCTION, TASK, expect, expect_or_none
 from serendipity.model.errors import LIMITS, limit_reason, limit_words
@@ -18,7 +18,7 @@ from serendipity.model.keywords import InterruptionOptions, listing
 from serendipity.model.numbers import plain
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
-from serendipity.model.table import Cell, Table, Tabular
+from serendipity.model.table import Cell, Tabular
 from serendipity.model.task.execution import actions_of
 from serendipity.model.telling import Grid, Line, Output
 

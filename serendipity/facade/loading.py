@@ -13,10 +13,10 @@ from typing import Final
 from search import PreparedTask, prepare
 from serendipity.facade.logs import recorded
 from serendipity.facade.prepared import HELD
+from serendipity.model import Deadline, Task
 from serendipity.model.arguments import BY_NAME, FUNCTION, PAIR, PATH, TEXT, expect, expect_or_none
-from serendipity.model.resources.deadline import Deadline
 from serendipity.model.resources.limits import limits_from
-from serendipity.model.task.task import Task, several
+from serendipity.model.task.task import several
 from serendipity.pddl.layouts import Pair, read_agents, read_folder, read_pddl
 from serendipity.pddl.parsing.files import PathArgument
 from serendipity.pddl.work import OnProgress, Work, within_limits

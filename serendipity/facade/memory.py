@@ -14,13 +14,10 @@ from operator import attrgetter
 from typing import Any, Final, NamedTuple
 
 from search import WarmStart
+from serendipity.model import Options, Step, Task, Visible, Window
 from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.numbers import total
-from serendipity.model.options import Options
 from serendipity.model.task.actions import apply
-from serendipity.model.task.plans import Step, Window
-from serendipity.model.task.task import Task
-from serendipity.model.task.visibility import Visible
 
 _Key = tuple[Hashable, ...]
 """A question: all options but limits; candidate goals and what was observed, where goals are not known."""

@@ -7,8 +7,8 @@ from search import solve
 from search.modes.simulation import solve_for_human
 from serendipity.facade.call import Request
 from serendipity.facade.simulation import realised
+from serendipity.model import HumanPlan
 from serendipity.model.answers.answer import Answer, Improvement
-from serendipity.model.task.task import HumanPlan
 
 _VERDICT_SHARE: Final = 0.02
 """The share of time that verdicts on humans who replan add to the limit, or take of the rest on the way."""

@@ -14,17 +14,13 @@ from serendipity.facade.logs import record, recorded
 from serendipity.facade.memory import SessionMemory
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import to_result
+from serendipity.model import Deadline, Options, PlanOptions, Result, Task, UsageError, Visible
 from serendipity.model.answers.answer import Answer
-from serendipity.model.answers.result import Result
 from serendipity.model.arguments import FUNCTION, expect_or_none
-from serendipity.model.errors import UsageError
-from serendipity.model.keywords import PlanOptions, listing
+from serendipity.model.keywords import listing
 from serendipity.model.numbers import Number
-from serendipity.model.options import Options
 from serendipity.model.resources.collection import no_collection
-from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.task import Task, several
-from serendipity.model.task.visibility import Visible
+from serendipity.model.task.task import several
 
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven, ObservedGiven

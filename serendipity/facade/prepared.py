@@ -13,8 +13,8 @@ from contextlib import contextmanager
 from typing import Final
 
 from search import PreparedTask
+from serendipity.model import Task
 from serendipity.model.arguments import TASK, expect
-from serendipity.model.task.task import Task
 
 _MOST: Final = 8
 """Tasks at once: more than a caller goes back and forth between."""

@@ -6,14 +6,20 @@ from fractions import Fraction
 from typing import Any
 
 from search.kernel.library import state_at_hand
+from serendipity.model import (
+    GapEntry,
+    GoalAnswer,
+    HumanPlan,
+    Options,
+    PlanStep,
+    Result,
+    Step,
+    Task,
+    TiedAnswer,
+)
 from serendipity.model.answers.answer import Answer, Improvement, ServedGoal, Tried
-from serendipity.model.answers.result import Result
-from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
 from serendipity.model.numbers import figure, rounded
-from serendipity.model.options import Options
 from serendipity.model.task.execution import actions_of, participants, shares
-from serendipity.model.task.plans import PlanStep, Step
-from serendipity.model.task.task import HumanPlan, Task
 
 
 def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> Result:

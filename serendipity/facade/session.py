@@ -11,14 +11,21 @@ from serendipity.facade.memory import SessionMemory
 from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned, planned_anytime
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
-from serendipity.model.answers.result import Result
+from serendipity.model import (
+    Condition,
+    GroundAction,
+    HumanPlan,
+    PlanError,
+    PlanStep,
+    Result,
+    Task,
+    UsageError,
+)
 from serendipity.model.arguments import BY_NAME, expect
-from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.keywords import listing
-from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
+from serendipity.model.task.actions import apply, conflicting
 from serendipity.model.task.facts import Facts
-from serendipity.model.task.plans import PlanStep
-from serendipity.model.task.task import HumanPlan, Task, canonical_name, several
+from serendipity.model.task.task import canonical_name, several
 
 
 class Session:

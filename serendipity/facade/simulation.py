@@ -9,19 +9,28 @@ from search.modes.simulation import SimulatedEpoch, Simulation
 from search.modes.simulation import simulate as play
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
-from serendipity.model.answers.result import Result
-from serendipity.model.answers.trace import WHY, Trace, TraceEpoch, TraceSkip
+from serendipity.model import (
+    Deadline,
+    HumanPlan,
+    InputError,
+    Options,
+    PlanStep,
+    Result,
+    Step,
+    Task,
+    Trace,
+    TraceEpoch,
+    TraceSkip,
+    UsageError,
+    Visible,
+)
+from serendipity.model.answers.trace import WHY
 from serendipity.model.arguments import FUNCTION, RESULT, TASK, expect, expect_or_none, shown
-from serendipity.model.errors import LIMITS, InputError, UsageError
+from serendipity.model.errors import LIMITS
 from serendipity.model.keywords import Horizon
 from serendipity.model.numbers import plain, rounded
-from serendipity.model.options import Options
-from serendipity.model.resources.deadline import Deadline
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.task.execution import actions_named, participants
-from serendipity.model.task.plans import PlanStep, Step
-from serendipity.model.task.task import HumanPlan, Task
-from serendipity.model.task.visibility import Visible
 
 Replanning = Literal["observant", "local"]
 HUMAN_MODELS: Final[tuple[Replanning, ...]] = ("observant", "local")

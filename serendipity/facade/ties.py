@@ -8,9 +8,9 @@ from typing import Final
 from search import FirstAnswer, PlanGraph, first_answer, least_over_ties, optimal_human_plans
 from serendipity.facade import one_plan
 from serendipity.facade.call import Request
+from serendipity.model import Deadline, UsageError
 from serendipity.model.answers.answer import Answer, Improvement
-from serendipity.model.errors import LIMITS, UsageError, limit_reason
-from serendipity.model.resources.deadline import Deadline
+from serendipity.model.errors import LIMITS, limit_reason
 
 _A_FEW: Final = 4
 """Answers after which a bound on all of them costs less than it may save."""

@@ -13,14 +13,11 @@ from typing import Final
 from search.modes.goals import Candidate, explanations, solve_expected
 from serendipity.facade import ties
 from serendipity.facade.call import Request, Solver
-from serendipity.model import Task, UsageError
+from serendipity.model import Deadline, HumanPlan, Options, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.answers.recognition import Recognition
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.numbers import Number
-from serendipity.model.options import Options
-from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.task import HumanPlan
 from serendipity.recognition.candidates import (
     CandidateGoal,
     GoalsGiven,

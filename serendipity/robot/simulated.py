@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Final
 
-from serendipity.model.errors import UsageError
-from serendipity.model.numbers import exact
+from serendipity.model import UsageError, exact
 from serendipity.robot.adapter import Epoch, Order, Report
 
 _OTHERS: Final = "*"

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from random import Random
 
-from serendipity.model.errors import UsageError
+from serendipity.model import UsageError
 
 _HALLS_PER_LOCATION = 8 / 21  # as in Figure 2
 _NEW_CORRIDOR = 0.2  # chance that a hall starts a corridor instead of prolonging the last one

@@ -4,8 +4,8 @@ from pathlib import Path
 from random import Random
 from typing import Final, Literal
 
+from serendipity.model import UsageError
 from serendipity.model.arguments import PATH, TEXT, WHOLE, expect, expect_or_none
-from serendipity.model.errors import UsageError
 from serendipity.scenarios.building import Building, figure2, random_building
 from serendipity.scenarios.usar import Usar, pddl_files
 from serendipity.writing.together import write_together

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from serendipity.model.errors import UsageError
+from serendipity.model import UsageError
 from serendipity.scenarios.building import Building
 
 HUMAN: Final = "commx"

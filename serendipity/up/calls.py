@@ -9,8 +9,7 @@ from unified_planning.model.multi_agent import MultiAgentProblem
 from unified_planning.plans import Plan
 
 from serendipity.facade.call import options_from
-from serendipity.model import Options, UsageError
-from serendipity.model.options import INFINITE
+from serendipity.model import INFINITE, Options, UsageError
 
 _HELP: Final = ("serendipity", "communication", "assistance")
 _OWN: Final = ("human", "robots", "human_plan", "predict_with")

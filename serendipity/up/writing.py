@@ -10,8 +10,8 @@ from unified_planning.model import Fluent, InstantaneousAction, Object, Problem
 from unified_planning.model.metrics import MinimizeActionCosts, MinimizeSequentialPlanLength
 from unified_planning.model.multi_agent import Agent, MultiAgentProblem
 
-from serendipity.model import Condition, GroundAction, Task, UsageError
-from serendipity.model.numbers import Number, exact
+from serendipity.model import Condition, GroundAction, Task, UsageError, exact
+from serendipity.model.numbers import Number
 from serendipity.up.vocabulary import UPProblem, legal, unused
 
 

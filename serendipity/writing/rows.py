@@ -5,8 +5,8 @@ from collections.abc import Callable
 from importlib.util import find_spec
 from typing import Final
 
-from serendipity.model.errors import UsageError
-from serendipity.model.table import Table, polars_frame
+from serendipity.model import Table, UsageError
+from serendipity.model.table import polars_frame
 
 
 def written(table: Table, form: str) -> str | bytes:

@@ -13,9 +13,9 @@ from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
 from serendipity.cli.streams.stderr import broken_tasks
 from serendipity.cli.text.render import rendered
-from serendipity.model import InputError, Task, UsageError
+from serendipity.model import InputError, Table, Task, UsageError
 from serendipity.model.errors import DisagreementError
-from serendipity.model.table import Table, table_of
+from serendipity.model.table import table_of
 from serendipity.model.telling import Grid, Line
 from serendipity.writing.rows import FORMATS as ROWS
 from serendipity.writing.rows import written

@@ -10,8 +10,7 @@ from serendipity.cli.options import naming, planning
 from serendipity.cli.streams import output, progress
 from serendipity.cli.streams.manner import is_quiet
 from serendipity.cli.streams.stderr import tell
-from serendipity.model import UsageError
-from serendipity.model.numbers import exact
+from serendipity.model import UsageError, exact
 from serendipity.model.options import limit_of
 
 if TYPE_CHECKING:

@@ -12,11 +12,8 @@ from serendipity.cli.files.reading import read_json
 from serendipity.cli.groups import Group
 from serendipity.cli.options import limits, settings
 from serendipity.cli.streams import output, progress
-from serendipity.model.answers.result import Result
-from serendipity.model.errors import UsageError
+from serendipity.model import Deadline, Result, Task, UsageError
 from serendipity.model.printable import message
-from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.task import Task
 
 
 def _examples() -> list[tuple[str, str]]:

@@ -5,7 +5,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
-from serendipity.model.errors import UsageError
+from serendipity.model import UsageError
 
 WRITTEN: Final = frozenset(
     ("-o", "--save-plan", "--proof", "--heat-map", "--log", "--clip", "--plot", "--report", "--journal")

@@ -11,8 +11,8 @@ from typing import Annotated, Any, Final
 
 from serendipity.cli.choices import option
 from serendipity.cli.groups import Group
+from serendipity.model import Options
 from serendipity.model.keywords import CHOICES, InterruptionOptions
-from serendipity.model.options import Options
 
 _TEXTS: Final[Mapping[str, tuple[str, str]]] = {
     "mode": ("What kind of plan.", ""),

@@ -10,8 +10,7 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any, Final
 
-from serendipity.model.errors import InputError, UsageError
-from serendipity.model.options import INFINITE, Options
+from serendipity.model import INFINITE, InputError, Options, UsageError
 
 COMMANDS: Final = (
     *("plan", "check-task", "verify", "check-proof", "simulate", "execute", "explain"),

@@ -6,7 +6,7 @@ from typing import Annotated, Final
 
 from serendipity.cli.choices import option
 from serendipity.cli.groups import Group
-from serendipity.model.errors import UsageError
+from serendipity.model import UsageError
 
 STYLES: Final = ("auto", "plain", "json", "none")
 """Of progress; ``auto``: a bar on a terminal, plain lines elsewhere."""

@@ -12,7 +12,7 @@ from serendipity.cli.choices import option
 from serendipity.cli.groups import Group
 from serendipity.cli.streams.manner import is_quiet
 from serendipity.cli.streams.stderr import tell
-from serendipity.model.errors import UsageError
+from serendipity.model import UsageError
 from serendipity.writing.rows import FORMATS as ROWS
 from serendipity.writing.rows import check_installed
 

@@ -9,9 +9,8 @@ from typing import Final
 from pydantic import BaseModel, ConfigDict
 
 from serendipity.live.play.settings_file import read_settings
-from serendipity.model import GroundAction, InputError, Task
+from serendipity.model import GroundAction, InputError, PlanStep, Task
 from serendipity.model.task.execution import actions_named
-from serendipity.model.task.plans import PlanStep
 from serendipity.pictures.map.names import parts, without
 from serendipity.pictures.map.places import Places
 from serendipity.pictures.scene.finder import Finder

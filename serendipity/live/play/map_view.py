@@ -2,9 +2,8 @@
 
 from typing import Any
 
-from serendipity.model import GroundAction, Options, Result, Task
+from serendipity.model import GroundAction, Options, Result, Task, surroundings
 from serendipity.model.task.actions import apply
-from serendipity.model.task.visibility import surroundings
 from serendipity.pictures.formats.svg import svg
 from serendipity.pictures.map.layout import MapLayout, lay_out
 from serendipity.pictures.map.places import Places

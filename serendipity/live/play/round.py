@@ -11,10 +11,9 @@ from serendipity.live.play.labels import Phrases
 from serendipity.live.play.map_view import Knowledge, MapView
 from serendipity.live.play.records import Event
 from serendipity.live.play.setting import RoundSetting
-from serendipity.model import GroundAction, InputError, UsageError
+from serendipity.model import GroundAction, InputError, PlanStep, UsageError
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
-from serendipity.model.task.plans import PlanStep
 from serendipity.pictures.map.places import find_places
 
 _EXPLAINING = 10.0

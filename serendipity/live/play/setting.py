@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 import serendipity
 from serendipity.live.play.labels import DomainLabels
-from serendipity.model import Task
-from serendipity.model.keywords import HumanModel
+from serendipity.model import HumanModel, Task
 
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven

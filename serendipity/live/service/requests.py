@@ -6,8 +6,8 @@ from typing import Any, Final
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from serendipity.model import Options
 from serendipity.model.keywords import CHOICES
-from serendipity.model.options import Options
 
 _DOMAIN: Final = "text of a PDDL domain"
 _PROBLEM: Final = "text of a PDDL problem"

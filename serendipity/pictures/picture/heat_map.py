@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Final
 
-from serendipity.model.task.plans import Window
+from serendipity.model import Window
 from serendipity.pictures.picture.drawing import INK, PAPER, WALL, Group, Picture, Rect, Shape, Style, Text
 
 Savings = Mapping[Window, Fraction | None]

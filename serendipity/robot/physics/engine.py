@@ -7,7 +7,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import Any, Final, NamedTuple
 
-from serendipity.model.errors import UsageError
+from serendipity.model import UsageError
 
 RATE: Final = 120
 """Steps of the simulation in a second."""

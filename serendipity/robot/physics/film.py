@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from serendipity.model.errors import UsageError
+from serendipity.model import UsageError
 from serendipity.model.numbers import plain
 from serendipity.robot.physics.building import Rooms
 from serendipity.robot.physics.engine import Engine, Vector

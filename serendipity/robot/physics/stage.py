@@ -4,10 +4,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import Final
 
-from serendipity.model.errors import UsageError
-from serendipity.model.task.actions import GroundAction, apply
+from serendipity.model import GroundAction, Task, UsageError
+from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
-from serendipity.model.task.task import Task
 from serendipity.pictures.map.layout import lay_out
 from serendipity.pictures.map.names import parts
 from serendipity.pictures.map.places import Whereabouts, find_places
