@@ -7,8 +7,7 @@ from typing import Final
 from search.modes.goals import Explainer
 from serendipity.model import Deadline, Task
 from serendipity.model.numbers import Number
-from serendipity.recognition.candidates import GoalsGiven, candidate_goals
-from serendipity.recognition.recognise import posterior, strictness
+from serendipity.recognition.recognise import GoalsGiven, candidate_goals, posterior, strictness
 
 _LIKELY: Final = 0.2
 """A goal of that probability is not ruled out."""

@@ -18,7 +18,7 @@ from serendipity.model import Deadline, HumanPlan, InputError, Options, PlanStep
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import canonical_name
-from serendipity.recognition.candidates import ObservedGiven, named_actions
+from serendipity.recognition.recognise import ObservedGiven, named_actions
 
 if TYPE_CHECKING:
     from serendipity.execution.execution import Execution

@@ -10,8 +10,7 @@ from serendipity.execution.advice import DecisionPoint
 from serendipity.execution.beliefs import Beliefs
 from serendipity.execution.decided import Decided, Outlook
 from serendipity.execution.history import HelpHistory, Untouched
-from serendipity.execution.hypotheses import Hypotheses, Hypothesis
-from serendipity.execution.prospects import Prospect, best_for_all
+from serendipity.execution.hypotheses import Hypotheses, Hypothesis, Prospect, best_for_all
 from serendipity.execution.why import Why
 from serendipity.model import Deadline, Options, PlanStep, Task
 from serendipity.model.errors import LIMITS

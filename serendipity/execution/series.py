@@ -25,7 +25,7 @@ from serendipity.model.numbers import Number
 from serendipity.model.resources.processes import in_processes
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
-from serendipity.recognition.candidates import candidate_goals
+from serendipity.recognition.recognise import candidate_goals
 from serendipity.robot import Durations
 
 if TYPE_CHECKING:

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, Final
 
-from serendipity.explanation.ask import Parts
-from serendipity.explanation.break_even import Threshold
+from serendipity.explanation.ask import Parts, Threshold
 from serendipity.explanation.misses import Miss, Moment
 from serendipity.facade.interruptibility import Removal
 from serendipity.model import Result

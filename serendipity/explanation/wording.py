@@ -5,7 +5,7 @@ from fractions import Fraction
 from itertools import groupby
 from typing import Final
 
-from serendipity.explanation.break_even import Threshold
+from serendipity.explanation.ask import Threshold
 from serendipity.explanation.explanation import Explanation
 from serendipity.explanation.misses import RULES, WHY, Miss, Moment
 from serendipity.model import Result, Window

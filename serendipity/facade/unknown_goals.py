@@ -18,14 +18,15 @@ from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.answers.recognition import Recognition
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.numbers import Number
-from serendipity.recognition.candidates import (
+from serendipity.recognition.recognise import (
     CandidateGoal,
     GoalsGiven,
     ObservedGiven,
     candidate_goals,
     observed_actions,
+    posterior,
+    strictness,
 )
-from serendipity.recognition.recognise import posterior, strictness
 
 _FIXED: Final[dict[str, object]] = {"ties": "fixed", "human_model": "omniscient", "max_cost": None}
 """Options that have one value only where there are several goals."""

@@ -1,22 +1,181 @@
-"""The posterior over the human's goals (semantics 8, after Ramirez and Geffner 2010)."""
+"""The posterior over the human's goals (semantics 8, after Ramirez and Geffner 2010), and what it is made of.
+
+Files of goals: a JSON list of ``{"name": ..., "goal": [literals], "prior": ...}``, or a goal a line,
+``prior: literal, literal`` (without ``prior:`` it is 1).  Files of actions are those of ``--human-plan``
+(see :mod:`serendipity.pddl.parsing.lists`).
+"""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from os import PathLike
+from typing import Any
 
 from search.modes.goals import Likelihood, explanations
-from serendipity.model import Deadline, Task, UsageError, exact
+from serendipity.model import Condition, Deadline, InputError, Task, UsageError, exact
 from serendipity.model.answers.recognition import GoalPosterior, Recognition
-from serendipity.model.arguments import TASK, expect
+from serendipity.model.arguments import LIST, TASK, Kind, expect
 from serendipity.model.numbers import Number, as_written
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
-from serendipity.recognition.candidates import (
-    CandidateGoal,
-    GoalsGiven,
-    ObservedGiven,
-    candidate_goals,
-    observed_actions,
-)
+from serendipity.model.task.names import no_fact
+from serendipity.model.task.task import canonical_name, several
+from serendipity.pddl.parsing.files import read_text
+from serendipity.pddl.parsing.lists import FileItem, actions_in, json_items, lines_of, starts_json
+
+GoalsGiven = str | PathLike[str] | Iterable[Mapping[str, Any]]
+"""A file of goals, or its JSON form: ``[{"name": ..., "goal": [literals], "prior": ...}]``."""
+
+ObservedGiven = str | PathLike[str] | Iterable[str]
+"""A file of actions, or their names."""
+
+
+@dataclass(frozen=True, slots=True)
+class CandidateGoal:
+    """A goal that the human may have.
+
+    Attributes:
+        name: for people.
+        literals: its facts, those that have to be false with ``!`` in front.
+        goal: the same over the task's fact ids.
+        prior: its probability before anything was observed; priors add up to 1.
+    """
+
+    name: str
+    literals: tuple[str, ...]
+    goal: Condition
+    prior: Fraction
+
+
+def candidate_goals(task: Task, given: GoalsGiven) -> tuple[CandidateGoal, ...]:
+    """The candidates that a caller names, their priors scaled so that they add up to 1.
+
+    Raises:
+        InputError: no goal at all, an unknown fact, a prior that is negative or no number, a name
+            twice, or priors that add up to 0; with file and line where there is a file.
+    """
+    file = given if isinstance(given, str | PathLike) else None
+    entries = _entries(given)
+    if not entries:
+        raise InputError("goals: expected at least one goal, got none", file)
+    ids = {fact: i for i, fact in enumerate(task.facts)}
+    found = [_candidate(entry, i, ids, file) for i, entry in enumerate(entries, start=1)]
+    names: set[str] = set()
+    for entry, candidate in zip(entries, found, strict=True):
+        if candidate.name in names:
+            raise InputError(f"goals: there are two goals named '{candidate.name}'", file, entry.line)
+        names.add(candidate.name)
+    total = sum((candidate.prior for candidate in found), Fraction(0))
+    if not total:
+        raise InputError("goals: expected priors with a sum above 0, got only zeros", file)
+    return tuple(replace(candidate, prior=candidate.prior / total) for candidate in found)
+
+
+def observed_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
+    """The names of the observed actions, in order.
+
+    Raises:
+        InputError: one that the human does not have, or can't do alone; with file and line where
+            there is a file.
+    """
+    file = given if isinstance(given, str | PathLike) else None
+    names = []
+    for step, (name, line) in enumerate(named_actions(given, "observed"), start=1):
+        if not name or (name not in task.named and task.waits(name)):
+            continue
+        where = f"observed action '{name}'" if file is not None else f"observed action {step}, '{name}'"
+        if name not in task.named:
+            raise InputError(f"{where}: there is no such action in the task", file, line)
+        if all(task.actions[i].participants != (task.human,) for i in task.named[name]):
+            human = task.agents[task.human]
+            raise InputError(f"{where}: expected an action that {human} can do alone", file, line)
+        names.append(name)
+    return tuple(names)
+
+
+def named_actions(given: ObservedGiven, what: str) -> list[tuple[str, int | None]]:
+    """The names of the actions that a caller lists, each with its line where they are a file's.
+
+    Raises:
+        InputError: a file can't be read, or a line of it is not one action.
+        UsageError: it is no list of names; the error begins with ``what``.
+    """
+    if isinstance(given, str | PathLike):
+        return [(canonical_name(name), line) for name, line in actions_in(read_text(given), given)]
+    return [(canonical_name(name), None) for name in several(given, what)]
+
+
+def _entries(given: GoalsGiven) -> Sequence[FileItem]:
+    """The goals that a caller lists, in the form of JSON objects."""
+    if not isinstance(given, str | PathLike):
+        expect(Kind("a file, or a list of goals", LIST.fits), goals=given)
+        return [FileItem(item, None) for item in given]
+    text = read_text(given)
+    if starts_json(text):
+        return json_items(text, given)
+    return [FileItem(_goal_line(bare, given, number), number) for number, bare in lines_of(text)]
+
+
+def _goal_line(bare: str, file: object, number: int) -> dict[str, Any]:
+    prior, colon, literals = bare.rpartition(":")
+    facts = [text.strip() for text in literals.split(",")]
+    if not all(facts):
+        raise InputError(f"expected a goal as 'prior: fact, fact', got '{bare}'", file, number)
+    return {"goal": facts, "prior": prior.strip() if colon else "1"}
+
+
+def _candidate(entry: FileItem, number: int, ids: Mapping[str, int], file: object) -> CandidateGoal:
+    def wrong(message: str) -> InputError:
+        return InputError(f"goal {number}: {message}", file, entry.line)
+
+    item = entry.value
+    if not isinstance(item, Mapping):
+        raise wrong(f"expected an object with name, goal and prior, got {item!r}")
+    unknown = sorted(str(key) for key in item.keys() - {"name", "goal", "prior"})
+    if unknown:
+        raise wrong(f"unknown field '{unknown[0]}': expected name, goal and prior")
+    literals = item.get("goal")
+    if not isinstance(literals, list | tuple) or not all(isinstance(text, str) for text in literals):
+        raise wrong(f"goal: expected a list of facts, got {literals!r}")
+    signed = [_literal(text) for text in literals]
+    for fact, _ in signed:
+        if fact not in ids:
+            raise wrong(no_fact(fact, ids))
+    name = item.get("name", ", ".join(_shown(*pair) for pair in signed))
+    if not isinstance(name, str):
+        raise wrong(f"name: expected a text, got {name!r}")
+    try:
+        prior = exact(item.get("prior", 1), "prior")
+    except UsageError as error:
+        raise wrong(str(error)) from None
+    if prior < 0:
+        raise wrong(f"prior: expected a number of at least 0, got {item['prior']}")
+    goal = Condition(
+        tuple(sorted({ids[fact] for fact, wanted in signed if wanted})),
+        tuple(sorted({ids[fact] for fact, wanted in signed if not wanted})),
+    )
+    return CandidateGoal(name, tuple(_shown(*pair) for pair in signed), goal, prior)
+
+
+def _literal(text: str) -> tuple[str, bool]:
+    """The fact of ``fact``, ``(fact)``, ``!fact`` or ``(not (fact))``, and whether it is to be true."""
+    bare = _without_brackets(canonical_name(text))
+    if bare.startswith("!"):
+        return _without_brackets(bare[1:].strip()), False
+    if bare.startswith(("not ", "not(")):
+        return _without_brackets(bare[3:].strip()), False
+    return bare, True
+
+
+def _without_brackets(text: str) -> str:
+    while text.startswith("(") and text.endswith(")"):
+        text = text[1:-1].strip()
+    return text
+
+
+def _shown(fact: str, wanted: bool) -> str:
+    return fact if wanted else f"!{fact}"
 
 
 def recognise(

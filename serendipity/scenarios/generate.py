@@ -6,8 +6,7 @@ from typing import Final, Literal
 
 from serendipity.model import UsageError
 from serendipity.model.arguments import PATH, TEXT, WHOLE, expect, expect_or_none
-from serendipity.scenarios.building import Building, figure2, random_building
-from serendipity.scenarios.usar import Usar, pddl_files
+from serendipity.scenarios.usar import Building, Usar, figure2, pddl_files, random_building
 from serendipity.writing.together import write_together
 
 _WORKED_EXAMPLES: Final = {"room2": "room2", "room5": "room5", "room7": "room7"}

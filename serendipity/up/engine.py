@@ -13,8 +13,7 @@ from unified_planning.model import AbstractProblem, ProblemKind
 from unified_planning.plans import Plan, PlanKind
 
 from serendipity.model import SerendipityError, UsageError
-from serendipity.up.answers import Answers
-from serendipity.up.calls import call_of
+from serendipity.up.answers import Answers, call_of
 from serendipity.up.kinds import ENGINE, PLANS, supported_kind, with_metric
 from serendipity.up.reading import read
 from serendipity.up.validation import judged

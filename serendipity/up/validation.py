@@ -9,8 +9,7 @@ from unified_planning.plans import ActionInstance, Plan, PlanKind
 
 from serendipity.model import GroundAction, Task
 from serendipity.model.task.actions import apply
-from serendipity.up.order import depend
-from serendipity.up.plans import in_order
+from serendipity.up.plans import depend, in_order
 from serendipity.up.reading import Reading
 
 _MOST: Final = 100_000

@@ -13,8 +13,8 @@ import pytest
 
 import serendipity
 from serendipity.live.play.records import Records, read
+from serendipity.live.play.round import RoundSetting
 from serendipity.live.play.rounds import SharedRounds
-from serendipity.live.play.setting import RoundSetting
 from serendipity.live.study.design import open_design
 from serendipity.live.study.participant import Participant
 from serendipity.model import UsageError

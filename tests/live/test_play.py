@@ -13,8 +13,8 @@ from serendipity.cli.app import main
 from serendipity.live.play.application import Room
 from serendipity.live.play.labels import DomainLabels, labels_for
 from serendipity.live.play.records import as_csv, read
+from serendipity.live.play.round import RoundSetting
 from serendipity.live.play.rounds import SharedRounds
-from serendipity.live.play.setting import RoundSetting
 from serendipity.model import InputError, UsageError
 from serendipity.scenarios.examples import EXAMPLES
 from serendipity.testing.builders import task as build

@@ -9,7 +9,7 @@ import pytest
 
 import serendipity
 from serendipity.cli.app import main
-from serendipity.live.play.setting import CONDITIONS, RoundSetting
+from serendipity.live.play.round import CONDITIONS, RoundSetting
 from serendipity.live.study.design import open_design
 from serendipity.live.study.drawing import draw, order, places
 from serendipity.live.study.rehearsal import fault, rehearse

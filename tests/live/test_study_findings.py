@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from serendipity.live.play.records import Event
-from serendipity.live.play.setting import CONDITIONS
+from serendipity.live.play.round import CONDITIONS
 from serendipity.live.study import analysis
 from serendipity.live.study.design import open_design
 from serendipity.live.study.participant import Participant

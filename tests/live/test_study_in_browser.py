@@ -14,8 +14,8 @@ import pytest
 
 from serendipity.live.study import analysis
 from serendipity.live.study.design import Design, open_design
-from serendipity.scenarios.building import figure2
 from serendipity.scenarios.generate import make_usar
+from serendipity.scenarios.usar import figure2
 from tests.live.conftest import Opened
 from tests.live.server import Server, serving
 

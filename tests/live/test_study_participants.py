@@ -10,7 +10,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 import serendipity
-from serendipity.live.play.setting import CONDITIONS
+from serendipity.live.play.round import CONDITIONS
 from serendipity.live.study.design import open_design
 from serendipity.live.study.participant import Participant
 from serendipity.live.study.study import Study

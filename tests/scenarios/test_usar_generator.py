@@ -10,10 +10,9 @@ import pytest
 
 import serendipity
 from serendipity.model import Task
-from serendipity.scenarios.building import Building, figure2, random_building
 from serendipity.scenarios.examples import DATA, EXAMPLES
 from serendipity.scenarios.generate import PRESETS, make_usar
-from serendipity.scenarios.usar import LAYOUTS, Usar, pddl_files
+from serendipity.scenarios.usar import LAYOUTS, Building, Usar, figure2, pddl_files, random_building
 
 
 def load(folder: Path, layout: str, robots: int) -> Task:

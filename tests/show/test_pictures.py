@@ -15,7 +15,7 @@ from serendipity.pictures import Scene, build_scene, draw
 from serendipity.pictures.formats.page import page
 from serendipity.pictures.map.names import ems
 from serendipity.pictures.picture.drawing import HUMAN, ROBOTS, fitted, on, wrapped
-from serendipity.pictures.picture.tokens import tokens
+from serendipity.pictures.picture.map_picture import tokens
 
 SVG = "{http://www.w3.org/2000/svg}"
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 import serendipity
 from serendipity.model import Task
 from serendipity.pictures.map.places import Whereabouts, find_places
-from serendipity.scenarios.building import figure2
+from serendipity.scenarios.usar import figure2
 from serendipity.testing import cases
 from serendipity.testing.builders import task as build
 from serendipity.testing.builders import usar

@@ -6,7 +6,7 @@ import pytest
 
 import serendipity
 from serendipity.pictures import Scene, build_scene
-from serendipity.pictures.picture.tokens import initials
+from serendipity.pictures.picture.map_picture import initials
 
 DATA = Path(__file__).parent / "data" / "wards"
 

@@ -124,8 +124,8 @@ def play(
         return ExitCode.ANSWERED
     from serendipity.live.play.labels import labels_for
     from serendipity.live.play.records import record_in
+    from serendipity.live.play.round import RoundSetting
     from serendipity.live.play.rounds import SharedRounds
-    from serendipity.live.play.setting import RoundSetting
 
     shown = task.example if named else _EXAMPLE
     loaded = task.but(example=shown).load()

@@ -1,14 +1,14 @@
 """Words that people read instead of PDDL: sentences for a domain's actions and goals, nouns for things."""
 
+import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from string import Formatter
-from typing import Final
+from typing import Final, TypeVar
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, ValidationError
 
-from serendipity.live.play.settings_file import read_settings
 from serendipity.model import GroundAction, InputError, PlanStep, Task
 from serendipity.model.task.execution import actions_named
 from serendipity.pictures.map.names import parts, without
@@ -209,3 +209,29 @@ class Phrases:
             return labelled[0].format(*map(self.thing, labelled[1]))
         human = parts(self._task.agents[self._task.human])
         return " ".join(without([human], parts(fact))).replace("_", " ")
+
+
+Held = TypeVar("Held", bound=BaseModel)
+
+
+def read_settings(file: Path, model: type[Held]) -> Held:
+    """What a file holds.
+
+    Raises:
+        InputError: it can't be read, is no TOML, or holds something else; it says what and where.
+    """
+    try:
+        return model.model_validate(tomllib.loads(file.read_text(encoding="utf-8-sig")))
+    except OSError as error:
+        raise InputError(f"can't be read: {(error.strerror or '').lower()}", file) from None
+    except UnicodeDecodeError:
+        raise InputError("expected a text in UTF-8", file) from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"expected TOML: {str(error)[:1].lower()}{str(error)[1:]}", file) from None
+    except RecursionError:
+        raise InputError("is nested too deeply", file) from None
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(map(str, first["loc"]))
+        said = first["msg"][:1].lower() + first["msg"][1:]
+        raise InputError(f"{where}: {said}", file) from None

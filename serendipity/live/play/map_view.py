@@ -8,9 +8,8 @@ from serendipity.pictures.formats.svg import svg
 from serendipity.pictures.map.layout import MapLayout, lay_out
 from serendipity.pictures.map.places import Places
 from serendipity.pictures.picture.drawing import agent_colours, on
-from serendipity.pictures.picture.map_picture import MARGIN, map_picture
-from serendipity.pictures.picture.tokens import agent_key, initials, object_key
-from serendipity.pictures.scene.crowds import cell_size
+from serendipity.pictures.picture.map_picture import MARGIN, initials, map_picture
+from serendipity.pictures.scene.crowds import agent_key, cell_size, object_key
 from serendipity.pictures.scene.finder import Finder
 from serendipity.pictures.scene.scene import Frame, Scene
 

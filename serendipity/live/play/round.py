@@ -1,20 +1,81 @@
-"""One round: a person's actions in, and out comes what their page shows."""
+"""One round: how it is played, a person's actions in, and out comes what their page shows."""
 
+from dataclasses import dataclass, field
+from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Final
 
 import serendipity
 from serendipity.execution import Decided, Passed
 from serendipity.execution.decided import account
 from serendipity.execution.log import decision_of
-from serendipity.live.play.labels import Phrases
+from serendipity.live.play.labels import DomainLabels, Phrases
 from serendipity.live.play.map_view import Knowledge, MapView
 from serendipity.live.play.records import Event
-from serendipity.live.play.setting import RoundSetting
-from serendipity.model import GroundAction, InputError, PlanStep, UsageError
+from serendipity.model import GroundAction, HumanModel, InputError, PlanStep, Task, UsageError
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
 from serendipity.pictures.map.places import find_places
+
+if TYPE_CHECKING:
+    from serendipity.recognition import GoalsGiven
+
+VIEWS: Final = ("observant", "local")
+"""What the person sees: everything, or what is where they are."""
+
+CONDITIONS: Final = {
+    "none": "robots do nothing",
+    "silent": "robots help and say nothing",
+    "announced": "robots say what they are going to do, and what the person's part is",
+}
+"""What robots do."""
+
+
+@dataclass(frozen=True, slots=True)
+class RoundSetting:
+    """One round.
+
+    Attributes:
+        name: of the scenario.
+        task: where it begins; its goal is the person's.
+        discount: of robots' costs.
+        view: one of ``VIEWS``.
+        condition: one of ``CONDITIONS``.
+        goals: goals that robots think possible, as :func:`serendipity.recognise` takes them; None: they
+            know the person's.
+        deadline: seconds for each decision of the robots, or None.
+        labels: words for its domain.
+        most_epochs: after which it is over, whatever has been reached; None: without end.
+    """
+
+    name: str
+    task: Task
+    discount: Fraction
+    view: HumanModel = "observant"
+    condition: str = "silent"
+    goals: "GoalsGiven | None" = None
+    deadline: float | None = None
+    labels: DomainLabels = field(default_factory=DomainLabels)
+    most_epochs: int | None = None
+
+    def execution(self) -> serendipity.Execution:
+        """The round at its beginning.
+
+        Robots that announce what they do have a person before them who knows their plan, and count on it; the
+        others take the person for somebody who replans on sight.
+        """
+        run = serendipity.Execution(
+            self.task,
+            discount=self.discount,
+            human_model=self.view,
+            goals=self.goals,
+            deadline=self.deadline,
+            told=self.condition == "announced",
+        )
+        if self.condition == "none":
+            run.drop(self.task.agents[robot] for robot in self.task.robots)
+        return run
+
 
 _EXPLAINING = 10.0
 """Seconds for an explanation at the end."""

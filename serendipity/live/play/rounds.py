@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from serendipity.live.play.records import Download, Event, Records, as_csv, as_json, read
-from serendipity.live.play.round import Round
-from serendipity.live.play.setting import RoundSetting
+from serendipity.live.play.round import Round, RoundSetting
 from serendipity.model import InputError, UsageError
 
 Message = Mapping[str, Any]

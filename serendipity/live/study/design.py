@@ -10,10 +10,9 @@ from pathlib import Path
 from typing import Any, Final
 
 import serendipity
-from serendipity.live.play.labels import labels_for
+from serendipity.live.play.labels import labels_for, read_settings
 from serendipity.live.play.records import made
-from serendipity.live.play.setting import RoundSetting
-from serendipity.live.play.settings_file import read_settings
+from serendipity.live.play.round import RoundSetting
 from serendipity.live.study.drawing import draw, numbered, practice
 from serendipity.live.study.rehearsal import Rehearsal, fault, rehearse, report, to_dict
 from serendipity.live.study.texts import OwnScenario, StudyFile

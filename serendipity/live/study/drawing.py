@@ -12,12 +12,11 @@ import networkx as nx
 
 import serendipity
 from serendipity.live.play.labels import labels_for
-from serendipity.live.play.setting import RoundSetting
+from serendipity.live.play.round import RoundSetting
 from serendipity.live.study.rehearsal import Rehearsal, fault, rehearse
 from serendipity.model import UsageError
-from serendipity.scenarios.building import figure2
 from serendipity.scenarios.generate import make_usar
-from serendipity.scenarios.usar import Usar
+from serendipity.scenarios.usar import Usar, figure2
 
 
 def places(conditions: Sequence[str], rounds: int, seed: int) -> Iterator[tuple[str, int]]:

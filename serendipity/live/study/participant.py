@@ -6,9 +6,8 @@ from typing import Any, Final
 
 import serendipity
 from serendipity.live.play.records import Event, Records
-from serendipity.live.play.round import Round
+from serendipity.live.play.round import Round, RoundSetting
 from serendipity.live.play.rounds import RecordedRounds
-from serendipity.live.play.setting import RoundSetting
 from serendipity.live.study.design import Design
 from serendipity.live.study.texts import Item
 from serendipity.model import InputError, UsageError

@@ -6,7 +6,7 @@ from statistics import fmean
 from typing import Any
 
 from serendipity.execution import Omniscient, Person, Replanner, moment_of
-from serendipity.live.play.setting import RoundSetting
+from serendipity.live.play.round import RoundSetting
 from serendipity.model.numbers import plain
 
 

@@ -4,7 +4,7 @@ from typing import Annotated, Final, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from serendipity.live.play.setting import CONDITIONS
+from serendipity.live.play.round import CONDITIONS
 
 Lines = Annotated[list[Annotated[str, Field(min_length=1)]], Field(min_length=1)]
 

@@ -10,7 +10,7 @@ from serendipity.model.numbers import plain
 from serendipity.model.printable import markup, printable
 from serendipity.pictures.formats.svg import path, svg
 from serendipity.pictures.picture.drawing import Picture, agent_colours, on
-from serendipity.pictures.picture.map_picture import MARGIN, map_picture, trails
+from serendipity.pictures.picture.map_picture import MARGIN, Token, map_picture, tokens, trails
 from serendipity.pictures.picture.timeline_picture import (
     COLUMN,
     columns,
@@ -18,7 +18,7 @@ from serendipity.pictures.picture.timeline_picture import (
     lane_labels,
     timeline_picture,
 )
-from serendipity.pictures.picture.tokens import Token, agent_key, tokens
+from serendipity.pictures.scene.crowds import agent_key
 from serendipity.pictures.scene.scene import Frame, Scene, headline, subtitle
 
 _WIDE: Final = 1200.0

@@ -1,12 +1,13 @@
-"""The map: places, ways, paths, and the tokens of one frame."""
+"""The map: places, ways, paths, and the tokens of one frame, which stand within the places."""
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from itertools import chain, pairwise
+from dataclasses import dataclass
+from itertools import chain, count, pairwise
 from math import hypot
 from typing import Final
 
-from serendipity.pictures.map.cards import PILL_HEIGHT, PILL_SIZES, RADIUS, pill
+from serendipity.pictures.map.cards import PILL_HEIGHT, PILL_SIZES, RADIUS, Spot, pack, pill
 from serendipity.pictures.map.layout import Box, MapLayout
 from serendipity.pictures.map.names import ems
 from serendipity.pictures.picture.drawing import (
@@ -33,10 +34,85 @@ from serendipity.pictures.picture.drawing import (
     fitted,
     on,
 )
-from serendipity.pictures.picture.tokens import FORMER as FORMER_TOKEN
-from serendipity.pictures.picture.tokens import Token, agent_key, initials, object_key, tokens
-from serendipity.pictures.scene.crowds import LEAST_LABEL, TAG_HEIGHT
-from serendipity.pictures.scene.scene import Meeting, Scene
+from serendipity.pictures.scene.crowds import (
+    FORMER_TOKEN,
+    LABEL_HEIGHT,
+    LEAST_LABEL,
+    TAG_HEIGHT,
+    agent_key,
+    crowds,
+    object_key,
+    room,
+    tagged_places,
+)
+from serendipity.pictures.scene.scene import Frame, Meeting, Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """Where a token stands.
+
+    Attributes:
+        spot: its centre and size on the map.
+        holder: the agent that holds the object, or whose card a frame is about.
+    """
+
+    spot: Spot
+    holder: int | None = None
+
+    @property
+    def at(self) -> tuple[float, float]:
+        """Its centre."""
+        return self.spot.x, self.spot.y
+
+    @property
+    def text(self) -> str:
+        """What a count says."""
+        return f"+{len(self.spot.names)}"
+
+
+def initials(agents: tuple[str, ...]) -> tuple[str, ...]:
+    """Up to three letters that tell the agents apart: ``C``, ``R1``, ``R2``."""
+    wanted = [name[:1].upper() + "".join(filter(str.isdigit, name))[-2:] for name in agents]
+    found: list[str] = []
+    for text in wanted:
+        if wanted.count(text) > 1:
+            numbered = (f"{text[0]}{number}" for number in count(1))
+            text = next(other for other in numbered if other not in wanted and other not in found)
+        found.append(text)
+    return tuple(found)
+
+
+def tokens(scene: Scene, frame: Frame) -> dict[str, Token]:
+    """The tokens that a frame shows, by key; what is in no place is left out."""
+    if scene.layout is None:
+        return {}
+    holders = _holders(frame)
+    tagged = tagged_places(scene)
+    found: dict[str, Token] = {}
+    for place, cards in crowds(scene, frame).items():
+        if place not in scene.layout.boxes:  # of a picture that shows a part of the map
+            continue
+        box = scene.layout.boxes[place]
+        width, height = room(box, tagged=place in tagged)
+        spots = pack(cards, width, height, f"place-{place}")
+        spare = height / 2 - max((spot.y + spot.height / 2 for spot in spots), default=0.0)
+        lower = LABEL_HEIGHT + (height - box.height) / 2  # the middle of the room, below that of the box
+        y = box.y + max(0, lower - spare) + min(0, lower + spare)
+        for spot in spots:
+            found[spot.key] = Token(spot.moved(box.x, y), holders.get(spot.key.removeprefix("frame-")))
+    return found
+
+
+def _holders(frame: Frame) -> dict[str, int]:
+    """By key of a token: the agent that holds or rides the object; an agent's own for its frame."""
+    found = {agent_key(agent): agent for agent in frame.at}
+    for index, where in enumerate(frame.objects.values()):
+        holder = where.riders[0] if where.riders else where.holder
+        if holder is not None:
+            found[object_key(index)] = holder
+    return found
+
 
 MARGIN: Final = 14.0
 _DOOR: Final = 40.0

@@ -24,8 +24,7 @@ from serendipity.pictures.picture.drawing import (
     tint,
     wrapped,
 )
-from serendipity.pictures.scene.changes import Change
-from serendipity.pictures.scene.scene import Act, Scene
+from serendipity.pictures.scene.scene import Act, Change, Scene
 
 COLUMN: Final = 98.0
 LABELS: Final = 140.0

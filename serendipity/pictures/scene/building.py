@@ -13,10 +13,9 @@ from serendipity.model.task.actions import State, apply
 from serendipity.model.task.execution import actions_named, shares, variant_named
 from serendipity.pictures.map.layout import lay_out
 from serendipity.pictures.map.places import Places, Whereabouts, find_places
-from serendipity.pictures.scene.changes import find_changes
 from serendipity.pictures.scene.crowds import cell_size
 from serendipity.pictures.scene.finder import Finder
-from serendipity.pictures.scene.scene import Act, Frame, Meeting, Scene
+from serendipity.pictures.scene.scene import Act, Frame, Meeting, Scene, find_changes
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from serendipity.pictures.map.layout import CELL, Box
 from serendipity.pictures.map.names import ems
 from serendipity.pictures.scene.scene import Frame, Scene
 
-FORMER: Final = "former"
+FORMER_TOKEN: Final = "former"
 """The key of the human's token with the former plan."""
 LEAST_LABEL: Final = 15.0
 """Smallest size of a place's name."""
@@ -42,7 +42,9 @@ def crowds(scene: Scene, frame: Frame) -> dict[str, tuple[Card, ...]]:
         if agent in frame.at and agent not in crowd.aboard:
             found[frame.at[agent]].append(crowd.agent(agent))
     if scene.deviates and frame.former_at not in (None, frame.at.get(scene.human)):
-        found[str(frame.former_at)].append(agent_card(FORMER, f"{scene.agents[scene.human]} (former plan)"))
+        found[str(frame.former_at)].append(
+            agent_card(FORMER_TOKEN, f"{scene.agents[scene.human]} (former plan)")
+        )
     for name in crowd.roots:
         where = frame.objects[name]
         if where.place is not None:

@@ -9,8 +9,7 @@ from typing import Final
 
 from serendipity.robot.physics.building import Point, Rooms
 from serendipity.robot.physics.engine import RATE, Engine
-from serendipity.robot.physics.figure import KNEEL, REACH, STAND, Pose, StickFigure
-from serendipity.robot.physics.kit import Kit
+from serendipity.robot.physics.figure import KNEEL, REACH, STAND, Kit, Pose, StickFigure
 
 Deed = Generator[None, None, None]
 

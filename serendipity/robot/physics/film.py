@@ -15,8 +15,7 @@ from serendipity.model import UsageError
 from serendipity.model.numbers import plain
 from serendipity.robot.physics.building import Rooms
 from serendipity.robot.physics.engine import Engine, Vector
-from serendipity.robot.physics.figure import StickFigure
-from serendipity.robot.physics.kit import Kit
+from serendipity.robot.physics.figure import Kit, StickFigure
 
 if TYPE_CHECKING:
     from PIL import Image

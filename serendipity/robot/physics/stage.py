@@ -15,9 +15,8 @@ from serendipity.robot.adapter import Epoch, Order, Report
 from serendipity.robot.physics.building import CELL, Point, Rooms
 from serendipity.robot.physics.deeds import Bodies, Deed, StuckError, in_turn, shelf, spot_of, together
 from serendipity.robot.physics.engine import RATE, Colour, Engine
-from serendipity.robot.physics.figure import StickFigure
+from serendipity.robot.physics.figure import Kit, StickFigure
 from serendipity.robot.physics.film import Film
-from serendipity.robot.physics.kit import Kit
 
 EPOCH: Final = 5.0
 """Seconds of an epoch."""
