@@ -115,7 +115,7 @@ class BodyLimits:
         return HTTPException(413, f"body: expected at most {self._most} bytes")
 
 
-_LOG = logging.getLogger(__name__)
+_LOG = logging.getLogger("serendipity.live.guards.responses")  # whoever filters logs knows that name
 
 _SECRET: Final = re.compile(r"^/(s|live|experimenter)/[^/]+")
 """How addresses begin that nobody should know who has not been told."""

@@ -166,7 +166,8 @@ async def _too_deep(_request: Request, _error: Exception) -> Response:
 
 
 async def _broken(request: Request, error: Exception) -> Response:
-    logging.getLogger(__name__).error("%s failed", request.url.path, exc_info=error)
+    log = logging.getLogger("serendipity.live.service.refusals")
+    log.error("%s failed", request.url.path, exc_info=error)
     return JSONResponse({"error": "the server failed on this request: please report it"}, 500)
 
 
