@@ -63,11 +63,7 @@ class SessionMemory:
         self._known: OrderedDict[_Key, _Known] = OrderedDict()
 
     def question(
-        self,
-        options: Options,
-        visible: Visible | None,
-        about: Hashable,
-        human_plan: tuple[str, ...] | None,
+        self, options: Options, visible: Visible | None, about: Hashable, human_plan: tuple[str, ...] | None
     ) -> "RememberedQuestion":
         """A question, and what is known of it.
 

@@ -141,12 +141,7 @@ def until_settled(
 
 
 def combined(
-    answers: list[Answer],
-    ties: str,
-    *,
-    bounded: bool = True,
-    everyone: bool = True,
-    limit: str | None = None,
+    answers: list[Answer], ties: str, *, bounded: bool = True, everyone: bool = True, limit: str | None = None
 ) -> Answer:
     """The answer under ``ties``, and those that it was made of.
 

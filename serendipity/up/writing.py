@@ -16,11 +16,7 @@ from serendipity.up.vocabulary import UPProblem, legal, unused
 
 
 def to_problem(
-    task: Task,
-    *,
-    multi_agent: bool = False,
-    discount: Number = 0,
-    environment: Environment | None = None,
+    task: Task, *, multi_agent: bool = False, discount: Number = 0, environment: Environment | None = None
 ) -> UPProblem:
     """A ground problem of unified-planning that states a task.
 

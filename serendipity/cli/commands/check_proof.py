@@ -18,10 +18,7 @@ _FILES: Final = naming.files(
 
 
 def check_proof(
-    *,
-    task: Annotated[naming.TaskName, _FILES],
-    limited: limits.Limits,
-    to: output.Destination,
+    *, task: Annotated[naming.TaskName, _FILES], limited: limits.Limits, to: output.Destination
 ) -> int:
     """Check a proof with integers only, without a solver. With a task and a result: that it is theirs."""
     form = to.prepare()

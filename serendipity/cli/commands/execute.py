@@ -108,12 +108,7 @@ def execute(
     if replay is not None:
         return _replayed(loaded, replay, to.output_file)
     given = planning.given(
-        mode=mode,
-        discount=discount,
-        interference=interference,
-        beta=beta,
-        ties=ties,
-        human_model=human_model,
+        mode=mode, discount=discount, interference=interference, beta=beta, ties=ties, human_model=human_model
     )
     with progress.counting("runs") as on_progress:
         found = serendipity.execute(

@@ -116,7 +116,7 @@ def play(
             url = addresses.url(listener)
             _say(
                 f"Participants join on {url}; Ctrl-C stops it. Recorded in {study}.\n"
-                f"For whoever runs it: {url}/experimenter/{design.secret}/\n{design.report}",
+                f"For whoever runs it: {url}/experimenter/{design.secret}/\n{design.report}"
             )
             for fault in opened.faults:
                 tell(f"Warning: {fault}")
@@ -136,7 +136,7 @@ def play(
             opened = SharedRounds(RoundSetting(shown or loaded.name, loaded, **how), where)
         _say(
             f"Play on {addresses.url(listener)}; Ctrl-C stops it. Recorded in {where}.\n"
-            f"To go on with this round another time: --records {where}\n",
+            f"To go on with this round another time: --records {where}\n"
         )
         run(application(opened, addresses.hosts(host)), listener)
     return ExitCode.ANSWERED

@@ -53,12 +53,10 @@ _OTHERS: Final[Mapping[str, Any]] = {
         option("--human-plan FILE", "What the human will do, an action a line; predicted by default."),
     ],
     "keep_prefix": Annotated[
-        bool | None,
-        option("--keep-prefix", "In communication mode: windows, as in the paper's second (7b)."),
+        bool | None, option("--keep-prefix", "In communication mode: windows, as in the paper's second (7b).")
     ],
     "no_block": Annotated[
-        bool | None,
-        option("--no-block/--allow-block", "Whether robots may leave the human without a plan."),
+        bool | None, option("--no-block/--allow-block", "Whether robots may leave the human without a plan.")
     ],
 }
 

@@ -106,12 +106,7 @@ def agent_card(key: str, name: str, inside: tuple[Card, ...] = ()) -> Card:
 
 
 def thing_card(
-    key: str,
-    name: str,
-    beside: tuple[Card, ...] = (),
-    inside: tuple[Card, ...] = (),
-    *,
-    tower: bool = False,
+    key: str, name: str, beside: tuple[Card, ...] = (), inside: tuple[Card, ...] = (), *, tower: bool = False
 ) -> Card:
     """The card of an object, with who rides it and what it carries, or what stands on it."""
     return Card(key, name, pill(name)[-1], PILL_HEIGHT, beside, inside, loose=not beside, tower=tower)
