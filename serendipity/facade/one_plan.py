@@ -1,7 +1,7 @@
 """Answers where it is settled which plan the human follows: the one that was given, or the canonical one."""
 
-from collections.abc import Callable, Iterator
-from typing import Final
+from collections.abc import Iterator
+from typing import Any, Final
 
 from search import solve
 from search.modes.simulation import solve_for_human
@@ -46,32 +46,17 @@ def with_verdicts(call: Request, answer: Answer, *, last: bool = True) -> Answer
     return answer._replace(realised=verdicts)
 
 
-def _omniscient(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:
-    return solve(call.prepared, call.options, human_plan=human_plan, deadline=call.deadline, warm=call.warm)
-
-
-def _replanning(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:
-    return solve_for_human(
-        call.prepared,
-        call.options,
-        human_plan=human_plan,
-        visible=call.visible,
-        deadline=call.deadline,
-        warm=call.warm,
-    )
-
-
-_PLANNERS: Final[dict[str, Callable[[Request, HumanPlan | None], Iterator[Answer]]]] = {
-    "omniscient": _omniscient,
-    "observant": _replanning,
-    "local": _replanning,
-}
-"""By model of the human."""
+def _planned(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:
+    """Answers beside a human of the model that is asked for."""
+    asked: dict[str, Any] = {"human_plan": human_plan, "deadline": call.deadline, "warm": call.warm}
+    if call.options.human_model == "omniscient":
+        return solve(call.prepared, call.options, **asked)
+    return solve_for_human(call.prepared, call.options, visible=call.visible, **asked)
 
 
 def _told(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:
     gap: list[Improvement] = []
-    for answer in _news(_PLANNERS[call.options.human_model](call, human_plan)):
+    for answer in _news(_planned(call, human_plan)):
         now = Improvement(call.deadline.elapsed(), answer.objective, answer.lower_bound)
         if not gap or gap[-1][1:] != now[1:]:
             gap.append(now)

@@ -17,7 +17,7 @@ from serendipity.model import (
     Task,
     TiedAnswer,
 )
-from serendipity.model.answers.answer import Answer, Improvement, ServedGoal, Tried
+from serendipity.model.answers.answer import Answer, ServedGoal, Tried
 from serendipity.model.numbers import figure, rounded
 from serendipity.model.task.execution import actions_of, participants, shares
 
@@ -29,7 +29,7 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
         task: what was asked; with several goals, its own plays no part.
         elapsed: seconds that it took.
     """
-    discount = _discount(options)
+    discount = Fraction(0) if options.mode == "assistance" else options.discount  # semantics 7
     human_cost = answer.baseline if answer.goals else None
     if answer.human_plan is not None:
         human_cost = task.cost_of(answer.human_plan)
@@ -67,7 +67,9 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
         goals=None if answer.goals is None else tuple(_goal(task, discount, goal) for goal in answer.goals),
         recognition=answer.recognition,
         bounds=answer.bounds,
-        gap=None if answer.gap is None else tuple(map(_gap_entry, answer.gap)),
+        gap=None
+        if answer.gap is None
+        else tuple(GapEntry(g.seconds, rounded(g.objective), rounded(g.lower_bound)) for g in answer.gap),
     )
 
 
@@ -83,11 +85,6 @@ def named_steps(task: Task, discount: Fraction, steps: Iterable[Step]) -> tuple[
             price = prices[kind] = figure(task.team_cost(action, discount))
         named.append(PlanStep(step.epoch, participants(task, action), action.name, price))
     return tuple(named)
-
-
-def _discount(options: Options) -> Fraction:
-    """In mode ``assistance`` nobody's cost is discounted (semantics 7)."""
-    return Fraction(0) if options.mode == "assistance" else options.discount
 
 
 def _names(task: Task, plan: HumanPlan | None) -> tuple[str, ...] | None:
@@ -112,10 +109,6 @@ def _agent_costs(task: Task, discount: Fraction, answer: Answer) -> dict[str, fl
             for agent, cost in shares(task, actions_of(task, goal.steps or ()), discount).items():
                 costs[agent] += goal.probability * cost
     return {task.agents[agent]: figure(cost) for agent, cost in costs.items()}
-
-
-def _gap_entry(known: Improvement) -> GapEntry:
-    return GapEntry(known.seconds, rounded(known.objective), rounded(known.lower_bound))
 
 
 def _tried(row: Tried) -> dict[str, Any]:

@@ -75,7 +75,7 @@ def simulate(
         raise InputError("result: has no plan to simulate")
     if result.human != task.agents[task.human]:
         raise InputError(f"result: is for another task: its human is '{result.human}'")
-    plan = _human_plan(task, result)
+    plan = task.plan_from_names(result.human_plan) if result.human_plan else ()
     horizon = result.horizon if isinstance(result.horizon, int) else None
     steps = [Step(step.epoch, _action(task, step)) for step in result.plan]
     with HELD.taken(task) as prepared:
@@ -142,10 +142,6 @@ def realised(
     return verdicts
 
 
-def _human_plan(task: Task, result: Result) -> HumanPlan:
-    return task.plan_from_names(result.human_plan) if result.human_plan else ()
-
-
 def _action(task: Task, step: PlanStep) -> int:
     """The action that a step of a result names; of several with one name any will do."""
     found = actions_named(task, step.action, step.agents)
@@ -208,6 +204,7 @@ class _Story:
 
     def _epochs(self) -> Iterator[TraceEpoch]:
         for epoch in self.simulated.epochs:
+            skipped = [(self.task.actions[skip.action], skip.why) for skip in epoch.skipped]
             decision = "waits" if epoch.best is None else "replans" if epoch.replanned else "keeps"
             yield TraceEpoch(
                 epoch=epoch.epoch,
@@ -220,9 +217,7 @@ class _Story:
                 did=self._did(epoch),
                 failed=epoch.failed,
                 steps=self._steps(epoch),
-                skipped=tuple(
-                    TraceSkip(self._agents(s.action), self._name(s.action), s.why) for s in epoch.skipped
-                ),
+                skipped=tuple(TraceSkip(participants(self.task, a), a.name, why) for a, why in skipped),
             )
 
     def _steps(self, epoch: SimulatedEpoch) -> tuple[PlanStep, ...]:
@@ -235,9 +230,6 @@ class _Story:
 
     def _name(self, action: int) -> str:
         return self.task.actions[action].name
-
-    def _agents(self, action: int) -> tuple[str, ...]:
-        return participants(self.task, self.task.actions[action])
 
 
 def _why(decision: str, epoch: SimulatedEpoch) -> str:

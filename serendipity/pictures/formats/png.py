@@ -14,11 +14,8 @@ _DPI = 72  # one unit of a picture is a point, so font sizes need no conversion
 _MOST_PIXELS = 10_000
 
 
-def png(picture: Picture, scale: float = 2.0) -> bytes:
-    """A picture as PNG.
-
-    Args:
-        scale: pixels per unit; less where the picture would have more than 10,000 a side.
+def png(picture: Picture) -> bytes:
+    """A picture as PNG: two pixels a unit, or less where it would have more than 10,000 a side.
 
     Raises:
         UsageError: matplotlib is not installed.
@@ -28,7 +25,7 @@ def png(picture: Picture, scale: float = 2.0) -> bytes:
         from matplotlib.figure import Figure
     except ImportError:
         raise UsageError("PNG pictures need matplotlib: pip install serendipity-planner[plot]") from None
-    scale = min(scale, _MOST_PIXELS / max(picture.width, picture.height))
+    scale = min(2.0, _MOST_PIXELS / max(picture.width, picture.height))
     figure = Figure(figsize=(picture.width / _DPI, picture.height / _DPI), dpi=_DPI * scale)
     FigureCanvasAgg(figure)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
