@@ -25,7 +25,6 @@ class Beliefs:
         beta: how strictly the person is taken to minimise cost.
 
     Attributes:
-        candidates: the goals.
         weights: how probable each is.
 
     Raises:

@@ -93,7 +93,6 @@ class Following:
 
         Args:
             own: what they did by themselves.
-            executed: everything that took place.
             tried: what they found to be impossible.
         """
         human, task = self._human, self._task

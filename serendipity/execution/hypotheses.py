@@ -34,7 +34,6 @@ class Hypothesis:
         told: the person keeps to the robots' plan.
 
     Attributes:
-        task: the task with that goal.
         companion: plans for them, and plays what becomes of plans.
         following: what they may be following.
         adviser: what robots had best do.

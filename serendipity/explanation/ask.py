@@ -26,7 +26,6 @@ class Ask:
 
     Args:
         options: of the call that is explained.
-        human_plan: names of ``pi_H``, or None to predict it.
     """
 
     def __init__(

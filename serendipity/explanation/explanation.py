@@ -22,7 +22,6 @@ class Explanation(Output):
     """Why an answer is what it is.
 
     Attributes:
-        answer: what is explained.
         removal: what disappears from the human's plan and what replaces it; None without help.
         parts: what the answer's plan costs; None without a plan.
         moments: each start of the window; empty where windows play no part.

@@ -32,8 +32,6 @@ class TaskReport(Output):
     """The size of a task, and the findings about it.
 
     Attributes:
-        task: its name.
-        human: the human's name.
         agents: for each agent how many ground actions it takes part in.
         facts: how many there are after grounding.
         variables: how many finite-domain variables they make.

@@ -20,7 +20,6 @@ class Example:
         summary: one line for people.
         domain: the PDDL domain, relative to the data folder.
         problem: the PDDL problem, relative to the data folder.
-        human: the human's name.
         robots: the robots' names.
     """
 

@@ -39,7 +39,6 @@ class EngineCall:
     """Parameters of the engine.
 
     Attributes:
-        options: of the planning call.
         human: who is the human; None if nobody said.
         robots: who are the robots; None if nobody said.
         human_plan: what the human is going to do, or None.

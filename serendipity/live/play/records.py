@@ -32,10 +32,6 @@ class Records:
         participant: goes into each event.
         file: is added to, line by line, or None.
         events: that it holds already.
-
-    Attributes:
-        file: as given.
-        events: so far.
     """
 
     def __init__(self, participant: str, file: Path | None = None, events: Iterable[Event] = ()) -> None:

@@ -36,7 +36,6 @@ class RoundSetting:
     """One round.
 
     Attributes:
-        name: of the scenario.
         task: where it begins; its goal is the person's.
         discount: of robots' costs.
         view: one of ``VIEWS``.
