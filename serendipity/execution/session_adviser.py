@@ -12,18 +12,8 @@ from typing import Any, Final
 from serendipity.execution.advice import Advice, DecisionPoint
 from serendipity.execution.guard import Following, RobotActions
 from serendipity.facade.session import Session
-from serendipity.model import (
-    INFINITE,
-    Condition,
-    Deadline,
-    LimitReachedError,
-    Options,
-    PlanStep,
-    Result,
-    Task,
-    Window,
-)
-from serendipity.model.errors import LIMITS
+from serendipity.model import INFINITE, Condition, Deadline, Options, PlanStep, Result, Task, Window
+from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.numbers import as_written, total
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named, variant_named

@@ -6,18 +6,9 @@ from serendipity.execution.guard import Following
 from serendipity.execution.session_adviser import RestrictedSessions
 from serendipity.execution.why import Why
 from serendipity.facade.session import Session
-from serendipity.model import (
-    INFINITE,
-    Condition,
-    Deadline,
-    HumanModel,
-    HumanPlan,
-    LimitReachedError,
-    Options,
-    PlanError,
-    Task,
-)
-from serendipity.model.task.actions import apply
+from serendipity.model import INFINITE, Deadline, HumanModel, HumanPlan, Options, Task
+from serendipity.model.errors import LimitReachedError, PlanError
+from serendipity.model.task.actions import Condition, apply
 
 
 class Unbound:

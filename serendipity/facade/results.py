@@ -6,18 +6,9 @@ from fractions import Fraction
 from typing import Any
 
 from search.kernel.library import state_at_hand
-from serendipity.model import (
-    GapEntry,
-    GoalAnswer,
-    HumanPlan,
-    Options,
-    PlanStep,
-    Result,
-    Step,
-    Task,
-    TiedAnswer,
-)
+from serendipity.model import HumanPlan, Options, PlanStep, Result, Step, Task
 from serendipity.model.answers.answer import Answer, ServedGoal, Tried
+from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
 from serendipity.model.numbers import figure, rounded
 from serendipity.model.task.execution import actions_of, participants, shares
 

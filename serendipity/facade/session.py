@@ -11,19 +11,10 @@ from serendipity.facade.memory import SessionMemory
 from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned, planned_anytime
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
-from serendipity.model import (
-    Condition,
-    GroundAction,
-    HumanPlan,
-    PlanError,
-    PlanStep,
-    Result,
-    Task,
-    UsageError,
-)
+from serendipity.model import HumanPlan, PlanError, PlanStep, Result, Task, UsageError
 from serendipity.model.arguments import BY_NAME, expect
 from serendipity.model.keywords import listing
-from serendipity.model.task.actions import apply, conflicting
+from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
 from serendipity.model.task.facts import Facts
 from serendipity.model.task.task import canonical_name, several
 

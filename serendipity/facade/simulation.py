@@ -9,24 +9,10 @@ from search.modes.simulation import SimulatedEpoch, Simulation
 from search.modes.simulation import simulate as play
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
-from serendipity.model import (
-    Deadline,
-    HumanPlan,
-    InputError,
-    Options,
-    PlanStep,
-    Result,
-    Step,
-    Task,
-    Trace,
-    TraceEpoch,
-    TraceSkip,
-    UsageError,
-    Visible,
-)
-from serendipity.model.answers.trace import WHY
+from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Result, Step, Task, Visible
+from serendipity.model.answers.trace import WHY, Trace, TraceEpoch, TraceSkip
 from serendipity.model.arguments import FUNCTION, RESULT, TASK, expect, expect_or_none, shown
-from serendipity.model.errors import LIMITS
+from serendipity.model.errors import LIMITS, InputError, UsageError
 from serendipity.model.keywords import Horizon
 from serendipity.model.numbers import plain, rounded
 from serendipity.model.resources.limits import limits_from

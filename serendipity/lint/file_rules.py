@@ -8,23 +8,11 @@ from serendipity.lint.report import Finding
 from serendipity.lint.task_rules import listed
 from serendipity.model import Task
 from serendipity.pddl.grounding.quantifiers import literals
+from serendipity.pddl.parsing import lifted
 from serendipity.pddl.parsing.files import read_text
-from serendipity.pddl.parsing.lifted import (
-    EQUALITY,
-    And,
-    Expression,
-    Formula,
-    FunctionValue,
-    Literal,
-    Operation,
-    Or,
-    Quantified,
-    Schema,
-    Unit,
-)
 
 
-def file_findings(task: Task, units: Sequence[Unit]) -> Iterator[Finding]:
+def file_findings(task: Task, units: Sequence[lifted.Unit]) -> Iterator[Finding]:
     """All findings for which files are needed.
 
     Args:
@@ -38,13 +26,13 @@ def file_findings(task: Task, units: Sequence[Unit]) -> Iterator[Finding]:
     yield from requirement_findings(units)
 
 
-def _missing_goals(units: Sequence[Unit]) -> Iterator[Finding]:
+def _missing_goals(units: Sequence[lifted.Unit]) -> Iterator[Finding]:
     if all(unit.problem.goal_line is None for unit in units):
         files = listed([unit.problem_file for unit in units])
         yield Finding("warning", "goal-missing", f"no :goal in {files}")
 
 
-def _actions(task: Task, units: Sequence[Unit]) -> Iterator[Finding]:
+def _actions(task: Task, units: Sequence[lifted.Unit]) -> Iterator[Finding]:
     applied = {action.key[0] for action in task.actions}
     never = {
         s.name: None for unit in units for s in unit.domain.schemas if s.effects and s.name not in applied
@@ -54,7 +42,7 @@ def _actions(task: Task, units: Sequence[Unit]) -> Iterator[Finding]:
         yield Finding("warning", "action-never-applied", text)
 
 
-def _predicates(units: Sequence[Unit]) -> Iterator[Finding]:
+def _predicates(units: Sequence[lifted.Unit]) -> Iterator[Finding]:
     declared = {name: None for unit in units for name in unit.domain.predicates}
     schemas = [schema for unit in units for schema in unit.domain.schemas]
     read = {literal.key[0] for literal in _read(units, schemas)}
@@ -77,7 +65,7 @@ def _predicates(units: Sequence[Unit]) -> Iterator[Finding]:
             yield Finding(level, rule, f"{words}: {listed(sorted(names))}")
 
 
-def _functions(units: Sequence[Unit]) -> Iterator[Finding]:
+def _functions(units: Sequence[lifted.Unit]) -> Iterator[Finding]:
     declared = {name for unit in units for name in unit.domain.functions} - {"total-cost"}
     costs = [cost for unit in units for schema in unit.domain.schemas for cost in schema.increases]
     unread = declared - {name for cost in costs for name in _names(cost)}
@@ -86,7 +74,7 @@ def _functions(units: Sequence[Unit]) -> Iterator[Finding]:
         yield Finding("note", "function-unread", text)
 
 
-def _read(units: Sequence[Unit], schemas: Iterable[Schema]) -> Iterator[Literal]:
+def _read(units: Sequence[lifted.Unit], schemas: Iterable[lifted.Schema]) -> Iterator[lifted.Literal]:
     for unit in units:
         yield from literals(unit.problem.goal)
     for schema in schemas:
@@ -96,11 +84,11 @@ def _read(units: Sequence[Unit], schemas: Iterable[Schema]) -> Iterator[Literal]
                 yield from literals(effect.condition)
 
 
-def _names(expression: Expression) -> Iterator[str]:
+def _names(expression: lifted.Expression) -> Iterator[str]:
     match expression:
-        case FunctionValue():
+        case lifted.FunctionValue():
             yield expression.key[0]
-        case Operation():
+        case lifted.Operation():
             for value in expression.values:
                 yield from _names(value)
 
@@ -127,7 +115,7 @@ _CHECKED: Final = {*_PARTS[":adl"], *_PARTS[":quantified-preconditions"], ":acti
 """The requirements of which this module knows whether they are used."""
 
 
-def requirement_findings(units: Sequence[Unit]) -> Iterator[Finding]:
+def requirement_findings(units: Sequence[lifted.Unit]) -> Iterator[Finding]:
     """Requirements that are declared and not used, and the other way round, in each domain."""
     for unit in {unit.domain_file: unit for unit in units}.values():
         text = _COMMENT.sub("", read_text(unit.domain_file))
@@ -158,7 +146,7 @@ def _whole(names: frozenset[str] | set[str]) -> set[str]:
     return found
 
 
-def _used(unit: Unit) -> Iterator[str]:
+def _used(unit: lifted.Unit) -> Iterator[str]:
     if unit.priced:
         yield ":action-costs"
     yield from _of(unit.problem.goal)
@@ -172,18 +160,18 @@ def _used(unit: Unit) -> Iterator[str]:
                 yield ":conditional-effects"
 
 
-def _of(formula: Formula) -> Iterator[str]:
+def _of(formula: lifted.Formula) -> Iterator[str]:
     match formula:
-        case Literal():
-            if formula.key[0] == EQUALITY:
+        case lifted.Literal():
+            if formula.key[0] == lifted.EQUALITY:
                 yield ":equality"
             elif not formula.positive:
                 yield ":negative-preconditions"
-        case And() | Or():
-            if isinstance(formula, Or):
+        case lifted.And() | lifted.Or():
+            if isinstance(formula, lifted.Or):
                 yield ":disjunctive-preconditions"
             for part in formula.parts:
                 yield from _of(part)
-        case Quantified():
+        case lifted.Quantified():
             yield ":universal-preconditions" if formula.universal else ":existential-preconditions"
             yield from _of(formula.body)

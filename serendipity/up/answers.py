@@ -13,17 +13,8 @@ from unified_planning.plans import Plan
 
 from serendipity.facade.call import options_from
 from serendipity.facade.planning import plan_anytime
-from serendipity.model import (
-    INFINITE,
-    Deadline,
-    InputError,
-    LimitReachedError,
-    Options,
-    PlanError,
-    Result,
-    SerendipityError,
-    UsageError,
-)
+from serendipity.model import INFINITE, Deadline, Options, Result
+from serendipity.model.errors import InputError, LimitReachedError, PlanError, SerendipityError, UsageError
 from serendipity.model.resources.limits import limits_from
 from serendipity.up.kinds import ENGINE, with_metric
 from serendipity.up.plans import human_plan_of, plan_of

@@ -14,17 +14,7 @@ from unified_planning.model import Fluent, FNode, Variable
 from unified_planning.model import Parameter as UPParameter
 
 from serendipity.model import InputError
-from serendipity.pddl.parsing.lifted import (
-    EQUALITY,
-    And,
-    Effect,
-    Formula,
-    Key,
-    Literal,
-    Or,
-    Parameter,
-    Quantified,
-)
+from serendipity.pddl.parsing import lifted
 from serendipity.up.kinds import refusal
 from serendipity.up.vocabulary import Owner, Vocabulary
 
@@ -36,8 +26,8 @@ class Term(NamedTuple):
     """A term, or the start of an atom: the variables that it needs, and what has to hold of them."""
 
     words: tuple[str, ...]
-    hidden: tuple[Parameter, ...] = ()
-    guards: tuple[Literal, ...] = ()
+    hidden: tuple[lifted.Parameter, ...] = ()
+    guards: tuple[lifted.Literal, ...] = ()
 
 
 class Reader:
@@ -56,7 +46,7 @@ class Reader:
         self._owner = owner
         self._fresh = 0
 
-    def formula(self, node: FNode, bound: Bound | None = None, *, positive: bool = True) -> Formula:
+    def formula(self, node: FNode, bound: Bound | None = None, *, positive: bool = True) -> lifted.Formula:
         """A condition, or with ``positive=False`` its negation.
 
         Raises:
@@ -64,26 +54,26 @@ class Reader:
         """
         bound = bound or {}
         if node.is_bool_constant():
-            return And() if node.bool_constant_value() == positive else Or()
+            return lifted.And() if node.bool_constant_value() == positive else lifted.Or()
         if node.is_not():
             return self.formula(node.arg(0), bound, positive=not positive)
         if node.is_and() or node.is_or():
             parts = tuple(self.formula(part, bound, positive=positive) for part in node.args)
-            return And(parts) if node.is_and() == positive else Or(parts)
+            return lifted.And(parts) if node.is_and() == positive else lifted.Or(parts)
         if node.is_implies():
             first, second = node.args
             parts = (
                 self.formula(first, bound, positive=not positive),
                 self.formula(second, bound, positive=positive),
             )
-            return Or(parts) if positive else And(parts)
+            return lifted.Or(parts) if positive else lifted.And(parts)
         if node.is_iff():
             return self._alike(node, bound, positive)
         if node.is_exists() or node.is_forall():
             inner, parameters = self.bind(node.variables(), bound)
             self.quantified = True
             body = self.formula(node.arg(0), inner, positive=positive)
-            return Quantified(node.is_forall() == positive, parameters, body)
+            return lifted.Quantified(node.is_forall() == positive, parameters, body)
         if node.is_equals():
             return self._equal(node, bound, positive)
         if node.is_fluent_exp() or node.is_dot():
@@ -92,17 +82,17 @@ class Reader:
 
     def bind(
         self, variables: Sequence[Variable], bound: Bound
-    ) -> tuple[dict[Variable, str], tuple[Parameter, ...]]:
+    ) -> tuple[dict[Variable, str], tuple[lifted.Parameter, ...]]:
         """Names for quantified variables, and these as parameters."""
         fresh = [self._variable(variable.type) for variable in variables]
         names = (parameter.name for parameter in fresh)
         return {**bound, **dict(zip(variables, names, strict=True))}, tuple(fresh)
 
-    def parameter(self, parameter: UPParameter) -> Parameter:
+    def parameter(self, parameter: UPParameter) -> lifted.Parameter:
         """A declared parameter of an action."""
-        return Parameter(f"?{parameter.name}", self.vocabulary.type(parameter.type))
+        return lifted.Parameter(f"?{parameter.name}", self.vocabulary.type(parameter.type))
 
-    def target(self, node: FNode, bound: Bound) -> tuple[Fluent, Key]:
+    def target(self, node: FNode, bound: Bound) -> tuple[Fluent, lifted.Key]:
         """A fluent that is assigned to, with its predicate and arguments (in which are no fluents)."""
         inner = node.arg(0) if node.is_dot() else node
         return inner.fluent(), self._fluent(node, bound).words
@@ -122,10 +112,10 @@ class Reader:
         if (node.is_fluent_exp() or node.is_dot()) and node.type.is_user_type():
             words, hidden, guards = self._fluent(node, bound)
             value = self._variable(node.type)
-            return Term((value.name,), (*hidden, value), (*guards, Literal((*words, value.name))))
+            return Term((value.name,), (*hidden, value), (*guards, lifted.Literal((*words, value.name))))
         raise self.error(f"'{node}' is not supported as an object")
 
-    def value_of(self, kind: Fluent) -> Parameter:
+    def value_of(self, kind: Fluent) -> lifted.Parameter:
         """A variable for any value of an object fluent."""
         return self._variable(kind.type)
 
@@ -151,42 +141,44 @@ class Reader:
             tuple(guard for term in terms for guard in term.guards),
         )
 
-    def _equal(self, node: FNode, bound: Bound, positive: bool) -> Formula:
+    def _equal(self, node: FNode, bound: Bound, positive: bool) -> lifted.Formula:
         left, right = node.args
         if not left.type.is_user_type():
             raise self.error(f"'{node}' is about numbers: not supported as a condition")
         if right.is_fluent_exp() or right.is_dot():
             left, right = right, left
         if not (left.is_fluent_exp() or left.is_dot()):
-            words = (EQUALITY, *self.term(left, bound).words, *self.term(right, bound).words)
-            return Literal(words, positive)
+            words = (lifted.EQUALITY, *self.term(left, bound).words, *self.term(right, bound).words)
+            return lifted.Literal(words, positive)
         fluent, value = self._fluent(left, bound), self.term(right, bound)
         return self._closed(
             Term((*fluent.words, *value.words), fluent.hidden + value.hidden, fluent.guards + value.guards),
             positive,
         )
 
-    def _alike(self, node: FNode, bound: Bound, positive: bool) -> Formula:
+    def _alike(self, node: FNode, bound: Bound, positive: bool) -> lifted.Formula:
         left, right = node.args
         same, other = (
-            And((self.formula(left, bound, positive=first), self.formula(right, bound, positive=second)))
+            lifted.And(
+                (self.formula(left, bound, positive=first), self.formula(right, bound, positive=second))
+            )
             for first, second in ((True, positive), (False, not positive))
         )
-        return Or((same, other))
+        return lifted.Or((same, other))
 
-    def _closed(self, atom: Term, positive: bool) -> Formula:
-        literal = Literal(Key(atom.words), positive)
+    def _closed(self, atom: Term, positive: bool) -> lifted.Formula:
+        literal = lifted.Literal(lifted.Key(atom.words), positive)
         if not atom.hidden:
             return literal
         self.quantified = True
-        return Quantified(False, atom.hidden, And((*atom.guards, literal)))
+        return lifted.Quantified(False, atom.hidden, lifted.And((*atom.guards, literal)))
 
-    def _variable(self, kind: object) -> Parameter:
+    def _variable(self, kind: object) -> lifted.Parameter:
         self._fresh += 1
-        return Parameter(f"?.{self._fresh}", self.vocabulary.type(kind))
+        return lifted.Parameter(f"?.{self._fresh}", self.vocabulary.type(kind))
 
 
-def effects_of(reader: Reader, effect: UPEffect, precondition: Formula) -> Iterator[Effect]:
+def effects_of(reader: Reader, effect: UPEffect, precondition: lifted.Formula) -> Iterator[lifted.Effect]:
     """What one effect does.
 
     Raises:
@@ -205,8 +197,8 @@ def effects_of(reader: Reader, effect: UPEffect, precondition: Formula) -> Itera
     value = reader.term(effect.value, bound)
     known = _known_value(target, (precondition, *conditions))
     old = reader.value_of(fluent)
-    gone = Literal((*target, known or old.name), positive=False)
-    new = Literal((*target, *value.words))
+    gone = lifted.Literal((*target, known or old.name), positive=False)
+    new = lifted.Literal((*target, *value.words))
     if known is None or value.hidden:
         reader.quantified = True
     yield _effect(gone, parameters if known else (*parameters, old), conditions)
@@ -217,33 +209,35 @@ def _assigned(
     reader: Reader,
     value: FNode,
     bound: Bound,
-    target: Key,
-    parameters: tuple[Parameter, ...],
-    conditions: tuple[Formula, ...],
-) -> Iterator[Effect]:
+    target: lifted.Key,
+    parameters: tuple[lifted.Parameter, ...],
+    conditions: tuple[lifted.Formula, ...],
+) -> Iterator[lifted.Effect]:
     """A truth value that is assigned."""
     if value.is_bool_constant():
-        yield _effect(Literal(target, value.bool_constant_value()), parameters, conditions)
+        yield _effect(lifted.Literal(target, value.bool_constant_value()), parameters, conditions)
         return
     for truth in (True, False):
         case = reader.formula(value, bound, positive=truth)
-        yield _effect(Literal(target, truth), parameters, (*conditions, case))
+        yield _effect(lifted.Literal(target, truth), parameters, (*conditions, case))
 
 
-def _effect(literal: Literal, parameters: tuple[Parameter, ...], conditions: tuple[Formula, ...]) -> Effect:
+def _effect(
+    literal: lifted.Literal, parameters: tuple[lifted.Parameter, ...], conditions: tuple[lifted.Formula, ...]
+) -> lifted.Effect:
     condition = None
     if conditions:
-        condition = conditions[0] if len(conditions) == 1 else And(conditions)
-    return Effect(literal, parameters, condition)
+        condition = conditions[0] if len(conditions) == 1 else lifted.And(conditions)
+    return lifted.Effect(literal, parameters, condition)
 
 
-def _known_value(target: Key, conditions: tuple[Formula, ...]) -> str | None:
+def _known_value(target: lifted.Key, conditions: tuple[lifted.Formula, ...]) -> str | None:
     """The value that some conditions say a fluent has."""
     for part in conditions:
-        if isinstance(part, And):
+        if isinstance(part, lifted.And):
             found = _known_value(target, part.parts)
             if found is not None:
                 return found
-        elif isinstance(part, Literal) and part.positive and part.key[:-1] == target:
+        elif isinstance(part, lifted.Literal) and part.positive and part.key[:-1] == target:
             return part.key[-1]
     return None

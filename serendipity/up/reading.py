@@ -13,18 +13,7 @@ from unified_planning.model.metrics import MinimizeActionCosts, PlanQualityMetri
 from serendipity.model import Deadline, Task
 from serendipity.pddl.grounding.assemble import Blueprint, Source, assemble
 from serendipity.pddl.grounding.instantiate import Participants
-from serendipity.pddl.parsing.lifted import (
-    And,
-    Domain,
-    Expression,
-    Formula,
-    FunctionValue,
-    Key,
-    Operation,
-    Schema,
-    Unit,
-)
-from serendipity.pddl.parsing.lifted import Problem as CheckedProblem
+from serendipity.pddl.parsing import lifted
 from serendipity.pddl.participants import by_arguments, by_owner
 from serendipity.pddl.work import Work, within_limits
 from serendipity.up.agents import Cast, cast_of
@@ -105,7 +94,7 @@ def _read(vocabulary: Vocabulary, cast: Cast, left_out: list[str], work: Work) -
     goals = writer.unit(domain, cast.goals)
     sources = [Source(goals, some, _participants(cast, owner)) for owner, some in schemas.items()]
 
-    def reason(key: Key) -> str:
+    def reason(key: lifted.Key) -> str:
         left_out.append(" ".join(key))
         return f"action '{key[0]}': no agent is among its arguments"
 
@@ -137,14 +126,14 @@ class _Translator:
         self._costs = _cost_metric(vocabulary)
         self._initial = _Initial(vocabulary)
 
-    def schemas(self, owner: Owner) -> Iterator[Schema]:
+    def schemas(self, owner: Owner) -> Iterator[lifted.Schema]:
         """The actions of an owner."""
         for whose, action in self.vocabulary.actions():
             if whose is owner:
                 self._work.deadline.check()
                 yield self._schema(owner, action)
 
-    def domain(self, schemas: tuple[Schema, ...]) -> Domain:
+    def domain(self, schemas: tuple[lifted.Schema, ...]) -> lifted.Domain:
         """All but the initial state and the goal."""
         vocabulary = self.vocabulary
         predicates = {}
@@ -153,31 +142,31 @@ class _Translator:
                 types = [vocabulary.type(parameter.type) for parameter in fluent.signature]
                 value = [] if fluent.type.is_bool_type() else [vocabulary.type(fluent.type)]
                 predicates[vocabulary.predicate(owner, fluent)] = (*types, *value)
-        return Domain(_title(self.problem), vocabulary.types(), {}, predicates, {}, schemas)
+        return lifted.Domain(_title(self.problem), vocabulary.types(), {}, predicates, {}, schemas)
 
-    def unit(self, domain: Domain, goals: Sequence[tuple[Owner, FNode]]) -> Unit:
+    def unit(self, domain: lifted.Domain, goals: Sequence[tuple[Owner, FNode]]) -> lifted.Unit:
         """The problem with some of its goals."""
         parts = tuple(Reader(self.vocabulary, owner).formula(goal) for owner, goal in goals)
-        checked = CheckedProblem(
+        checked = lifted.Problem(
             name=_title(self.problem),
             domain_name=None,
             objects=self.vocabulary.objects(),
             init=self._initial.true,
             denied={},
             values=self._initial.values,
-            goal=And(parts),
+            goal=lifted.And(parts),
             goal_line=None,
             metric=self._costs is not None,
         )
-        return Unit(None, _title(self.problem), _title(self.problem), domain, checked)
+        return lifted.Unit(None, _title(self.problem), _title(self.problem), domain, checked)
 
-    def _schema(self, owner: Owner, action: Action) -> Schema:
+    def _schema(self, owner: Owner, action: Action) -> lifted.Schema:
         if not isinstance(action, InstantaneousAction) or action.simulated_effect is not None:
             raise refusal(self.problem, f"action '{action.name}': {type(action).__name__} is not supported")
         reader = Reader(self.vocabulary, owner)
-        precondition: Formula = And(tuple(map(reader.formula, action.preconditions)))
+        precondition: lifted.Formula = lifted.And(tuple(map(reader.formula, action.preconditions)))
         effects = tuple(e for effect in action.effects for e in effects_of(reader, effect, precondition))
-        return Schema(
+        return lifted.Schema(
             self.vocabulary.schema(owner, action),
             0,
             tuple(map(reader.parameter, action.parameters)),
@@ -187,19 +176,21 @@ class _Translator:
             quantified=reader.quantified,
         )
 
-    def _increases(self, action: Action) -> tuple[Expression, ...]:
+    def _increases(self, action: Action) -> tuple[lifted.Expression, ...]:
         cost = None if self._costs is None else self._costs.get_action_cost(action)
         return () if cost is None else (self._number(cost),)
 
-    def _number(self, node: FNode) -> Expression:
+    def _number(self, node: FNode) -> lifted.Expression:
         if node.is_constant():
             return Fraction(node.constant_value())
         if node.is_fluent_exp():
             terms = (Reader(self.vocabulary).term(argument, {}) for argument in node.args)
-            return FunctionValue((node.fluent().name, *(word for term in terms for word in term.words)))
+            return lifted.FunctionValue(
+                (node.fluent().name, *(word for term in terms for word in term.words))
+            )
         for test, operator in _OPERATORS:
             if getattr(node, test)():
-                return Operation(operator, tuple(map(self._number, node.args)))
+                return lifted.Operation(operator, tuple(map(self._number, node.args)))
         raise refusal(self.problem, f"'{node}' is not supported as a cost")
 
 
@@ -207,8 +198,8 @@ class _Initial:
     """The atoms that are true in the beginning, and the numbers that costs depend on."""
 
     def __init__(self, vocabulary: Vocabulary) -> None:
-        self.true: dict[Key, None] = {}
-        self.values: dict[Key, Fraction] = {}
+        self.true: dict[lifted.Key, None] = {}
+        self.values: dict[lifted.Key, Fraction] = {}
         self._vocabulary = vocabulary
         self._owners = {agent.name: agent for agent in vocabulary.agents}
         explicit = vocabulary.problem.explicit_initial_values

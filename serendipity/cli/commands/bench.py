@@ -217,35 +217,28 @@ def _covered(rows: "Sequence[Row]", where: list[Line | Grid], tell: _Tell, *, ma
 
 
 def _scaling(axes: str, seeds: int, time_limit: float, tell: _Tell) -> int:
-    from serendipity.evaluation.benchmark.scaling import (
-        AXES,
-        Sample,
-        exponents,
-        planned,
-        scale,
-        scaling_table,
-    )
+    from serendipity.evaluation.benchmark import scaling as scaled
     from serendipity.evaluation.measuring.figures import machine
 
-    names = list(AXES) if axes == "all" else axes.split(",")
-    total = len(planned(names, seeds))
-    samples: list[Sample] = []
+    names = list(scaled.AXES) if axes == "all" else axes.split(",")
+    total = len(scaled.planned(names, seeds))
+    samples: list[scaled.Sample] = []
     with progress.counting("tasks") as on_progress:
-        for sample in scale(names, seeds=seeds, time_limit=time_limit):
+        for sample in scaled.scale(names, seeds=seeds, time_limit=time_limit):
             samples.append(sample)
             on_progress(len(samples), total)
     parts: list[Line | Grid] = [
         Line(f"{len(samples)} tasks, each in a process of its own; {machine()}"),
         Line(f"Medians of processor time, at most {time_limit:g} s a call; the most memory."),
         Line(),
-        scaling_table(samples),
+        scaled.scaling_table(samples),
         Line(),
         Line("Exponents of time and memory, fitted to all tasks of an axis on a log-log scale:"),
         Line(),
-        exponents(samples),
+        scaled.exponents(samples),
     ]
 
-    tell(rendered(parts), table_of(Sample, samples), "series", samples)
+    tell(rendered(parts), table_of(scaled.Sample, samples), "series", samples)
     return ExitCode.ANSWERED
 
 

@@ -64,48 +64,39 @@ def crosscheck(
     Judges from outside are asked for the best plan of all agents: where there are any, every call is
     one in composite mode without a horizon.
     """
-    from serendipity.evaluation.crosscheck import (
-        FALSE_CERTIFICATES,
-        JUDGES,
-        Disagreement,
-        FalseCertificates,
-        PlanCall,
-        compare,
-        random_call,
-        shows_it_too,
-        shrink,
-        write_case,
-    )
+    from serendipity.evaluation import crosscheck as checking
     from serendipity.testing.judges import by_command, by_name
 
     names = judges.split(",")
     for name in names:
-        if name not in (*JUDGES, FALSE_CERTIFICATES):
-            known = ", ".join((*JUDGES, FALSE_CERTIFICATES))
+        if name not in (*checking.JUDGES, checking.FALSE_CERTIFICATES):
+            known = ", ".join((*checking.JUDGES, checking.FALSE_CERTIFICATES))
             raise UsageError(f"judges: expected some of {known}, got '{name}'")
-    chosen = {name: JUDGES[name] for name in names if name in JUDGES}
-    forged = FalseCertificates(time_limit) if FALSE_CERTIFICATES in names else None
+    chosen = {name: checking.JUDGES[name] for name in names if name in checking.JUDGES}
+    forged = checking.FalseCertificates(time_limit) if checking.FALSE_CERTIFICATES in names else None
 
     outside = [*map(by_name, judge or ()), *map(by_command, judge_command or ())]
     compared = partial(
-        compare, judges=chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit
+        checking.compare, judges=chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit
     )
 
-    def judged(call: PlanCall) -> Disagreement | None:
+    def judged(call: checking.PlanCall) -> checking.Disagreement | None:
         found = compared(call) if chosen or outside else None
         return found or (forged(call) if forged else None)
 
-    calls: Iterable[PlanCall]
+    calls: Iterable[checking.PlanCall]
     if not task.files and not task.agent and task.example is None:
         first = seed
         if first is None:
             first = secrets.randbelow(10**9)
             output.say(f"seed {first}\n")
-        calls, total = (random_call(first + k) for k in range(count)), count
+        calls, total = (checking.random_call(first + k) for k in range(count)), count
     else:
         given = task.load(Deadline(time_limit, memory_limit))
         modes = ("composite",) if outside else _MODES
-        calls = [PlanCall(given, {"mode": mode, "discount": d}) for mode in modes for d in _DISCOUNTS]
+        calls = [
+            checking.PlanCall(given, {"mode": mode, "discount": d}) for mode in modes for d in _DISCOUNTS
+        ]
         total = len(calls)
     with progress.counting("calls") as on_progress:
         for checked, call in enumerate(calls):
@@ -118,16 +109,18 @@ def crosscheck(
             output.say(f"{total} calls, {', '.join(names)}: 0 disagreements\n")
             output.say("".join(f"{line}\n" for line in forged.lines()) if forged else "")
             return ExitCode.ANSWERED
-    again: Callable[[PlanCall], bool] = FalseCertificates(time_limit).shows
-    if found.law != FALSE_CERTIFICATES:
-        again = shows_it_too(found, chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit)
+    again: Callable[[checking.PlanCall], bool] = checking.FalseCertificates(time_limit).shows
+    if found.law != checking.FALSE_CERTIFICATES:
+        again = checking.shows_it_too(
+            found, chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit
+        )
     with progress.working("shrinking") as on_news:
-        smallest = shrink(found.call, again, on_try=lambda tried: on_news(f"{tried} calls"))
+        smallest = checking.shrink(found.call, again, on_try=lambda tried: on_news(f"{tried} calls"))
     found = judged(smallest) or found
     words = [word for name in judge or () for word in ("--judge", name)]
     words += [word for text in judge_command or () for word in ("--judge-command", text)]
-    words += ["--judges", FALSE_CERTIFICATES] if found.law == FALSE_CERTIFICATES else []
-    commands = write_case(found, folder, words)
+    words += ["--judges", checking.FALSE_CERTIFICATES] if found.law == checking.FALSE_CERTIFICATES else []
+    commands = checking.write_case(found, folder, words)
     plans = "".join(f"{whose}: {steps}\n" for whose, steps in found.plans.items())
     output.say(f"after {checked} calls without, a disagreement: {found}\n{plans}reproduce: {commands}\n")
     return ExitCode.REFUTED

@@ -5,16 +5,9 @@ from contextlib import aclosing, asynccontextmanager
 from dataclasses import dataclass
 from typing import Any
 
+import prometheus_client as prometheus
 from fastapi import APIRouter, FastAPI, Request, Response
 from fastapi_offline import FastAPIOffline
-from prometheus_client import (
-    CONTENT_TYPE_LATEST,
-    CollectorRegistry,
-    Counter,
-    Gauge,
-    Histogram,
-    generate_latest,
-)
 from prometheus_client.core import CounterMetricFamily
 from prometheus_client.process_collector import ProcessCollector
 from prometheus_client.registry import Collector
@@ -226,12 +219,12 @@ class Metrics:
     """Figures of one server, of its workers and sessions; several servers in a process do not mix."""
 
     def __init__(self, pool: Pool, sessions: SessionStore) -> None:
-        self._registry = registry = CollectorRegistry()
+        self._registry = registry = prometheus.CollectorRegistry()
         ProcessCollector(registry=registry)
-        self._requests = Counter(
+        self._requests = prometheus.Counter(
             "serendipity_requests", "Requests answered.", ["path", "method", "status"], registry=registry
         )
-        self._seconds = Histogram(
+        self._seconds = prometheus.Histogram(
             "serendipity_request_seconds",
             "Until the answer was said.",
             ["path"],
@@ -245,7 +238,7 @@ class Metrics:
             ("queue", "Requests that wait for a worker.", lambda: figures.waiting),
             ("sessions", "Sessions that are remembered.", lambda: len(sessions)),
         ):
-            Gauge(f"serendipity_{name}", about, registry=registry).set_function(value)
+            prometheus.Gauge(f"serendipity_{name}", about, registry=registry).set_function(value)
         registry.register(_PoolCounters(pool))
 
     def count(self, scope: Scope, status: int, seconds: float) -> None:
@@ -257,7 +250,7 @@ class Metrics:
 
     def page(self) -> Response:
         """The figures as Prometheus reads them."""
-        return Response(generate_latest(self._registry), media_type=CONTENT_TYPE_LATEST)
+        return Response(prometheus.generate_latest(self._registry), media_type=prometheus.CONTENT_TYPE_LATEST)
 
 
 class _PoolCounters(Collector):

@@ -3,22 +3,12 @@
 from collections.abc import Iterator, Mapping
 
 from serendipity.model.printable import markup
-from serendipity.pictures.picture.drawing import (
-    Circle,
-    Group,
-    Picture,
-    Point,
-    Polyline,
-    Rect,
-    Shape,
-    Style,
-    Text,
-)
+from serendipity.pictures.picture import drawing
 
 _FONT = "system-ui, 'DejaVu Sans', 'Segoe UI', Arial, sans-serif"
 
 
-def svg(picture: Picture, *, inline: bool = False, **attributes: str) -> str:
+def svg(picture: drawing.Picture, *, inline: bool = False, **attributes: str) -> str:
     """A picture as an SVG element.
 
     Args:
@@ -47,30 +37,30 @@ def number(value: float) -> str:
     return f"{value:.2f}".rstrip("0").rstrip(".")
 
 
-def path(points: tuple[Point, ...], *, closed: bool = False) -> str:
+def path(points: tuple[drawing.Point, ...], *, closed: bool = False) -> str:
     """The ``d`` of a line through points."""
     joined = "L".join(f"{number(x)} {number(y)}" for x, y in points)
     return (f"M{joined}" + ("Z" if closed else "")) if points else ""
 
 
-def _shape(shape: Shape) -> Iterator[str]:
+def _shape(shape: drawing.Shape) -> Iterator[str]:
     match shape:
-        case Rect():
+        case drawing.Rect():
             place = {"x": shape.x, "y": shape.y, "width": shape.width, "height": shape.height}
             corner = {"rx": number(shape.round)} if shape.round else {}
             where = {key: number(value) for key, value in place.items()}
             yield f"<rect{_attributes({**where, **corner, **_paint(shape.style)})}/>"
-        case Circle():
+        case drawing.Circle():
             place = {"cx": shape.x, "cy": shape.y, "r": shape.radius}
             where = {key: number(value) for key, value in place.items()}
             yield f"<circle{_attributes({**where, **_paint(shape.style)})}/>"
-        case Polyline():
+        case drawing.Polyline():
             drawn = {"d": path(shape.points, closed=shape.closed), **_paint(shape.style)}
             joins = {"stroke-linejoin": "round", "stroke-linecap": "round"}
             yield f"<path{_attributes({**drawn, **joins, **_data(shape.data)})}/>"
-        case Text():
+        case drawing.Text():
             yield _text(shape)
-        case Group():
+        case drawing.Group():
             placed = {"transform": f"translate({number(shape.x)} {number(shape.y)})"}
             moved = placed if shape.x or shape.y or shape.data else {}
             faint = {"opacity": number(shape.opacity)} if shape.opacity < 1 else {}
@@ -82,7 +72,7 @@ def _shape(shape: Shape) -> Iterator[str]:
             yield "</g>"
 
 
-def _text(text: Text) -> str:
+def _text(text: drawing.Text) -> str:
     attributes = {
         "x": number(text.x),
         "y": number(text.y),
@@ -95,7 +85,7 @@ def _text(text: Text) -> str:
     return f"<text{_attributes(attributes)}>{markup(text.text)}</text>"
 
 
-def _paint(style: Style) -> dict[str, str]:
+def _paint(style: drawing.Style) -> dict[str, str]:
     paint = {"fill": style.fill or "none"}
     if style.stroke is not None:
         paint |= {"stroke": style.stroke, "stroke-width": number(style.width)}
