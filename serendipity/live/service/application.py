@@ -16,16 +16,8 @@ from starlette.types import Scope
 
 from serendipity import __version__
 from serendipity.live.guards.middleware import Access, BodyLimits, Responses
+from serendipity.live.service import answering
 from serendipity.live.service import requests as asked
-from serendipity.live.service.answering import (
-    HANDLERS,
-    REFUSALS,
-    Answers,
-    all_of,
-    answers,
-    as_events,
-    as_json,
-)
 from serendipity.live.service.sessions import Remembered, SessionStore
 from serendipity.live.workers.pool import Pool, PoolLimits
 
@@ -46,23 +38,23 @@ def call_router(pool: Pool) -> APIRouter:
     """The paths of calls that stand for themselves."""
     router = APIRouter(tags=["calls"])
 
-    def said(job: str, call: asked.RequestPart) -> Answers:
-        return answers(pool, job, call.model_dump_json().encode())
+    def said(job: str, call: asked.RequestPart) -> answering.Answers:
+        return answering.answers(pool, job, call.model_dump_json().encode())
 
     @router.post("/plan", responses=_RESULT, response_class=Response)
     async def plan(call: asked.PlanRequest, request: Request) -> Response:
         """The best plan in which robots help the human, with a proof that none is better."""
-        return await as_json(request, said("plan", call))
+        return await answering.as_json(request, said("plan", call))
 
     @router.post("/plan/anytime", responses=_STREAM, response_class=Response)
     async def plan_anytime(call: asked.AnytimeRequest, request: Request) -> Response:
         """The same with answers on the way, as server-sent events; the last one stands."""
-        return await as_events(request, said("plan_anytime", call))
+        return await answering.as_events(request, said("plan_anytime", call))
 
     @router.post("/verify", responses=_CERTIFICATE, response_class=Response)
     async def verify(call: asked.VerifyRequest, request: Request) -> Response:
         """Check a result claim by claim, independently of the search."""
-        return await as_json(request, said("verify", call))
+        return await answering.as_json(request, said("verify", call))
 
     return router
 
@@ -71,7 +63,7 @@ def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
     """The paths of sessions' calls."""
     router = APIRouter(prefix="/sessions", tags=["sessions"])
 
-    async def said(name: str, call: str, given: asked.RequestPart) -> Answers:
+    async def said(name: str, call: str, given: asked.RequestPart) -> answering.Answers:
         with sessions.calling(name) as session:
             async with aclosing(_said(pool, session, call, given.model_dump())) as bodies:
                 async for body in bodies:
@@ -79,14 +71,14 @@ def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
 
     async def moved(request: Request, name: str, call: str, given: asked.RequestPart) -> dict[str, Any]:
         with sessions.calling(name) as session:
-            await all_of(request, _said(pool, session, call, given.model_dump()))
+            await answering.all_of(request, _said(pool, session, call, given.model_dump()))
             return session.stands
 
     @router.post("", status_code=201, response_model=asked.SessionState)
     async def begin(call: asked.SessionRequest, request: Request) -> dict[str, Any]:
         """Begin a session."""
         session = sessions.begin(call.model_dump())
-        await all_of(request, _said(pool, session, "begin", {}))
+        await answering.all_of(request, _said(pool, session, "begin", {}))
         sessions.add(session)
         return session.stands
 
@@ -103,12 +95,12 @@ def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
     @router.post("/{name}/plan", responses=_RESULT, response_class=Response)
     async def plan(name: str, call: asked.SessionPlanRequest, request: Request) -> Response:
         """The best answer from where the session stands."""
-        return await as_json(request, said(name, "plan", call))
+        return await answering.as_json(request, said(name, "plan", call))
 
     @router.post("/{name}/plan/anytime", responses=_STREAM, response_class=Response)
     async def plan_anytime(name: str, call: asked.SessionPlanRequest, request: Request) -> Response:
         """The same with answers on the way, as server-sent events; the last one stands."""
-        return await as_events(request, said(name, "plan_anytime", call))
+        return await answering.as_events(request, said(name, "plan_anytime", call))
 
     @router.post("/{name}/execute", response_model=asked.SessionState)
     async def execute(name: str, call: asked.ExecuteRequest, request: Request) -> dict[str, Any]:
@@ -128,8 +120,8 @@ def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
     return router
 
 
-def _said(pool: Pool, session: Remembered, call: str, given: dict[str, Any]) -> Answers:
-    return answers(pool, "session", session.asked(call, given), session)
+def _said(pool: Pool, session: Remembered, call: str, given: dict[str, Any]) -> answering.Answers:
+    return answering.answers(pool, "session", session.asked(call, given), session)
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,13 +171,13 @@ def service(limits: ServiceLimits, hosts: Sequence[str], token: str | None = Non
         summary="Plan help for a person who did not ask for it, and prove that none is better.",
         lifespan=lifespan,
         redoc_url=None,
-        responses=REFUSALS,
+        responses=answering.REFUSALS,
         middleware=[
             Middleware(Responses, inline=True, count=metrics.count),
             Middleware(Access, hosts=hosts, token=token),
             Middleware(BodyLimits, most=limits.body, seconds=limits.body_seconds),
         ],
-        exception_handlers=HANDLERS,
+        exception_handlers=answering.HANDLERS,
     )
     app.include_router(call_router(pool))
     app.include_router(session_router(pool, sessions))

@@ -9,15 +9,9 @@ from typing import Any, Final
 from serendipity.model.numbers import plain
 from serendipity.model.printable import markup, printable
 from serendipity.pictures.formats.svg import path, svg
+from serendipity.pictures.picture import timeline_picture as timeline
 from serendipity.pictures.picture.drawing import Picture, agent_colours, on
 from serendipity.pictures.picture.map_picture import MARGIN, Token, map_picture, tokens, trails
-from serendipity.pictures.picture.timeline_picture import (
-    COLUMN,
-    columns,
-    cursor,
-    lane_labels,
-    timeline_picture,
-)
 from serendipity.pictures.scene.crowds import agent_key
 from serendipity.pictures.scene.scene import Frame, Scene, headline, subtitle
 
@@ -33,8 +27,8 @@ def page(scene: Scene) -> str:
     last = scene.frames[-1]
     city = map_picture(scene, 0)
     data = json.dumps(_data(scene), ensure_ascii=False, separators=(",", ":"))
-    lanes = timeline_picture(scene)
-    lanes = Picture(lanes.width, lanes.height, (*lanes.shapes, cursor(scene)), lanes.description)
+    lanes = timeline.timeline_picture(scene)
+    lanes = Picture(lanes.width, lanes.height, (*lanes.shapes, timeline.cursor(scene)), lanes.description)
     return Template(_text("page.html")).substitute(
         title=markup(f"{scene.name}: {headline(scene)}"),
         headline=markup(headline(scene)),
@@ -47,7 +41,7 @@ def page(scene: Scene) -> str:
         without_map="hidden" if city is None else "",
         legend=_legend(scene),
         last=last.epoch,
-        labels=svg(lane_labels(scene), inline=True),
+        labels=svg(timeline.lane_labels(scene), inline=True),
         lanes=svg(lanes, inline=True, id="lanes"),
         rows=_rows(scene),
         bars=_bars(scene),
@@ -73,7 +67,7 @@ def _data(scene: Scene) -> dict[str, Any]:
         "frames": [_frame(scene, frame) for frame in scene.frames],
         "trails": {key: [path(points)[1:] for points in steps] for key, steps in trails(scene).items()},
         "meetings": [{"epoch": meeting.epoch, "text": printable(meeting.text)} for meeting in scene.meetings],
-        "column": COLUMN,
+        "column": timeline.COLUMN,
         "margin": MARGIN,
         "most": max(float(scene.frames[-1].cost), float(scene.frames[-1].former_spent), 1e-9),
         "colours": {str(i): colour for i, colour in agent_colours(len(scene.agents), scene.human).items()},
@@ -108,12 +102,14 @@ def _token(key: str, token: Token) -> list[float | int | str | None]:
 
 def _rows(scene: Scene) -> str:
     """The timeline in rows, for paper, which can't be scrolled."""
-    labels = svg(lane_labels(scene), inline=True)
+    labels = svg(timeline.lane_labels(scene), inline=True)
     ends = [
-        (first, min(first + _PRINTED, columns(scene)) - 1) for first in range(0, columns(scene), _PRINTED)
+        (first, min(first + _PRINTED, timeline.columns(scene)) - 1)
+        for first in range(0, timeline.columns(scene), _PRINTED)
     ]
     return "".join(
-        f"<div>{labels}{svg(timeline_picture(scene, first, last), inline=True)}</div>" for first, last in ends
+        f"<div>{labels}{svg(timeline.timeline_picture(scene, first, last), inline=True)}</div>"
+        for first, last in ends
     )
 
 

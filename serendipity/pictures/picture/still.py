@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final
 
+from serendipity.pictures.picture import timeline_picture as timeline
 from serendipity.pictures.picture.drawing import (
     FAINT_INK,
     FORMER,
@@ -22,13 +23,6 @@ from serendipity.pictures.picture.drawing import (
     agent_colours,
 )
 from serendipity.pictures.picture.map_picture import map_picture
-from serendipity.pictures.picture.timeline_picture import (
-    COLUMN,
-    LABELS,
-    columns,
-    lane_labels,
-    timeline_picture,
-)
 from serendipity.pictures.scene.scene import Scene, headline, subtitle
 
 _MARGIN: Final = 20.0
@@ -48,9 +42,9 @@ def still(scene: Scene, epoch: int | None = None) -> Picture:
     if scene.layout is not None and scene.layout.width > _WIDEST_MAP and visited:
         scene = replace(scene, layout=scene.layout.around(visited))
     city = map_picture(scene, now)
-    fitting = 0 if city is None else int((city.width - LABELS) / COLUMN)
-    per_row = min(columns(scene), max(_MOST_COLUMNS, fitting))
-    wide = max(LABELS + per_row * COLUMN, 0 if city is None else city.width, _LEAST)
+    fitting = 0 if city is None else int((city.width - timeline.LABELS) / timeline.COLUMN)
+    per_row = min(timeline.columns(scene), max(_MOST_COLUMNS, fitting))
+    wide = max(timeline.LABELS + per_row * timeline.COLUMN, 0 if city is None else city.width, _LEAST)
     shapes: list[Shape] = [
         Text(0, 14, headline(scene), 24, INK, "start", bold=True),
         Text(0, 46, subtitle(scene), 16, FAINT_INK, "start"),
@@ -62,10 +56,10 @@ def still(scene: Scene, epoch: int | None = None) -> Picture:
         y += city.height + 10
         shapes.append(Group(tuple(_legend(scene)), 0, y))
         y += 40
-    labels = lane_labels(scene)
-    for first in range(0, columns(scene), per_row):
-        row = timeline_picture(scene, first, min(first + per_row, columns(scene)) - 1, now)
-        shapes += [Group(labels.shapes, 0, y), Group(row.shapes, LABELS, y)]
+    labels = timeline.lane_labels(scene)
+    for first in range(0, timeline.columns(scene), per_row):
+        row = timeline.timeline_picture(scene, first, min(first + per_row, timeline.columns(scene)) - 1, now)
+        shapes += [Group(labels.shapes, 0, y), Group(row.shapes, timeline.LABELS, y)]
         y += row.height + 14
     body = Group(tuple(shapes), _MARGIN, _MARGIN)
     return Picture(wide + 2 * _MARGIN, y + _MARGIN, (body,), f"{headline(scene)}. {subtitle(scene)}")
