@@ -12,9 +12,8 @@ from fractions import Fraction
 
 from search import PreparedTask
 from search.modes.simulation.companion import Companion
-from serendipity.execution.advice import Advice, Adviser, Allows, DecisionPoint
+from serendipity.execution.advice import Advice, Adviser, Allows, DecisionPoint, ReactiveAdviser
 from serendipity.execution.guard import Following, RobotActions
-from serendipity.execution.reactive_adviser import ReactiveAdviser
 from serendipity.execution.session_adviser import SessionAdviser
 from serendipity.execution.unbound import Unbound
 from serendipity.facade.results import named_steps

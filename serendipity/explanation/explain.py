@@ -5,8 +5,7 @@ from dataclasses import replace
 from typing import Final, TypeVar, Unpack
 
 from serendipity.explanation.ask import PROVED, Ask, discount_threshold, parts_of, window_weight_threshold
-from serendipity.explanation.explanation import Explanation
-from serendipity.explanation.misses import misses, moments, removal_of
+from serendipity.explanation.explanation import Explanation, misses, moments, removal_of
 from serendipity.explanation.wording import sentences
 from serendipity.facade.call import options_from
 from serendipity.facade.interruptibility import InterruptionReport, interruptions

@@ -2,15 +2,178 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import groupby
 from typing import Any, Final
 
-from serendipity.explanation.ask import Parts, Threshold
-from serendipity.explanation.misses import Miss, Moment
-from serendipity.facade.interruptibility import Removal
-from serendipity.model import Result
-from serendipity.model.answers.fields import written
+from serendipity.explanation.ask import Ask, Parts, Threshold
+from serendipity.facade.interruptibility import Interruption, InterruptionReport, Removal, removal
+from serendipity.model import Result, Window
+from serendipity.model.answers.fields import Written, written
+from serendipity.model.numbers import as_written
 from serendipity.model.telling import Grid, Line, Output
+
+WHY: Final = {
+    "chosen": "this is the answer",
+    "as-good": "costs the team as much; the later start is preferred",
+    "saves-less": "would save less",
+    "not-in-time": "too early: robots can't be there in time",
+    "costs-more": "would cost as much as it saves, or more",
+    "prefix": "too late: by then the plan that is followed leaves nothing to save",
+    "nothing": "no robot can make the human's plan cheaper",
+}
+"""What the reasons mean."""
+
+
+@dataclass(frozen=True, slots=True)
+class Moment(Written):
+    """One start of the window.
+
+    Attributes:
+        start: ``xi1``.
+        window: the best window that starts there.
+        cost: least cost for the team in it, or None where no plan fits.
+        why: a key of ``WHY``.
+        instead: the nearest window from there that would help, if any.
+        saving: what the team saves in ``instead`` (``not-in-time``), or the human does (``costs-more``).
+    """
+
+    start: int
+    window: Window
+    cost: Fraction | None
+    why: str
+    instead: Window | None = None
+    saving: Fraction | None = None
+
+
+def moments(report: InterruptionReport, answer: Result) -> tuple[Moment, ...]:
+    """Each start, judged by the objective of the call that is explained."""
+    weight = answer.options.window_weight
+    starts: dict[int, list[Interruption]] = {}
+    for entry in report.windows:
+        starts.setdefault(entry.window.start, []).append(entry)
+    return tuple(_moment(start, entries, report, answer, weight) for start, entries in sorted(starts.items()))
+
+
+def _moment(
+    start: int, entries: list[Interruption], report: InterruptionReport, answer: Result, weight: Fraction
+) -> Moment:
+    fitting = [entry for entry in entries if entry.team_cost is not None]
+    if not fitting:
+        return Moment(start, entries[0].window, None, "prefix")
+
+    def order(entry: Interruption) -> tuple[Fraction, Fraction, int]:
+        assert entry.team_cost is not None
+        return entry.team_cost + weight * len(entry.window), entry.team_cost, len(entry.window)
+
+    best = min(fitting, key=order)
+    cost = best.team_cost
+    if answer.window is not None and answer.window.start == start:
+        return Moment(start, answer.window, cost, "chosen")
+    if _positive(best.team_saving):
+        as_good = answer.cost is not None and cost == as_written(answer.cost)
+        return Moment(start, best.window, cost, "as-good" if as_good else "saves-less")
+    later = next((entry for entry in fitting if _positive(entry.team_saving)), None)
+    if later is not None:
+        return Moment(start, best.window, cost, "not-in-time", later.window, later.team_saving)
+    dear = next((entry for entry in fitting if _positive(entry.human_saving)), None)
+    if dear is not None:
+        return Moment(start, best.window, cost, "costs-more", dear.window, dear.human_saving)
+    return Moment(start, best.window, cost, "prefix" if report.interruptible else "nothing")
+
+
+def _positive(value: Fraction | None) -> bool:
+    return value is not None and value > 0
+
+
+RULES: Final = {
+    "window-length": "a longer interruption (window_weight 0)",
+    "prefix": "telling the human (communication mode)",
+    "max_window": "longer windows (no max_window)",
+    "suffix": "letting the human replan after the window (suffix replan)",
+    "preservation": "keeping only what the human needs (preservation kernel)",
+    "interference": "the paper's interference rule",
+    "max_cost": "dearer plans (no max_cost)",
+}
+"""The rules that can be relaxed, and what that means."""
+
+_LOOSEST: Final = {
+    "max_window": None,
+    "suffix": "replan",
+    "preservation": "kernel",
+    "interference": "paper",
+    "max_cost": None,
+}
+"""The loosest value of each option that restricts plans."""
+
+
+@dataclass(frozen=True, slots=True)
+class Miss:
+    """What relaxing one rule would give.
+
+    Attributes:
+        rule: a key of ``RULES``.
+        cost: of the answer then.
+        saving: against the human's own plan.
+        window: of the answer then, or the shortest that its cost needs.
+        removal: what would disappear from their plan, and what would replace it.
+    """
+
+    rule: str
+    cost: float
+    saving: float
+    window: Window | None
+    removal: Removal
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object."""
+        return {
+            **written(self, ("rule", "cost", "saving", "window")),
+            "removed": list(self.removal.removed),
+            "replacement": list(self.removal.replacement),
+        }
+
+
+def misses(ask: Ask, report: InterruptionReport | None) -> tuple[Miss, ...]:
+    """For each rule the answer without it, where that is an opportunity; cheapest first."""
+    found = []
+    for rule, changes in _relaxations(ask):
+        answer = ask(**changes)
+        if answer.opportunity and answer.cost is not None and answer.saving is not None:
+            window = answer.window or _shortest(report, answer)
+            found.append(Miss(rule, answer.cost, answer.saving, window, removal_of(answer)))
+    return tuple(sorted(found, key=lambda miss: miss.cost))
+
+
+def removal_of(answer: Result) -> Removal:
+    """What an answer takes out of the human's plan, and what they do instead."""
+    steps = sorted(answer.plan or (), key=lambda step: step.epoch)
+    executed = tuple(step.action for step in steps if answer.human in step.agents)
+    return removal(answer.human_plan or (), executed)
+
+
+def _relaxations(ask: Ask) -> list[tuple[str, dict[str, Any]]]:
+    options = ask.options
+    wanted: list[tuple[str, dict[str, Any]]] = []
+    if options.windowed and options.window_weight > 0:
+        wanted.append(("window-length", {"window_weight": 0}))
+    if options.mode == "serendipity":
+        wanted.append(("prefix", {"mode": "communication", "keep_prefix": False}))
+    for name, loosest in _LOOSEST.items():
+        if getattr(options, name) != loosest:
+            wanted.append((name, {name: loosest}))
+    return wanted
+
+
+def _shortest(report: InterruptionReport | None, answer: Result) -> Window | None:
+    """The shortest window in which the team can have the answer's cost."""
+    windows = [
+        entry.window
+        for entry in (report.windows if report else ())
+        if entry.team_cost is not None and float(entry.team_cost) == answer.cost
+    ]
+    return min(windows, key=lambda window: (len(window), -window.start), default=None)
+
 
 SCHEMA: Final = "serendipity.explanation/1"
 

@@ -6,8 +6,7 @@ from itertools import groupby
 from typing import Final
 
 from serendipity.explanation.ask import Threshold
-from serendipity.explanation.explanation import Explanation
-from serendipity.explanation.misses import RULES, WHY, Miss, Moment
+from serendipity.explanation.explanation import RULES, WHY, Explanation, Miss, Moment
 from serendipity.model import Result, Window
 from serendipity.model.errors import limit_words
 from serendipity.model.numbers import as_written, plain

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.cli.files.human_plan import checked_plan
+from serendipity.cli.files.plans import checked_plan
 from tests.cli.conftest import Run, assert_one_line
 
 

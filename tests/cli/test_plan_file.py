@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import serendipity
-from serendipity.cli.files.plan_file import plan_file
+from serendipity.cli.files.plans import plan_file
 from serendipity.model import Result, Task
 from serendipity.testing.builders import task
 from serendipity.testing.cases import WORKED, Worked

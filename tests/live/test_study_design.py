@@ -11,8 +11,7 @@ import serendipity
 from serendipity.cli.app import main
 from serendipity.live.play.round import CONDITIONS, RoundSetting
 from serendipity.live.study.design import open_design
-from serendipity.live.study.drawing import draw, order, places
-from serendipity.live.study.rehearsal import fault, rehearse
+from serendipity.live.study.drawing import draw, fault, order, places, rehearse
 from serendipity.model import InputError, UsageError
 from tests.live.studies import PLAIN
 

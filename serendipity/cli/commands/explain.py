@@ -5,7 +5,7 @@ from typing import Annotated, Final
 
 import serendipity
 from serendipity.cli.exit_codes import OF_STATUS
-from serendipity.cli.files.human_plan import checked_plan
+from serendipity.cli.files.plans import checked_plan
 from serendipity.cli.files.reading import about, read_json
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 import serendipity
 from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.files.human_plan import checked_plan
+from serendipity.cli.files.plans import checked_plan
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
 from serendipity.cli.text.render import shown

@@ -42,7 +42,7 @@ def plan(
     loaded = task.load(deadline)
     asked = options.given | limited.given | {"deadline": deadline.sooner(_CHECK_SHARE)}
     if options.human_plan is not None:
-        from serendipity.cli.files.human_plan import checked_plan
+        from serendipity.cli.files.plans import checked_plan
 
         asked["human_plan"] = checked_plan(options.human_plan, loaded)
     if goals is not None:
@@ -68,7 +68,7 @@ def plan(
     certificate, certify = _certificate(loaded, result, cancelled, deadline, certify=certify)
     answers = [output.Answer(_told(loaded, result, certificate, form, claims=certify), to.output_file)]
     if save_plan is not None and result.plan is not None:
-        from serendipity.cli.files.plan_file import plan_file
+        from serendipity.cli.files.plans import plan_file
 
         answers.append(output.Answer(plan_file(loaded, result), save_plan, "--save-plan"))
     elif save_plan is not None:

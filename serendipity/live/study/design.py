@@ -13,8 +13,16 @@ import serendipity
 from serendipity.live.play.labels import labels_for, read_settings
 from serendipity.live.play.records import made
 from serendipity.live.play.round import RoundSetting
-from serendipity.live.study.drawing import draw, numbered, practice
-from serendipity.live.study.rehearsal import Rehearsal, fault, rehearse, report, to_dict
+from serendipity.live.study.drawing import (
+    Rehearsal,
+    draw,
+    fault,
+    numbered,
+    practice,
+    rehearse,
+    report,
+    to_dict,
+)
 from serendipity.live.study.texts import OwnScenario, StudyFile
 from serendipity.model import InputError, SerendipityError, UsageError
 from serendipity.model.schemas import schema_fault
