@@ -34,7 +34,7 @@ def draw(scene: Scene, suffix: str, epoch: int | None = None) -> str | bytes:
         from serendipity.pictures.formats.page import page
 
         return page(scene)
-    from serendipity.pictures.picture.still import still
+    from serendipity.pictures.picture.timeline_picture import still
 
     return _written(still(scene, epoch), suffix, ".html, .svg or .png")
 

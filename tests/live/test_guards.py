@@ -10,7 +10,7 @@ import uvicorn
 from fastapi import FastAPI
 from starlette.middleware import Middleware
 
-from serendipity.live.guards import addresses, connections
+from serendipity.live.guards import connections
 from serendipity.live.guards.connections import ImpatientProtocol
 from serendipity.live.guards.middleware import BodyLimits
 from serendipity.live.service.answering import HANDLERS
@@ -26,7 +26,7 @@ def port() -> Iterator[int]:
     async def answer(body: dict[str, int]) -> dict[str, int]:
         return body
 
-    with pytest.MonkeyPatch.context() as patch, addresses.listening("127.0.0.1", 0) as listener:
+    with pytest.MonkeyPatch.context() as patch, connections.listening("127.0.0.1", 0) as listener:
         patch.setattr(connections, "_SECONDS", 0.3)
         config = uvicorn.Config(app, http=ImpatientProtocol, ws="none", log_config=None, timeout_keep_alive=1)
         server = uvicorn.Server(config)
@@ -71,5 +71,5 @@ def test_nobody_is_waited_for_without_end(port: int, said: str, answer: bytes) -
     ],
 )
 def test_which_addresses_only_this_machine_reaches(host: str, local: bool) -> None:
-    assert addresses.loopback(host) is local
-    assert ("localhost" in addresses.hosts(host)) is (local or host in ("0.0.0.0", "::"))
+    assert connections.loopback(host) is local
+    assert ("localhost" in connections.hosts(host)) is (local or host in ("0.0.0.0", "::"))

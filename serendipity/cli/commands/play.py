@@ -95,8 +95,7 @@ def play(
     if rounds is not None and not 1 <= rounds <= 50:
         raise UsageError(f"--rounds: expected a number from 1 to 50, got {rounds}")
     try:
-        from serendipity.live.guards import addresses
-        from serendipity.live.guards.connections import serve as run
+        from serendipity.live.guards import connections
         from serendipity.live.play.application import application
     except ImportError as missing:
         raise UsageError(f"play: needs {missing.name}: install serendipity-planner[live]") from None
@@ -106,21 +105,21 @@ def play(
         from serendipity.live.study.study import Study
 
         settings = _settings(given, rounds, seed)
-        with nullcontext() if report else addresses.listening(host, port) as listener:
+        with nullcontext() if report else connections.listening(host, port) as listener:
             with progress.working("playing scenarios"):
                 design = open_design(study, labels, **settings)
             if listener is None:
                 output.say(design.report)
                 return ExitCode.ANSWERED
             opened = Study(design, study)
-            url = addresses.url(listener)
+            url = connections.url(listener)
             _say(
                 f"Participants join on {url}; Ctrl-C stops it. Recorded in {study}.\n"
                 f"For whoever runs it: {url}/experimenter/{design.secret}/\n{design.report}"
             )
             for fault in opened.faults:
                 tell(f"Warning: {fault}")
-            run(application(opened, addresses.hosts(host, allow_host or ())), listener)
+            connections.serve(application(opened, connections.hosts(host, allow_host or ())), listener)
         return ExitCode.ANSWERED
     from serendipity.live.play.labels import labels_for
     from serendipity.live.play.records import record_in
@@ -129,16 +128,16 @@ def play(
 
     shown = task.example if named else _EXAMPLE
     loaded = task.but(example=shown).load()
-    with addresses.listening(host, port) as listener:  # first, or a port in use leaves an empty record
+    with connections.listening(host, port) as listener:  # first, or a port in use leaves an empty record
         with progress.working("getting ready"):
             where = record_in(records or _RECORDS)
             how |= {"condition": robots or "silent", "goals": goals, "labels": labels_for(loaded, labels)}
             opened = SharedRounds(RoundSetting(shown or loaded.name, loaded, **how), where)
         _say(
-            f"Play on {addresses.url(listener)}; Ctrl-C stops it. Recorded in {where}.\n"
+            f"Play on {connections.url(listener)}; Ctrl-C stops it. Recorded in {where}.\n"
             f"To go on with this round another time: --records {where}\n"
         )
-        run(application(opened, addresses.hosts(host)), listener)
+        connections.serve(application(opened, connections.hosts(host)), listener)
     return ExitCode.ANSWERED
 
 

@@ -38,14 +38,13 @@ def serve(
         if number is not None and number < least:
             raise UsageError(f"{name}: expected at least {least}, got {number}")
     try:
-        from serendipity.live.guards import addresses
-        from serendipity.live.guards.connections import serve as run
+        from serendipity.live.guards import connections
         from serendipity.live.service.application import ServiceLimits, service
         from serendipity.live.workers.pool import PoolLimits
     except ImportError as missing:
         raise UsageError(f"serve: needs {missing.name}: install serendipity-planner[live]") from None
     token = _token(token_file)
-    if token is None and not addresses.loopback(host):
+    if token is None and not connections.loopback(host):
         raise UsageError(f"--host: others can reach {host}, so a token is needed: --token-file, or {_TOKEN}")
     pool = PoolLimits(
         workers or os.cpu_count() or 1,
@@ -54,11 +53,11 @@ def serve(
         _limit("memory_limit", memory_limit, "MiB"),
     )
     limits = ServiceLimits(pool, int(_limit("body_limit", body_limit, "MiB") * _MIB))
-    listener = addresses.listening(host, port)
-    app = service(limits, addresses.hosts(host, allow_host or ()), token)
+    listener = connections.listening(host, port)
+    app = service(limits, connections.hosts(host, allow_host or ()), token)
     if not is_quiet():
-        output.say(f"Serving on {addresses.url(listener)}, described at /docs; Ctrl-C stops it.\n")
-    run(app, listener)
+        output.say(f"Serving on {connections.url(listener)}, described at /docs; Ctrl-C stops it.\n")
+    connections.serve(app, listener)
     return ExitCode.ANSWERED
 
 
