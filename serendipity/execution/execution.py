@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Final, Literal
+from typing import Any, Final, Literal
 
 from serendipity.execution.decided import COLUMNS, Decided, Outlook, Passed, Reported, Robots
 from serendipity.execution.robot_policy import RobotPolicy
@@ -20,10 +20,8 @@ from serendipity.model.resources.collection import no_collection
 from serendipity.model.table import Tabular
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import canonical_name, several
+from serendipity.recognition import GoalsGiven
 from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
-
-if TYPE_CHECKING:
-    from serendipity.recognition import GoalsGiven
 
 _TRIES: Final = 3
 """How often an action of robots may fail before they give it up for good."""
@@ -79,7 +77,7 @@ class Execution(Tabular):
         *,
         discount: Number = 0,
         human_model: HumanModel = "observant",
-        goals: "GoalsGiven | None" = None,
+        goals: GoalsGiven | None = None,
         beta: Number = 1,
         deadline: float | None = None,
         setup: float = SETUP,

@@ -25,6 +25,8 @@ from serendipity.model import Condition, HumanPlan, Options, Task
 class Following:
     """The plans that the person may be following towards one goal.
 
+    Where a deadline comes first, methods raise :class:`serendipity.LimitReachedError`.
+
     Args:
         human: the person, as robots imagine them.
         state: ids of the facts that are true in the beginning, as the person knows.
@@ -56,9 +58,6 @@ class Following:
 
         Args:
             state: ids of the facts that are true.
-
-        Raises:
-            LimitReachedError: the deadline came first.
         """
         human = self._human
         self._state = human.packed.pack(state)
@@ -80,11 +79,7 @@ class Following:
         return None if self.hopeless else self._task.cost_of(self.promise())
 
     def cost_alone(self, state: frozenset[int]) -> Fraction | None:
-        """What the person pays from a state with robots idle; None where they don't get there.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
+        """What the person pays from a state with robots idle; None where they don't get there."""
         key = self._human.alone.key(self._human.packed.pack(state))
         return None if key == INFINITE_KEY else self._human.keys.cost(key)
 
@@ -121,9 +116,6 @@ class Following:
             robots: ids of what robots do by themselves.
             offers: ids of joint actions that the person may take part in.
             surely: whether all of it takes place; else some of it may fail, or take longer.
-
-        Raises:
-            LimitReachedError: the deadline came first.
         """
         packed, concern = self._human.packed, self._human.concern
         others = [_Other(i, *packed.effect(i)) for i in robots]

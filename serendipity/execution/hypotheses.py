@@ -3,6 +3,8 @@
 Robots spoil nothing that a person is on the way to (see :mod:`.guard`), whichever of the goals is theirs.
 But people stray, and may need then what robots have taken to help them with.  As long as the person's way
 is dearer than it would be had robots done nothing, robots' own work counts for nothing.
+
+Where a deadline comes first, :class:`serendipity.LimitReachedError` is raised.
 """
 
 from collections.abc import Iterable, Sequence
@@ -90,9 +92,6 @@ class Hypothesis:
         Args:
             untouched: ids of the facts that would be true if robots had done nothing.
             state: ids of those that are.
-
-        Raises:
-            LimitReachedError: the deadline came first.
         """
         if untouched == state:
             return Fraction(0)
@@ -100,11 +99,7 @@ class Hypothesis:
         return Fraction(0) if before is None or now is None else max(now - before, Fraction(0))
 
     def amends(self, now: DecisionPoint, deadline: Deadline) -> Advice | None:
-        """The plan by which the person pays least, whatever robots do for it; None: none beats idling.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
+        """The plan by which the person pays least, whatever robots do for it; None: none beats idling."""
         if self._selfless is None:
             self._selfless = self._make_selfless(deadline)
         advice = self._selfless.advise(self.following, now, deadline)
@@ -162,9 +157,6 @@ class Hypotheses:
             state: ids of the facts that are true.
             goals: those that the person may have.
             deadline: polled, now and for as long as the hypotheses are asked about.
-
-        Raises:
-            LimitReachedError: the deadline came first.
         """
         found = []
         for goal in goals:
@@ -255,9 +247,6 @@ def best_for_all(prospects: Sequence[Prospect], deadline: Deadline) -> Prospect 
     Robots' actions are played against the person with each of the goals, by what is known of how they
     react.  Robots can still change their mind when they know more, so the mean is what a plan is good
     for at least.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     best = None
     least = sum((p.weight * (p.alone or 0) for p in prospects), Fraction(0))

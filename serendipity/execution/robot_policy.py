@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from copy import copy
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from serendipity.execution.advice import DecisionPoint
 from serendipity.execution.beliefs import Beliefs
@@ -15,10 +15,7 @@ from serendipity.execution.why import Why
 from serendipity.model import Deadline, Options, PlanStep, Task
 from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import Number
-
-if TYPE_CHECKING:
-    from serendipity.recognition import GoalsGiven
-
+from serendipity.recognition import GoalsGiven
 
 _TIME_TO_TELL: Final = 0.5
 """The share of the time that has to be left for finding out why nothing is done."""
@@ -47,7 +44,7 @@ class RobotPolicy:
         self,
         task: Task,
         options: Options,
-        goals: "GoalsGiven | None",
+        goals: GoalsGiven | None,
         beta: Number,
         *,
         told: bool,

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, fields
 from fractions import Fraction
 from functools import cached_property
 from random import Random
-from typing import TYPE_CHECKING, Any, Final, Literal, TypedDict, Unpack
+from typing import Any, Final, Literal, TypedDict, Unpack
 
 from search import PreparedTask
 from search.kernel.library import library
@@ -25,11 +25,8 @@ from serendipity.model.numbers import Number
 from serendipity.model.resources.processes import in_processes
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
-from serendipity.recognition.recognise import candidate_goals
+from serendipity.recognition.recognise import GoalsGiven, candidate_goals
 from serendipity.robot import Durations
-
-if TYPE_CHECKING:
-    from serendipity.recognition import GoalsGiven
 
 SURE: Final = Fraction(9, 10)
 """The posterior from which on a goal counts as known."""
@@ -66,7 +63,7 @@ def execute(
     durations: Durations | str | None = None,
     epoch_seconds: float | None = None,
     human_model: HumanModel | None = None,
-    goals: "GoalsGiven | None" = None,
+    goals: GoalsGiven | None = None,
     epochs: int | None = None,
     jobs: int = 1,
     on_progress: Callable[[int, int], None] | None = None,
@@ -153,7 +150,7 @@ def _all_run(
     return sorted(done, key=lambda pair: pair[0].run)
 
 
-def _name_of(task: Task, goals: "GoalsGiven") -> str | None:
+def _name_of(task: Task, goals: GoalsGiven) -> str | None:
     """What the candidate is called that is the person's goal; None if none is."""
     literals = {(f, True) for f in task.goal.positive} | {(f, False) for f in task.goal.negative}
     for candidate in candidate_goals(task, goals):

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import serendipity
 from serendipity.execution import Decided, Passed
@@ -16,9 +16,7 @@ from serendipity.model import GroundAction, HumanModel, InputError, PlanStep, Ta
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
 from serendipity.pictures.map.places import find_places
-
-if TYPE_CHECKING:
-    from serendipity.recognition import GoalsGiven
+from serendipity.recognition import GoalsGiven
 
 VIEWS: Final = ("observant", "local")
 """What the person sees: everything, or what is where they are."""
@@ -52,7 +50,7 @@ class RoundSetting:
     discount: Fraction
     view: HumanModel = "observant"
     condition: str = "silent"
-    goals: "GoalsGiven | None" = None
+    goals: GoalsGiven | None = None
     deadline: float | None = None
     labels: DomainLabels = field(default_factory=DomainLabels)
     most_epochs: int | None = None
