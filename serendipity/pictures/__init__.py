@@ -4,17 +4,17 @@
 draws it.
 """
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
 from serendipity.model import UsageError
+from serendipity.pictures.formats.page import page
+from serendipity.pictures.formats.png import png
+from serendipity.pictures.formats.svg import svg
+from serendipity.pictures.picture.drawing import Picture
+from serendipity.pictures.picture.heat_map import Savings, heat_map
+from serendipity.pictures.picture.timeline_picture import still
 from serendipity.pictures.scene.building import build_scene
 from serendipity.pictures.scene.scene import Scene
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from serendipity.pictures.picture.drawing import Picture
-    from serendipity.pictures.picture.heat_map import Savings
 
 __all__ = ["Scene", "build_scene", "check_epoch", "draw", "draw_windows"]
 
@@ -31,11 +31,7 @@ def draw(scene: Scene, suffix: str, epoch: int | None = None) -> str | bytes:
     """
     check_epoch(scene, epoch)
     if suffix == ".html":
-        from serendipity.pictures.formats.page import page
-
         return page(scene)
-    from serendipity.pictures.picture.timeline_picture import still
-
     return _written(still(scene, epoch), suffix, ".html, .svg or .png")
 
 
@@ -50,24 +46,18 @@ def check_epoch(scene: Scene, epoch: int | None) -> None:
         raise UsageError(f"epoch: expected one from 0 to {last}, got {epoch}")
 
 
-def draw_windows(maps: "Mapping[str, Savings]", starts: int, horizon: int, suffix: str) -> str | bytes:
+def draw_windows(maps: Mapping[str, Savings], starts: int, horizon: int, suffix: str) -> str | bytes:
     """Heat maps over windows, ``.svg`` or ``.png``; see :func:`.picture.heat_map.heat_map`.
 
     Raises:
         UsageError: there is no such form, or PNG lacks the extra ``plot``.
     """
-    from serendipity.pictures.picture.heat_map import heat_map
-
     return _written(heat_map(maps, starts, horizon), suffix, ".svg or .png")
 
 
-def _written(picture: "Picture", suffix: str, known: str) -> str | bytes:
+def _written(picture: Picture, suffix: str, known: str) -> str | bytes:
     if suffix == ".svg":
-        from serendipity.pictures.formats.svg import svg
-
         return svg(picture) + "\n"
     if suffix == ".png":
-        from serendipity.pictures.formats.png import png
-
         return png(picture)
     raise UsageError(f"expected a picture {known}, got '{suffix}'")
