@@ -102,13 +102,13 @@ def check_output(output: Path | None, option: str = "-o") -> None:
         raise UsageError(f"{option}: the folder {output.parent} can't be written to")
 
 
-def write_answer(answer: str | bytes, output: Path | None, option: str = "-o") -> None:
+def write_answer(answer: str | bytes, output: Path | None) -> None:
     """Write an answer to ``output``; a text to stdout where that is None.
 
     Raises:
         UsageError: it can't be written, with the system's reason.
     """
-    write_answers([Answer(answer, output, option)])
+    write_answers([Answer(answer, output)])
 
 
 def write_answers(answers: list[Answer]) -> None:
