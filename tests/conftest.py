@@ -10,6 +10,7 @@ from hypothesis import HealthCheck, settings
 from benchmarks.problems import PROBLEMS
 from search.kernel.library import library
 from serendipity.cli.streams import progress_lines
+from tests.cli.conftest import run as run  # a fixture of several rooms
 
 pytest_plugins = ["pytester"]
 

@@ -1,6 +1,5 @@
 """semantics 9, cases 5 and 6, and what mode ``assistance`` refuses."""
 
-import json
 from fractions import Fraction
 
 import pytest
@@ -75,11 +74,6 @@ def test_joint_actions_are_nobodys_move() -> None:
     result = serendipity.plan(case_8(), mode="assistance")
     assert result.status == "optimal"
     assert all(len(step.agents) == 1 for step in result.plan)
-
-
-def test_result_survives_json() -> None:
-    result = serendipity.plan(case_5(), mode="assistance", ties="expected")
-    assert Result.from_dict(json.loads(json.dumps(result.to_dict()))) == result
 
 
 def test_two_robots_are_refused() -> None:

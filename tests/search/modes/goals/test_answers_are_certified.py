@@ -16,7 +16,7 @@ from search.modes.goals import Candidate
 from serendipity.model import Certificate, Condition, Deadline, InputError, Options, Result, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle.goals import best_expected, robots_sets
-from tests.cli.conftest import Run, run  # noqa: F401 - a fixture
+from tests.cli.conftest import Runs
 from tests.search.modes.goals.strategies import literals, rivals
 from tests.search.modes.goals.test_expected_equals_brute_force import _MOST_PLANS, _OPTIONS
 from tests.search.modes.goals.test_worked_cases import helped, workshop
@@ -273,6 +273,7 @@ def test_one_goal_is_section_3() -> None:
 def test_nobody_reaches_anything() -> None:
     task = workshop("nothing -> z")
     answer = serendipity.plan(task, goals=[{"goal": ["z"]}, {"goal": ["nothing"]}])
+    assert (answer.status, answer.reason) == ("infeasible", "no-human-plan")
     assert _verdicts(serendipity.verify(task, answer))["infeasible"][0] == "proved"
     possible = deepcopy(answer.to_dict())
     for name in ("recognition", "goals"):
@@ -308,17 +309,20 @@ def test_another_human_is_bad_input() -> None:
         serendipity.verify(task, Result.from_dict(answer))
 
 
-def test_command_line(run: Callable[[str], Run]) -> None:  # noqa: F811
+def test_command_line(run: Runs) -> None:
     Path("goals.txt").write_text("9: conducted_triage commx room1\n1: conducted_triage commx hall1\n")
     call = "plan --example room2 --discount 0.9 --goals goals.txt"
-    assert "checker: proves replay" in run(f"{call} --verify").out
-    assert run(f"{call} --verify -o answer.json").code == 0
-    assert json.loads(Path("answer.json").read_text())["certificate"]["verdict"] == "proved"
+    text = run(f"{call} --verify").out
+    assert "checker: proves replay" in text
+    assert "expected cost 11.3, 1.6 less than 12.9 (proved)" in text
+    saved = run(f"{call} --verify -o answer.json")
+    assert (saved.code, saved.out) == (0, "")
+    answer = json.loads(Path("answer.json").read_text())
+    assert answer["certificate"]["verdict"] == "proved"
+    assert Result.from_dict(answer).cost == 11.3
     done = run("verify --example room2 answer.json --format json")
     assert (done.code, done.err) == (0, "")
-    certificate = json.loads(done.out)
-    assert certificate["verdict"] == "proved"
-    answer = json.loads(Path("answer.json").read_text())
+    assert json.loads(done.out)["verdict"] == "proved"
     answer["saving"] += 1
     Path("answer.json").write_text(json.dumps(answer))
     assert run("verify --example room2 answer.json").code == 1

@@ -5,21 +5,19 @@ from random import Random
 
 import pytest
 
-from search.call.prepared_task import PreparedTask
 from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from search.short_windows.independent import timeline
 from search.short_windows.independent.provision import detours, leaves
 from serendipity.model import Task
-from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import best
 from tests.search.short_windows.independent.test_bounds_are_admissible import (
-    ONE_EPOCH,
     admissible_bound,
     bound_and_cost,
 )
+from tests.search.small_tasks import ONE_EPOCH, packed_of
 
 _CHORES = {f"a_chore_{i} h": f"-> chore_{i} @ 1" for i in range(5)}
 _DONE = " ".join(f"chore_{i}" for i in range(5))
@@ -47,10 +45,6 @@ def _gate() -> Task:
     own = {"b_one h": "-> one @ 3", "b_two h": "-> two @ 3"}
     help_ = {"open s": "-> gate @ 1", "left s": "gate -> one @ 1", "reach r": "gate -> two @ 1"}
     return build(agents="h r s", init="", goal=f"{_DONE} one two", actions=_CHORES | own | help_)
-
-
-def _packed(task: Task) -> PackedTask:
-    return PreparedTask(task).plain(Deadline()).packed
 
 
 def _parcel(packed: PackedTask) -> int:
@@ -92,7 +86,7 @@ def test_what_both_robots_need_is_paid_once() -> None:
 
 
 def test_only_what_nothing_else_depends_on_is_a_leaf() -> None:
-    relay, gate = _packed(_relay()), _packed(_gate())
+    relay, gate = packed_of(_relay()), packed_of(_gate())
     parcel = [
         field for field in relay.fields if field & relay.others[0].need_mask and field & relay.goal.mask
     ]
@@ -102,7 +96,7 @@ def test_only_what_nothing_else_depends_on_is_a_leaf() -> None:
 
 
 def test_the_cheapest_way_of_others() -> None:
-    packed = _packed(_relay())
+    packed = packed_of(_relay())
     parcel = _parcel(packed)
     shift = (parcel & -parcel).bit_length() - 1
     names = {packed.task.actions[op.action].name.strip("()").split()[0]: op for op in packed.others}

@@ -24,23 +24,21 @@ from serendipity.model.numbers import as_written
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import conflicting
 from serendipity.testing.builders import task as build
-from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
+from serendipity.testing.generator.families import AGENTS, FAMILIES
 from serendipity.testing.oracle import best
+from tests.search.small_tasks import ONE_EPOCH, beside_the_plan, of_a_family
 
 pytestmark = pytest.mark.skipif(library() is None, reason="the kernel is not compiled here")
-
-ONE_EPOCH = Options(mode="serendipity", max_window=1)
 
 
 def _of_family(seed: int) -> tuple[Task, Options]:
     dice = Random(seed)
-    family = dice.choice(sorted(FAMILIES))
-    size, agents = dice.choice(SMALL[family])
+    task = of_a_family(dice)
     rules = {
         "discount": dice.choice(["0", "1/2", "9/10", "1"]),
         "interference": dice.choice(["paper", "strict"]),
     }
-    return FAMILIES[family](dice, size, AGENTS[:agents]), ONE_EPOCH.but(**rules)
+    return task, ONE_EPOCH.but(**rules)
 
 
 def _drawn(seed: int) -> tuple[Task, Options]:
@@ -60,15 +58,12 @@ def _looked_at(
     task: Task, options: Options, most: tuple[int, ...] = (300_000,)
 ) -> tuple[SearchContext, Incumbent, Progress] | None:
     """What is found from ``pi_H`` as the incumbent; None where the human has no plan, or needs none."""
-    context = SearchContext(PreparedTask(task), options, Deadline())
-    optimal = context.canonical_plan()
-    if optimal is None or not optimal.actions:
+    found = beside_the_plan(task, options)
+    if found is None:
         return None
-    keys, plan = context.keys, optimal.actions
-    idle = sum(option.weight for _, option in context.followed(plan)) + keys.epoch_weight
-    incumbent = Incumbent(idle + keys.of_start(len(plan), len(plan)))
+    context, incumbent, question = found
     progress = Progress()
-    together = AllTogether(ShortWindowQuestion(context, plan, len(plan), incumbent), progress, INFINITE_KEY)
+    together = AllTogether(question, progress, INFINITE_KEY)
     for states in most:
         for _ in together.windows(states, context.deadline):
             pass
