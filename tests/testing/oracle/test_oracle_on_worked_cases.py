@@ -19,7 +19,7 @@ from serendipity.testing.cases import (
 )
 from serendipity.testing.oracle import action_sets_of_names, best, human_plans, optimal_human_plan
 
-QUICK = (case_2, case_3, case_8, case_9, case_10)
+QUICK = (case_2, case_8, case_9, case_10)
 
 
 @pytest.mark.parametrize(
