@@ -3,6 +3,7 @@
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -11,6 +12,7 @@ from benchmarks.problems import PROBLEMS
 from search.kernel.library import library
 from serendipity.cli.streams import progress_lines
 from tests.cli.conftest import run as run  # a fixture of several rooms
+from tests.show.browser import chromium, chromium_path
 
 pytest_plugins = ["pytester"]
 
@@ -39,6 +41,17 @@ def _data(name: str) -> Path:
     if not folder.is_dir():
         pytest.skip(f"needs the folder '{name}' in {PROBLEMS} (SERENDIPITY_PROBLEMS says where to look)")
     return folder
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """A headless Chromium."""
+    pytest.importorskip("playwright.sync_api", reason="no playwright: `make test-browser` installs it")
+    path = chromium_path()
+    if path is None:
+        pytest.skip("no chromium (CHROMIUM is its path): `make test-browser` installs it where it may")
+    with chromium(path) as running:
+        yield running
 
 
 @pytest.fixture(scope="session")

@@ -187,10 +187,8 @@ def test_the_extra_is_named_where_it_is_missing(command: str, monkeypatch, capsy
 
 def test_a_port_in_use_is_one_line(server: Server, capsys) -> None:
     assert main(["serve", "--port", str(server.port)]) == 2
-    said = capsys.readouterr().err
-    assert said == (
-        f"Error: --port: {server.port} is in use on 127.0.0.1: name another one, or 0 for any that is free\n"
-    )
+    words = f"{server.port} is in use on 127.0.0.1: name another one, or 0 for any that is free"
+    assert capsys.readouterr().err == f"Error: --port: {words}\n"
 
 
 @pytest.mark.parametrize(

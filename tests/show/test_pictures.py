@@ -17,8 +17,7 @@ from serendipity.pictures.map.names import ems
 from serendipity.pictures.picture.drawing import fitted, wrapped
 from serendipity.pictures.picture.palette import HUMAN, ROBOTS, on
 from serendipity.pictures.picture.tokens import tokens
-
-SVG = "{http://www.w3.org/2000/svg}"
+from tests.show.drawn import SVG
 
 
 def test_a_still_is_well_formed_and_says_what_it_shows(room2: Scene) -> None:
