@@ -63,7 +63,7 @@ def _ended(options: dict[str, Any], *, once: bool = False) -> list[Result]:
             found.append(result)
         if not limit.ran_out:
             return found
-        looks += 1 + looks // 40
+        looks += 1 + looks // 20
 
 
 def _says(result: Result) -> tuple[Any, ...]:

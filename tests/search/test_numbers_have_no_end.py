@@ -76,10 +76,3 @@ def test_denominators_without_end_are_refused_in_one_line() -> None:
     with pytest.raises(UsageError, match="common denominator") as caught:
         serendipity.plan(given)
     assert "\n" not in str(caught.value)
-
-
-def test_plans_of_more_epochs_than_there_may_be_are_refused_in_one_line() -> None:
-    given = task(agents="h r", human="h", goal="g", actions={"a h": "-> g", "b h": "-> !g", "c r": "-> !g"})
-    plan = ["a h", "b h"] * 500_000 + ["a h"]
-    with pytest.raises(UsageError, match="1000000 epochs"):
-        serendipity.plan(given, human_plan=plan)
