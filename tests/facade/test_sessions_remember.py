@@ -8,11 +8,12 @@ import pytest
 
 import serendipity
 from serendipity import PlanStep, Result, SerendipityError, Session, Task
+from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.keywords import Ties
 from serendipity.testing.builders import task
 from serendipity.testing.cases import case_1, case_2, usar
-from serendipity.testing.countdown import Countdown
 from serendipity.testing.generator import PlanCall, random_call
+from tests.endings import endings
 
 _FIGURES = ("status", "cost", "objective", "opportunity", "saving", "saving_alone", "lower_bound", "horizon")
 
@@ -235,15 +236,18 @@ def test_the_rest_is_there_to_be_finished_though_the_new_question_has_no_answer(
 
 def _at_each_look(call: PlanCall, session: Session) -> Iterator[tuple[Session, Result]]:
     """Answers of sessions that know what this one does, if the first look is the last, or the second."""
-    looks = 0
-    while True:
+
+    def asked(deadline: Deadline) -> tuple[Session, Result]:
         other = Session(replace(session.task), human_plan=session.human_plan, **call.keywords())
         other._remind(session._remembered())
-        deadline = Countdown(looks)
-        yield other, other.plan(deadline=deadline)
-        if not deadline.ran_out:
-            return
-        looks = max(looks + 1, looks * 9 // 8)
+        return other, other.plan(deadline=deadline)
+
+    return map(_no_error, endings(asked))
+
+
+def _no_error(ending: tuple[Session, Result] | LimitReachedError) -> tuple[Session, Result]:
+    assert not isinstance(ending, LimitReachedError)
+    return ending
 
 
 def test_whenever_time_is_up_help_that_was_begun_is_answered_or_still_there() -> None:

@@ -10,12 +10,16 @@ import uvicorn
 from fastapi import FastAPI
 from starlette.middleware import Middleware
 
-from serendipity.live.guards import addresses, connections
+from serendipity.live.guards import addresses
 from serendipity.live.guards.bodies import BodyLimits
 from serendipity.live.guards.connections import ImpatientProtocol
 from serendipity.live.service.refusals import HANDLERS
 
 HEAD = "POST / HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n"
+
+
+class VeryImpatient(ImpatientProtocol):
+    seconds = 0.3
 
 
 @pytest.fixture(scope="module")
@@ -26,9 +30,8 @@ def port() -> Iterator[int]:
     async def answer(body: dict[str, int]) -> dict[str, int]:
         return body
 
-    with pytest.MonkeyPatch.context() as patch, addresses.listening("127.0.0.1", 0) as listener:
-        patch.setattr(connections, "_SECONDS", 0.3)
-        config = uvicorn.Config(app, http=ImpatientProtocol, ws="none", log_config=None, timeout_keep_alive=1)
+    with addresses.listening("127.0.0.1", 0) as listener:
+        config = uvicorn.Config(app, http=VeryImpatient, ws="none", log_config=None, timeout_keep_alive=1)
         server = uvicorn.Server(config)
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         thread.start()

@@ -10,7 +10,7 @@ from serendipity import Task
 from serendipity.model import Result
 from serendipity.testing.builders import task as build
 from serendipity.testing.countdown import Countdown
-from tests.search.test_time_may_run_out_anywhere import answers
+from tests.endings import answers
 
 
 def _detours() -> Task:
