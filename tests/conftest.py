@@ -1,4 +1,7 @@
-"""Profiles of hypothesis (``HYPOTHESIS_PROFILE=fuzz`` for the long one), data that may be absent."""
+"""Profiles of hypothesis, data that may be absent, a browser, and the running of commands.
+
+``HYPOTHESIS_PROFILE=ci`` takes more examples, which are always the same, and ``fuzz`` many new ones.
+"""
 
 import os
 from collections.abc import Iterator
@@ -17,10 +20,11 @@ from tests.show.browser import chromium, chromium_path
 pytest_plugins = ["pytester"]
 
 _CALM = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
+settings.register_profile("quick", derandomize=True, max_examples=60, database=None, **_CALM)
 settings.register_profile("ci", derandomize=True, max_examples=100, database=None, **_CALM)
 settings.register_profile("dev", max_examples=50, **_CALM)
 settings.register_profile("fuzz", max_examples=1000, print_blob=True, **_CALM)
-settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 
 
 def pytest_report_header() -> str:

@@ -4,7 +4,7 @@ import json
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity.model.json_text import json_text
@@ -17,7 +17,6 @@ values = st.recursive(
 )
 
 
-@settings(max_examples=settings.default.max_examples // 2)
 @given(st.dictionaries(st.text(), values, max_size=3))
 def test_it_reads_as_it_was(value: dict[str, object]) -> None:
     assert json.loads(json_text(value)) == value

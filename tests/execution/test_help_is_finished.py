@@ -3,7 +3,7 @@
 from random import Random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
@@ -53,7 +53,6 @@ def test_what_nobody_can_finish_is_said() -> None:
     assert run.decided.reason == said
 
 
-@settings(max_examples=settings.default.max_examples // 2)
 @given(tasks(), st.sampled_from(["0.5", "0.9", "1"]))
 def test_who_is_told_arrives_and_never_pays_more(task: Task, discount: str) -> None:
     (row,) = serendipity.execute(task, "omniscient", discount=discount, epochs=MOST_EPOCHS).rows
@@ -61,7 +60,6 @@ def test_who_is_told_arrives_and_never_pays_more(task: Task, discount: str) -> N
         assert row.reached and row.human_cost <= row.alone
 
 
-@settings(max_examples=settings.default.max_examples // 2)
 @given(tasks(), st.integers(0, 2**32))
 def test_who_is_told_arrives_beside_robots_that_fail(task: Task, seed: int) -> None:
     run = told(task, adapter=Simulated(Random(seed), fail=0.3, slow=0.3))

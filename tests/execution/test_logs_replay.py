@@ -4,7 +4,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
@@ -23,7 +23,6 @@ from serendipity.testing.strategies import tasks
 from tests.execution.living import as_lines, other_goals
 
 
-@settings(max_examples=settings.default.max_examples // 2)
 @given(tasks(), st.integers(0, 2**32))
 def test_with_faults_and_doubts_and_changes(task: Task, seed: int) -> None:
     dice = Random(seed)

@@ -2,7 +2,7 @@
 
 from random import Random
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity.execution import Execution, Replanner
@@ -13,37 +13,30 @@ from tests.execution.living import live, other_goals
 
 DISCOUNTS = st.sampled_from(["0", "0.5", "0.9", "1"])
 SEEDS = st.integers(0, 2**32)
-FEW = settings(max_examples=settings.default.max_examples // 2)
-"""Each plans in every epoch."""
 
 
-@FEW
 @given(tasks(), DISCOUNTS)
 def test_who_follows_the_plan_that_robots_expect(task: Task, discount: str) -> None:
     live(task, Execution(task, discount=discount), Replanner(task))
 
 
-@FEW
 @given(tasks(), DISCOUNTS, SEEDS)
 def test_who_follows_any_of_their_optimal_plans(task: Task, discount: str, seed: int) -> None:
     run, person = Execution(task, discount=discount), Replanner(task, dice=Random(seed))
     live(task, run, person, predicted=False)
 
 
-@FEW
 @given(tasks(), DISCOUNTS)
 def test_who_sees_only_what_is_where_they_are(task: Task, discount: str) -> None:
     run, person = Execution(task, discount=discount, human_model="local"), Replanner(task, "local")
     live(task, run, person, sees_all=False)
 
 
-@FEW
 @given(usar_tasks(), DISCOUNTS)
 def test_who_is_taken_to_be_omniscient_and_is_not(task: Task, discount: str) -> None:
     live(task, Execution(task, discount=discount, human_model="omniscient"), Replanner(task))
 
 
-@FEW
 @given(tasks(), DISCOUNTS, SEEDS)
 def test_whose_robots_fail_and_drop_out(task: Task, discount: str, seed: int) -> None:
     robots = Simulated(Random(seed), fail=0.2, slow=0.3)
@@ -51,7 +44,6 @@ def test_whose_robots_fail_and_drop_out(task: Task, discount: str, seed: int) ->
     live(task, run, Replanner(task))
 
 
-@FEW
 @given(tasks(), SEEDS)
 def test_whose_goal_robots_do_not_know(task: Task, seed: int) -> None:
     goals = other_goals(task, Random(seed))

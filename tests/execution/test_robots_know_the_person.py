@@ -1,6 +1,6 @@
 """What robots expect a person to do next is what they do, whatever was changed behind their back."""
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity.execution import Execution, Replanner, moment_of
@@ -17,7 +17,6 @@ def _in_step(task: Task, human_model: str, discount: str) -> None:
             assert passed.human == (None if expected is None else expected.action)
 
 
-@settings(max_examples=settings.default.max_examples // 2)
 @given(
     st.one_of(tasks(), usar_tasks()), st.sampled_from(["observant", "local"]), st.sampled_from(["0.5", "0.9"])
 )

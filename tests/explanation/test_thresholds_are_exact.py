@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
@@ -13,8 +13,6 @@ from serendipity.testing.strategies import Call, calls
 
 DISCOUNTS = st.fractions(0, 1, max_denominator=12)
 WEIGHTS = st.fractions(0, 6, max_denominator=12)
-FEW = settings(max_examples=settings.default.max_examples * 2 // 5)
-"""Each asks for a dozen of plans."""
 
 
 def explained(call: Call) -> Explanation | None:
@@ -32,7 +30,6 @@ def helped(call: Call, **changes: object) -> bool:
     return serendipity.plan(call.task, human_plan=call.human_plan_names, **keywords).opportunity
 
 
-@FEW
 @given(calls(modes=("serendipity", "communication", "composite"), ties=False), DISCOUNTS)
 def test_help_begins_at_the_reported_discount(call: Call, discount: Fraction) -> None:
     found = explained(call)
@@ -45,7 +42,6 @@ def test_help_begins_at_the_reported_discount(call: Call, discount: Fraction) ->
         assert helped(call, discount=confirmation.value) == confirmation.opportunity
 
 
-@FEW
 @given(calls(modes=("serendipity",), ties=False), WEIGHTS)
 def test_longer_windows_help_up_to_the_reported_weight(call: Call, weight: Fraction) -> None:
     found = explained(call)
@@ -56,7 +52,6 @@ def test_longer_windows_help_up_to_the_reported_weight(call: Call, weight: Fract
     assert helped(call, window_weight=weight) == pays
 
 
-@FEW
 @given(calls(modes=("serendipity",), ties=False))
 def test_relaxed_rules_give_what_is_said(call: Call) -> None:
     found = explained(call)
@@ -75,7 +70,6 @@ def test_relaxed_rules_give_what_is_said(call: Call) -> None:
         assert answer.opportunity
 
 
-@FEW
 @given(calls(modes=("serendipity",), ties=False))
 def test_every_start_of_the_window_is_judged(call: Call) -> None:
     found = explained(call)

@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 import serendipity
 from serendipity import Task, UsageError, Window
@@ -28,7 +28,6 @@ def report_of(call: Call) -> InterruptionReport:
     )
 
 
-@settings(max_examples=settings.default.max_examples // 2)
 @given(calls(modes=("serendipity",), ties=False))
 def test_every_window_is_as_good_as_brute_force_finds_it(call: Call) -> None:
     plan = call.human_plan or optimal_human_plan(call.task)

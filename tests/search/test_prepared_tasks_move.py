@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from search import PreparedTask, prepare, solve
 from serendipity.model import Condition, Deadline, Options, Task
@@ -13,7 +13,6 @@ from serendipity.testing.cases import case_1, case_4
 from serendipity.testing.strategies import tasks
 
 OPTIONS = Options(mode="composite", horizon="inf", discount=Fraction(1, 2))
-FEW = settings(max_examples=settings.default.max_examples // 2)
 
 
 def answer(prepared: PreparedTask, options: Options = OPTIONS) -> Answer:
@@ -21,7 +20,6 @@ def answer(prepared: PreparedTask, options: Options = OPTIONS) -> Answer:
     return last
 
 
-@FEW
 @given(tasks())
 def test_in_another_state(task: Task) -> None:
     prepared = PreparedTask(task)
@@ -33,7 +31,6 @@ def test_in_another_state(task: Task) -> None:
         assert answer(moved.at(task.init)) == answer(prepared)
 
 
-@FEW
 @given(tasks())
 def test_with_another_goal(task: Task) -> None:
     prepared = PreparedTask(task)
@@ -44,7 +41,6 @@ def test_with_another_goal(task: Task) -> None:
     assert answer(prepared) == before
 
 
-@FEW
 @given(tasks())
 def test_several_goals_over_one_packing(task: Task) -> None:
     goals = [task.goal, *(Condition((fact,)) for fact in range(min(2, len(task.facts))))]

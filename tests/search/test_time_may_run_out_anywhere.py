@@ -40,16 +40,16 @@ CALLS: list[dict[str, Any]] = [
 
 
 @pytest.mark.parametrize(
-    ("error", "reason"),
+    ("task", "error", "reason"),
     [
-        (time_is_up(), "time-limit"),
-        (LimitReachedError("memory-limit"), "memory-limit"),
-        (MemoryError(), "memory-limit"),
+        (case_2(), time_is_up(), "time-limit"),
+        (case_4(), time_is_up(), "time-limit"),
+        (case_2(), LimitReachedError("memory-limit"), "memory-limit"),
+        (case_4(), MemoryError(), "memory-limit"),
     ],
-    ids=repr,
+    ids=["case 2", "case 4", "memory", "no memory at all"],
 )
 @pytest.mark.parametrize("options", CALLS, ids=str)
-@pytest.mark.parametrize("task", [case_2(), case_4()], ids=["case 2", "case 4"])
 def test_time_may_run_out_at_any_look(
     task: Task, options: dict[str, Any], error: Exception, reason: str
 ) -> None:
