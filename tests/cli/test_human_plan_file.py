@@ -58,7 +58,7 @@ def test_an_error_names_file_and_line(look: str, names: list[str], run: Runs) ->
 
 
 SPOILT: list[tuple[Callable[[list[str]], list[str]], list[str]]] = [
-    (lambda his: ["# his", his[0], *his[2:]], ["plan.txt:3:", "hall8 hall7", "not applicable"]),
+    (lambda his: ["# his", his[0], *his[2:]], ["plan.txt:3:", "hall7 hall6", "not applicable"]),
     (lambda his: [*his[:2], "move robot room4 hall4", *his[2:]], ["plan.txt:3:", "commx", "alone"]),
     (lambda his: his[:-1], ["plan.txt", "goal"]),
 ]
