@@ -66,7 +66,6 @@ def test_a_fact_that_changes_and_a_new_goal() -> None:
 def test_his_plan_goes_on_behind_his_action_and_waiting_is_none() -> None:
     session = Session(case_1(), discount=0.6)
     predicted = session.plan().human_plan
-    assert predicted is not None
     session.execute([predicted[0]])
     assert session.human_plan == predicted[1:]
     session.execute(["move h a1 a0"])
@@ -86,7 +85,6 @@ def test_cancelled_calls_return_the_incumbent() -> None:
     assert first.cost == 9
     assert last.status == "feasible"
     assert last.lower_bound is not None
-    assert last.objective is not None
     assert last.lower_bound <= last.objective
 
 

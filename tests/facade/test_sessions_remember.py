@@ -127,7 +127,6 @@ def test_so_it_is_over_ties_and_goals_and_with_people_who_replan(options: dict[s
 def test_what_is_proved_stays_proved_while_all_goes_as_planned() -> None:
     session = Session(serendipity.example("room2"), discount=0.6)
     answer = session.plan()
-    assert answer.window is not None
     for epoch in range(1, answer.window.start):
         session.execute([step.action for step in answer.plan or () if step.epoch == epoch])
         now = session.plan()
@@ -210,7 +209,6 @@ def test_a_predicted_plan_gives_way_to_a_better_one_that_robots_have_made_possib
 def test_so_it_does_where_nobody_has_planned_that() -> None:
     session = Session(_shortcut("far -> open"), discount=0.5)
     walks = session.plan().human_plan
-    assert walks is not None
     session.execute([walks[0]])
     session.change({"open": True})
     answer = session.plan()

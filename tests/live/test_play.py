@@ -60,7 +60,6 @@ def test_the_papers_example() -> None:
         f"commx and robot: {TAKE}",
     )
     told = table.do({"do": "explain"})
-    assert told is not None
     said = [sentence["text"] for sentence in told["sentences"] if sentence["topic"] == "run"]
     assert said[0] == "Epoch 1: waits: its part comes in epoch 2." and "mk2" in said[1]
     assert said[-1] == "commx paid 11 instead of 13 alone, the team 12.6."
@@ -88,7 +87,6 @@ def test_several_robots_speak_one_after_the_other() -> None:
         setting(name="taxis", task=serendipity.example("taxis"), discount=1, condition="announced")
     )
     said = table.view()["said"]
-    assert said is not None
     assert "I will" not in said
     assert said.startswith(("Uno will ", "Due will "))
 

@@ -107,7 +107,6 @@ START = "(at h o1) (at r o1)"
 
 def test_what_stands_for_a_disjunction() -> None:
     task = check([GO], START, [(("at h o1", True), ("at h o2", False))])
-    assert task is not None
     assert task.facts == ("at h o1", "at h o2", "at r o1", "at r o2"), "values of one variable"
     assert (task.goal.positive, task.goal.negative) == ((0,), ())
     task = check([GO, SET], START, [(("on h o2", True), ("on r o1", True))])

@@ -43,7 +43,6 @@ def test_what_can_only_become_little_together_is_kept_together() -> None:
     chain = {f"do{i} h": f"f{i} -> f{i + 1} @ 2" for i in range(COUNT)} | {"help r": "-> light"}
     problem = packed(task(init="f0", goal=f"f{COUNT} light", actions=chain))
     graph = whole_graph(problem, Deadline())
-    assert graph is not None
     assert graph.mask == sum(private_fields(problem))
     assert len(graph.moves) == COUNT + 1
 

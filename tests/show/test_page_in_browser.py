@@ -201,7 +201,6 @@ def test_labels_stay_in_the_map_and_out_of_each_other(
 
 def test_a_high_map_is_seen_as_a_whole(browser: Any, tmp_path: Path, room2: Scene) -> None:
     layout = room2.layout
-    assert layout is not None
     turned = {place: replace(box, x=box.y, y=box.x) for place, box in layout.boxes.items()}
     high = replace(layout, boxes=turned, width=layout.height + 100, height=layout.width)
     page = Opened(browser, written(replace(room2, layout=high), tmp_path), 1300, reduced_motion="reduce")

@@ -174,7 +174,6 @@ def test_a_still_of_a_large_building_shows_the_part_that_matters(tmp_path: Path)
     serendipity.generate_usar(tmp_path, rooms=84, medkits=4, robots=2, seed=3)
     task = serendipity.load(tmp_path)
     scene = build_scene(task, serendipity.plan(task, discount="0.9"))
-    assert scene.layout is not None
     root = ET.fromstring(str(draw(scene, ".svg")))
     assert float(root.attrib["width"]) < scene.layout.width
     texts = {element.text for element in root.iter(f"{SVG}text")}

@@ -29,9 +29,7 @@ pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel he
 
 
 def planner_of(packed: PackedTask) -> ClassicalPlanner:
-    planner = own_planner(packed, packed.goal, sum(packed.fields), Deadline())
-    assert planner is not None
-    return planner
+    return own_planner(packed, packed.goal, sum(packed.fields), Deadline())
 
 
 def assert_leads_to_goal(packed: PackedTask, state: int, numbers: list[int]) -> int:
@@ -199,9 +197,7 @@ def forgetful(tmp_path_factory: pytest.TempPathFactory) -> CDLL:
     if command is None:
         pytest.skip("there is no compiler here")
     compile_kernel([*command, *LITTLE], binary)
-    kernel = load(binary, SOURCE)
-    assert kernel is not None
-    return kernel
+    return load(binary, SOURCE)
 
 
 LITTLE = ("-DLONGEST=256", "-DMOST_LANDMARKS=2048", "-DMOST_SETS=65536")

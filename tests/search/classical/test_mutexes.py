@@ -46,8 +46,6 @@ def test_a_lamp_is_not_left_on_behind_a_closed_door() -> None:
     packed = packed_of(task)
     pairs = ReachablePairs(packed, Deadline())
     door, lamp = (packed.fact_bits[task.facts.index(fact)] for fact in ("open", "lamp"))
-    assert door is not None
-    assert lamp is not None
     both = door[0] | lamp[0]
     held = {state: _may_hold(pairs, both, state) for state in (0, door[1], lamp[1], door[1] | lamp[1])}
     assert not _may_hold(pairs, packed.goal.need_mask, packed.goal.need), "it can't burn"

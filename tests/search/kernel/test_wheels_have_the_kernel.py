@@ -64,7 +64,6 @@ def test_a_wheel_for_any_platform(
 def test_each_target_has_its_wheel() -> None:
     makefile = (ROOT / "Makefile").read_text(encoding="utf-8").replace("\\\n", " ")
     platforms = re.search(r"^PLATFORMS := (.*)$", makefile, re.MULTILINE)
-    assert platforms is not None
     assert platforms[1].split() == ["any", *TARGETS]
 
 

@@ -101,7 +101,6 @@ def _assert_needed(
         Fraction(1),
         Case(task, _as_result(task, options, candidate, alone, answer), IndividualOptimum(task)),
     )
-    assert served.window is not None
     length = options.window_weight * (len(served.window) - 1)
     assert rule_fault("replay", [line]) or cost >= served.cost + length
 

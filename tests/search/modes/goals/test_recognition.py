@@ -165,7 +165,6 @@ def test_costs_equal_brute_force(case: tuple[Task, list[Condition], list[str]]) 
             assert cost == (None if worth is None else worth[0])
         if not names:
             plan = optimal_human_plan(replace(task, goal=goal))
-            assert plan is not None
             assert answer.plan == tuple(task.actions[i].name for i in plan)
 
 
@@ -195,7 +194,6 @@ def _remembers(product: Task, goal: Condition, names: list[str], *, all_of: bool
 def test_likelihood_of_an_optimal_prefix_is_at_least_a_half() -> None:
     task = serendipity.example("room2")
     plan = serendipity.plan(task).human_plan
-    assert plan is not None
     known = serendipity.recognise(task, [{"goal": literals(task, task.goal)}], plan[:6])
     assert known.goals[0].with_observed == Fraction(13)
     assert (known.goals[0].likelihood or 0) >= 0.5

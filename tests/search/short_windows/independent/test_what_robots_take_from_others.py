@@ -67,21 +67,18 @@ def test_a_parcel_that_is_handed_over() -> None:
     """The second robot is charged for loading and dropping; the way between comes for nothing."""
     assert best(_relay(), _HELP).cost == Fraction("5.6")
     found = bound_and_cost(_relay(), _HELP)
-    assert found is not None
     assert found[0] == Fraction("5.5")
 
 
 def test_what_is_not_charged_can_be_missed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(timeline, "leaves", _none)
     found = bound_and_cost(_relay(), _HELP)
-    assert found is not None
     assert found[0] == Fraction("5.3")
 
 
 def test_what_both_robots_need_is_paid_once() -> None:
     assert best(_gate(), _HELP).cost == Fraction("5.3")
     found = bound_and_cost(_gate(), _HELP)
-    assert found is not None
     assert found[0] == Fraction("5.3")
 
 

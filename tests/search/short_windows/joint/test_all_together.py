@@ -87,7 +87,6 @@ def test_the_best_window_of_one_epoch_is_found(draw: object, most: tuple[int, ..
         assert progress.bound == incumbent.key, seed
         if incumbent.node is not None:
             better += 1
-            assert optimum.window is not None
             assert incumbent.node.start == optimum.window.start, seed
     assert better > 30
 
@@ -107,7 +106,6 @@ def test_a_call_that_it_settles() -> None:
 def test_too_many_states_are_given_up() -> None:
     task = FAMILIES["blocks"](Random(1), 3, AGENTS[:2])
     found = _looked_at(task, ONE_EPOCH, (0, 0))
-    assert found is not None
     assert found[2].bound == 0
 
 
@@ -126,7 +124,6 @@ def test_the_kernel_goes_on_where_memory_ended(monkeypatch: pytest.MonkeyPatch) 
     task = build(agents=agents, init="", goal=goal, actions=actions)
     options = ONE_EPOCH.but(discount="9/10")
     found = _looked_at(task, options)
-    assert found is not None
     assert found[0].keys.cost(found[1].key) == Fraction(3 * places - 6) + Fraction("0.8")
 
 
@@ -156,7 +153,6 @@ def test_a_state_of_many_sets_is_left_when_the_time_for_it_is_up() -> None:
     task = build(agents=agents, goal=" ".join(f"done_{i}" for i in range(8)), actions=actions)
     context = SearchContext(PreparedTask(task), ONE_EPOCH.but(discount="9/10"), Deadline(0.3))
     optimal = context.canonical_plan()
-    assert optimal is not None
     incumbent = Incumbent(INFINITE_KEY - 1)
     progress = Progress()
     with suppress(LimitReachedError):
