@@ -17,7 +17,7 @@ from serendipity.evaluation.benchmark.measure import CONTENDERS
 from serendipity.evaluation.benchmark.scaling import AXES, Axis, Size
 from serendipity.scenarios.examples import DATA
 from serendipity.writing.rows import written
-from tests.cli.conftest import Runs, assert_one_line
+from tests.cli.conftest import Runs
 
 
 def rows_of(path: Path) -> list[dict[str, str]]:
@@ -64,21 +64,6 @@ def test_plots_are_pictures(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "<svg" in Path("s.svg").read_text()
     measured = [(row["axis"], row["rooms"]) for row in rows_of(Path("s.csv"))]
     assert measured == [("rooms", "4")] * 2 + [("rooms", "8")] * 2 + [("modes", "4")] * 2
-
-
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        "--plot timings.txt",
-        "--discounts x",
-        "--scaling width",
-        "here --scaling rooms",
-        "--modes x",
-        "--contenders search,guess",
-    ],
-)
-def test_wrong_usage_is_one_line(wrong: str, run: Runs) -> None:
-    assert_one_line(run(f"bench --rooms 4 --seeds 1 {wrong}"))
 
 
 def test_a_suite_is_measured_and_its_tables_are_printed_again(run: Runs) -> None:

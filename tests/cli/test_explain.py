@@ -3,8 +3,6 @@
 import json
 from pathlib import Path
 
-import pytest
-
 from tests.cli.conftest import Runs, assert_one_line
 
 
@@ -32,16 +30,3 @@ def test_a_doctored_result_is_refused(run: Runs, answer: dict[str, object]) -> N
     assert_one_line(run("explain --example room2 help.json --discount 0.6"), "got both")
     Path("help.json").write_text(json.dumps(answer | {"cost": 12}))
     assert_one_line(run("explain --example room2 help.json"), "help.json", "no answer to this task")
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ("--mode individual", ("explain", "individual")),
-        ("--horizon 3", ("horizon", "13")),
-        ("absent.json", ("absent.json", "can't be read")),
-        ("-o absent/file", ("no folder",)),
-    ],
-)
-def test_bad_options(options: str, words: tuple[str, ...], run: Runs) -> None:
-    assert_one_line(run(f"explain --example room2 {options}"), *words)

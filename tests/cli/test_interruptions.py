@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 import serendipity
-from tests.cli.conftest import Runs, assert_one_line
+from tests.cli.conftest import Runs
 
 
 @pytest.fixture
@@ -93,16 +93,3 @@ def test_the_map_as_png(run: Runs, tmp_path: Path) -> None:
     pytest.importorskip("matplotlib", reason="needs the extra serendipity-planner[plot]")
     assert run("interruptions --example room2 --discount 0.6 --heat-map map.png").code == 0
     assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ("--horizon 3", ("horizon", "13")),
-        ("--heat-map map.pdf", (".svg", "map.pdf")),
-        ("--heat-map absent/map.svg", ("--heat-map", "no folder")),
-        ("--discount 2", ("discount",)),
-    ],
-)
-def test_bad_options(options: str, words: tuple[str, ...], run: Runs) -> None:
-    assert_one_line(run(f"interruptions --example room2 {options}"), *words)

@@ -9,7 +9,7 @@ from serendipity.cli.files.plan_file import plan_file
 from serendipity.model import Result, Task
 from serendipity.testing.builders import task
 from serendipity.testing.cases import WORKED, Worked
-from tests.cli.conftest import Runs, assert_one_line
+from tests.cli.conftest import Runs
 from tests.cli.test_exit_codes import anytime
 
 
@@ -73,8 +73,3 @@ def test_without_a_plan_there_is_no_file(run: Runs, tmp_path: Path, monkeypatch:
     done = run("plan --example room2 --save-plan help.plan")
     assert done.err.startswith("Warning: --save-plan: there is no plan")
     assert not (tmp_path / "help.plan").exists()
-
-
-@pytest.mark.parametrize("option", ["--save-plan nowhere/help.plan", "--save-plan ."])
-def test_what_is_wrong_is_said_before_the_work(option: str, run: Runs) -> None:
-    assert_one_line(run(f"plan --example room2 {option}"), "--save-plan")

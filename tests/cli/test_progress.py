@@ -15,7 +15,7 @@ import pytest
 import serendipity
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.streams import manner, progress, progress_bar, progress_lines
-from tests.cli.conftest import Runs, assert_one_line
+from tests.cli.conftest import Runs
 
 
 class Screen(io.StringIO):
@@ -125,10 +125,6 @@ def test_json_lines_count(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_progress_can_be_switched_off_and_its_style_holds_for_one_call_only(words: str, run: Runs) -> None:
     assert run("plan --example room2 --progress json").err
     assert run(f"plan --example room2 {words}").err == ""
-
-
-def test_an_unknown_style_is_one_line(run: Runs) -> None:
-    assert_one_line(run("plan --example room2 --progress loud"), "--progress", "plain", "loud")
 
 
 def test_an_error_is_not_hidden(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -83,24 +83,6 @@ def test_progress_on_a_terminal(suite: Path) -> None:
     assert done.stdout.startswith(b"test,mode,")
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ("", ("nowhere", "expected a folder of tasks")),
-        ("--modes help", ("modes", "individual, serendipity", "'help'")),
-        ("--modes assistance", ("modes", "'assistance'")),
-        ("--discounts 2", ("discount", "[0, 1]")),
-        ("--discounts ,", ("at least one",)),
-        ("--jobs 0", ("jobs", "at least 1")),
-        ("--format text", ("--format", "table, csv, json")),
-        ("-o absent/rows.csv", ("no folder",)),
-        ("--report absent/page.html", ("--report", "no folder")),
-    ],
-)
-def test_bad_options(options: str, words: tuple[str, ...], run: Runs) -> None:
-    assert_one_line(run(f"reproduce nowhere {options}"), *words)
-
-
 @pytest.mark.usefixtures("suite")
 def test_what_is_no_folder_of_tasks_or_no_scheduler(run: Runs) -> None:
     assert_one_line(run("reproduce suite/test1"), "single task", "serendipity plan")

@@ -59,6 +59,8 @@ def test_a_wheel_for_any_platform(
     wheel = build(tmp_path, monkeypatch, **environment)
     assert wheel.name.endswith("-py3-none-any.whl")
     assert kernels(wheel) == UNITS
+    names = zipfile.ZipFile(wheel).namelist()
+    assert [name for name in names if name.endswith(".md")] == [], "that is for developers"
 
 
 def test_each_target_has_its_wheel() -> None:
