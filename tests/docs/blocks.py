@@ -58,6 +58,11 @@ def linked_files(page: Path) -> list[Path]:
     return [page.parent / link for link in _LINKED.findall(page.read_text(encoding="utf-8"))]
 
 
+def prose(page: Path) -> str:
+    """A page without its fenced blocks."""
+    return re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+
+
 def run(block: Block, folder: Path) -> str:
     """Run a block in a folder; what it prints.
 
