@@ -38,7 +38,7 @@ def test_planning_beside_a_long_plan(options: dict[str, Any]) -> None:
 
 
 def test_plans_of_more_epochs_than_there_may_be_are_refused_in_one_line() -> None:
-    given = build(agents="h r", human="h", goal="g", actions={"a h": "-> g", "b h": "-> !g", "c r": "-> !g"})
+    given = build(goal="g", actions={"a h": "-> g", "b h": "-> !g", "c r": "-> !g"})
     plan = ["a h", "b h"] * 500_000 + ["a h"]
     with pytest.raises(UsageError, match="1000000 epochs"):
         serendipity.plan(given, human_plan=plan)

@@ -56,7 +56,6 @@ def test_what_the_human_gains_alone() -> None:
 def test_an_earlier_call_in_a_smaller_unit(earlier: dict[str, str]) -> None:
     """The team of an earlier call was taken, whose costs stood for others."""
     task = build(
-        agents="h r",
         goal="a b",
         actions={"go h": "-> p", "back h": "p -> a !p", "end h": "p -> b", "end r": "-> b @ 3"},
     )
@@ -86,7 +85,6 @@ def test_where_the_kernel_has_no_bound_on_the_team(monkeypatch: pytest.MonkeyPat
 def test_a_fact_that_two_must_add_at_once() -> None:
     """Both need it to be false and make it true, which is no conflict: a circle that was missed."""
     task = build(
-        init="",
         goal="a b",
         actions={"left h": "!c -> a c @ 1", "right r": "!c -> b c @ 1"},
     )

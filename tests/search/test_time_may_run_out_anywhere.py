@@ -192,7 +192,6 @@ def _parcels() -> Task:
     """Whoever comes by may deliver one: the goals are shared."""
     human = {f"take_{p} h": f"-> in_h_{p} @ 2" for p in "abc"}
     return build(
-        init="",
         goal="at_a at_b at_c",
         actions={
             **human,

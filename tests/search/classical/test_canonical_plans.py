@@ -129,9 +129,7 @@ def test_operators_that_have_nothing_to_do_with_each_other_are_sorted() -> None:
 def test_the_clock_is_looked_at_while_a_long_plan_is_put_together() -> None:
     many = 200
     chores = {f"do{i} h": f"-> done{i}" for i in range(many)}
-    packed = packed_of(
-        task(agents="h r", human="h", goal=" ".join(f"done{i}" for i in range(many)), actions=chores)
-    )
+    packed = packed_of(task(goal=" ".join(f"done{i}" for i in range(many)), actions=chores))
     planner = planner_of(packed)
     planner.cheapest(packed.init, Deadline())
     assert sorted(planner.known_plan(packed.init, Countdown(20)) or ()) == [*range(many)]

@@ -76,13 +76,10 @@ def test_joint_actions_are_nobodys_move() -> None:
     assert all(len(step.agents) == 1 for step in result.plan)
 
 
-def test_two_robots_are_refused() -> None:
+def test_two_robots_and_a_given_plan_are_refused() -> None:
     two = task(agents="h r q", goal="g", actions={"do h": "-> g"})
     with pytest.raises(UsageError, match="one robot"):
         serendipity.plan(two, mode="assistance")
-
-
-def test_given_human_plan_is_refused() -> None:
     with pytest.raises(UsageError, match="human_plan"):
         serendipity.plan(case_5(), mode="assistance", human_plan=["walk p a b", "walk p b d"])
 
@@ -101,7 +98,6 @@ def test_huge_and_tiny_costs_are_told_apart(ties: str, scale: str) -> None:
     """They ran into each other, and a game that ends was said to have no end."""
     dear = Fraction(scale)
     planned = task(
-        agents="h r",
         goal="g",
         actions={
             "walk h": f"-> g @ {3 * dear}",

@@ -16,6 +16,10 @@ from tests.search.exact_answers import proved
 MODELS = ["observant", "local"]
 
 
+def _everything(agent: int, fact: int, state: Set[int]) -> bool:
+    return True
+
+
 @pytest.mark.parametrize("model", MODELS)
 def test_no_plan_alone_is_infeasible(model: str) -> None:
     result = serendipity.plan(case_8(), human_model=model)
@@ -96,28 +100,22 @@ def test_answers_get_better_and_bounds_rise() -> None:
     assert bounds[-1] == costs[-1] == 8.4
 
 
-def test_other_modes_refuse_a_human_model() -> None:
-    with pytest.raises(UsageError, match="human_model: 'local' is for serendipity mode only"):
-        serendipity.plan(case_1(), mode="composite", human_model="local")
-
-
-def test_horizon_shorter_than_his_plan() -> None:
-    with pytest.raises(UsageError, match="horizon: expected at least 10"):
-        serendipity.plan(case_1(), human_model="observant", horizon=9)
-
-
-def _everything(agent: int, fact: int, state: Set[int]) -> bool:
-    return True
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"mode": "composite", "human_model": "local"}, "human_model: 'local' is for serendipity mode only"),
+        ({"human_model": "observant", "horizon": 9}, "horizon: expected at least 10"),
+        ({"human_model": "observant", "visible": _everything}, "visible: is for human_model 'local' only"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(UsageError, match=message):
+        serendipity.plan(case_1(), **options)
 
 
 def test_a_local_human_who_sees_everything_is_observant() -> None:
     result = serendipity.plan(case_4(), discount=0.9, human_model="local", visible=_everything)
     assert (result.cost, result.realised) == (8.0, {"observant": True, "local": True})
-
-
-def test_visible_is_for_local_humans() -> None:
-    with pytest.raises(UsageError, match="visible: is for human_model 'local' only"):
-        serendipity.plan(case_4(), human_model="observant", visible=_everything)
 
 
 def test_answers_at_the_time_limit_have_verdicts_too() -> None:

@@ -172,7 +172,6 @@ def test_what_another_robot_has_to_do_first() -> None:
     """It may be asked for as soon as it can have been done, for nothing."""
     task = build(
         agents="h r s",
-        init="",
         goal="end",
         actions={
             "one h": "-> a @ 3",

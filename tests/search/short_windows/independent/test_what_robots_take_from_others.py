@@ -44,7 +44,7 @@ def _gate() -> Task:
     """A gate that one robot opens for both."""
     own = {"b_one h": "-> one @ 3", "b_two h": "-> two @ 3"}
     help_ = {"open s": "-> gate @ 1", "left s": "gate -> one @ 1", "reach r": "gate -> two @ 1"}
-    return build(agents="h r s", init="", goal=f"{_DONE} one two", actions=_CHORES | own | help_)
+    return build(agents="h r s", goal=f"{_DONE} one two", actions=_CHORES | own | help_)
 
 
 def _parcel(packed: PackedTask) -> int:

@@ -62,7 +62,7 @@ def _errands(count: int) -> PackedTask:
     actions = {f"do_{i} h": f"-> done_{i} @ 1" for i in range(count)}
     helps = {f"help_{i} r": f"-> done_{i} @ 1" for i in range(count)}
     goal = " ".join(f"done_{i}" for i in range(count))
-    return packed_of(build(agents="h r", init="", goal=goal, actions=actions | helps))
+    return packed_of(build(goal=goal, actions=actions | helps))
 
 
 @pytest.mark.parametrize("count", [1, 7, 8, 9, 70])
@@ -78,7 +78,7 @@ def test_every_errand_is_a_landmark(count: int) -> None:
 def test_what_only_a_gift_can_bring() -> None:
     """There is no way without it, and with it there may be one."""
     actions = {"first h": "gift -> half @ 1", "second h": "half -> end @ 1", "bring r": "-> gift @ 1"}
-    packed = packed_of(build(agents="h r", init="", goal="end", actions=actions))
+    packed = packed_of(build(goal="end", actions=actions))
     given = packed.init
     for op in packed.others:
         given = given & op.keep | op.put

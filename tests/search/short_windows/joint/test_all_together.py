@@ -121,7 +121,7 @@ def test_the_kernel_goes_on_where_memory_ended(monkeypatch: pytest.MonkeyPatch) 
         actions[f"work_{robot} r{robot}"] = f"{needed} -> done_{places - 1 - robot} @ 1"
     goal = " ".join(f"done_{place}" for place in range(places))
     agents = " ".join(["h", *(f"r{i}" for i in range(robots))])
-    task = build(agents=agents, init="", goal=goal, actions=actions)
+    task = build(agents=agents, goal=goal, actions=actions)
     options = ONE_EPOCH.but(discount="9/10")
     found = _looked_at(task, options)
     assert found[0].keys.cost(found[1].key) == Fraction(3 * places - 6) + Fraction("0.8")
