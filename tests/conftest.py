@@ -11,8 +11,10 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 
+import serendipity
 from benchmarks.problems import PROBLEMS
 from search.kernel.library import library
+from serendipity import Task
 from serendipity.cli.streams import progress_lines
 from tests.cli.conftest import run as run  # a fixture of several rooms
 from tests.show.browser import chromium, chromium_path
@@ -56,6 +58,12 @@ def browser() -> Iterator[Any]:
         pytest.skip("no chromium (CHROMIUM is its path): `make test-browser` installs it where it may")
     with chromium(path) as running:
         yield running
+
+
+@pytest.fixture
+def room2() -> Task:
+    """The paper's example III-C."""
+    return serendipity.example("room2")
 
 
 @pytest.fixture(scope="session")
