@@ -6,7 +6,6 @@ import pytest
 
 from search.classical.mutexes import ReachablePairs
 from search.packed.operators import Operator, applicable
-from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
 from tests.search.small_tasks import of_a_family, packed_of, reached
