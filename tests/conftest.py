@@ -1,23 +1,32 @@
-"""Profiles of hypothesis (``HYPOTHESIS_PROFILE=fuzz`` for the long one), data that may be absent."""
+"""Profiles of hypothesis, data that may be absent, a browser, and the running of commands.
+
+``HYPOTHESIS_PROFILE=ci`` takes more examples, which are always the same, and ``fuzz`` many new ones.
+"""
 
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+import serendipity
 from benchmarks.problems import PROBLEMS
 from search.kernel.library import library
+from serendipity import Task
 from serendipity.cli.streams import progress_lines
+from tests.cli.conftest import run as run  # a fixture of several rooms
+from tests.show.browser import chromium, chromium_path
 
 pytest_plugins = ["pytester"]
 
 _CALM = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
+settings.register_profile("quick", derandomize=True, max_examples=60, database=None, **_CALM)
 settings.register_profile("ci", derandomize=True, max_examples=100, database=None, **_CALM)
 settings.register_profile("dev", max_examples=50, **_CALM)
 settings.register_profile("fuzz", max_examples=1000, print_blob=True, **_CALM)
-settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 
 
 def pytest_report_header() -> str:
@@ -38,6 +47,23 @@ def _data(name: str) -> Path:
     if not folder.is_dir():
         pytest.skip(f"needs the folder '{name}' in {PROBLEMS} (SERENDIPITY_PROBLEMS says where to look)")
     return folder
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """A headless Chromium."""
+    pytest.importorskip("playwright.sync_api", reason="no playwright: `make test-browser` installs it")
+    path = chromium_path()
+    if path is None:
+        pytest.skip("no chromium (CHROMIUM is its path): `make test-browser` installs it where it may")
+    with chromium(path) as running:
+        yield running
+
+
+@pytest.fixture
+def room2() -> Task:
+    """The paper's example III-C."""
+    return serendipity.example("room2")
 
 
 @pytest.fixture(scope="session")

@@ -80,8 +80,12 @@ class Unbound:
 
     def why_not_even_alone(self, following: Following, now: DecisionPoint, deadline: Deadline) -> Why:
         """Why there is no plan, though the person has one: robots' own goals are out of reach."""
-        session = self._promised(following.promise(), now)
-        found = session.plan(human_model=self._model, deadline=deadline)
+        promise = following.promise()
+        session = self._promised(promise, now)
+        if promise:
+            found = session.plan(human_model=self._model, deadline=deadline)
+        else:  # who has nothing to do sets no horizon
+            found = session.plan(mode="composite", horizon="inf", deadline=deadline)
         if found.status == "unknown":
             raise LimitReachedError("time-limit")
         return Why("own-goals-lost" if found.plan is None else "own-goals-spoil")

@@ -1,11 +1,13 @@
 """Running command lines: in this process (fast), or in one of their own (real)."""
 
+import json
 import shlex
 import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -23,10 +25,12 @@ class Run:
     err: str
 
 
+Runs = Callable[[str], Run]
+"""What runs a command line, given without the program's name."""
+
+
 @pytest.fixture
-def run(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Callable[[str], Run]:
+def run(capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Runs:
     """Run a command line (without the program's name) in an empty folder, in this process."""
     monkeypatch.chdir(tmp_path)
 
@@ -39,7 +43,15 @@ def run(
 
 
 @pytest.fixture
-def process(tmp_path: Path) -> Callable[[str], Run]:
+def answer(run: Runs) -> dict[str, Any]:
+    """A good result of the example room2, which ``help.json`` in the working folder says."""
+    assert run("plan --example room2 --discount 0.6 -o help.json").code == 0
+    read: dict[str, Any] = json.loads(Path("help.json").read_text())
+    return read
+
+
+@pytest.fixture
+def process(tmp_path: Path) -> Runs:
     """Run a command line in an empty folder, as a process of its own."""
 
     def runs(command: str) -> Run:

@@ -1,13 +1,12 @@
 """Bad input: exit 2 and one line that a person can act on, never a traceback."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import serendipity
-from tests.cli.conftest import Run, assert_one_line
+from tests.cli.conftest import Runs, assert_one_line
 
 
 @pytest.fixture
@@ -26,72 +25,63 @@ def spoil(path: Path, old: str, new: str) -> None:
     path.write_text(text.replace(old, new, 1))
 
 
-def line_of(path: Path, part: str) -> int:
-    return next(i for i, line in enumerate(path.read_text().splitlines(), 1) if part in line)
-
-
-def test_missing_file(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
-    pair[1].unlink()
-    assert_one_line(run(TASK), "problem.pddl")
-
-
-def test_empty_file(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
-    pair[1].write_text("")
-    assert_one_line(run(TASK), "problem.pddl")
-
-
-def test_binary_noise(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
-    pair[0].write_bytes(bytes(range(256)) * 4)
-    assert_one_line(run(TASK), "domain.pddl")
+@pytest.mark.parametrize(("which", "content"), [(1, None), (1, b""), (0, bytes(range(256)) * 4)])
+def test_files_that_are_missing_empty_or_noise(
+    which: int, content: bytes | None, pair: tuple[Path, Path], run: Runs
+) -> None:
+    pair[which].unlink()
+    if content is not None:
+        pair[which].write_bytes(content)
+    assert_one_line(run(TASK), pair[which].name)
 
 
 @pytest.mark.parametrize("share", [0.1, 0.3, 0.5, 0.7, 0.9, 0.99])
 @pytest.mark.parametrize("which", [0, 1])
-def test_file_cut_in_the_middle(
-    which: int, share: float, pair: tuple[Path, Path], run: Callable[[str], Run]
-) -> None:
+def test_file_cut_in_the_middle(which: int, share: float, pair: tuple[Path, Path], run: Runs) -> None:
     text = pair[which].read_text()
     pair[which].write_text(text[: int(len(text) * share)])
     assert_one_line(run(TASK), pair[which].name)
 
 
-def test_unknown_predicate(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
-    spoil(pair[1], "(at mk1 room2)", "(lies mk1 room2)")
-    assert_one_line(run(TASK), f"problem.pddl:{line_of(pair[1], 'lies')}:", "lies")
+@pytest.mark.parametrize(
+    ("spoilt", "word"),
+    [
+        ("(lies mk1 room2)", "lies"),
+        ("(at mk1 room2 room3)", "at"),
+        ("(at mk7 room2)", "mk7"),
+        ("(at mk1 mk2)", "mk2"),
+    ],
+    ids=["unknown predicate", "wrong arity", "undeclared object", "type error"],
+)
+def test_a_wrong_atom_is_named_with_its_line(
+    spoilt: str, word: str, pair: tuple[Path, Path], run: Runs
+) -> None:
+    spoil(pair[1], "(at mk1 room2)", spoilt)
+    lines = pair[1].read_text().splitlines()
+    line = next(i for i, line in enumerate(lines, 1) if spoilt in line)
+    assert_one_line(run(TASK), f"problem.pddl:{line}:", word)
 
 
-def test_wrong_arity(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
-    spoil(pair[1], "(at mk1 room2)", "(at mk1 room2 room3)")
-    assert_one_line(run(TASK), f"problem.pddl:{line_of(pair[1], 'room2 room3)')}:", "at")
-
-
-def test_undeclared_object(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
-    spoil(pair[1], "(at mk1 room2)", "(at mk7 room2)")
-    assert_one_line(run(TASK), f"problem.pddl:{line_of(pair[1], 'mk7')}:", "mk7")
-
-
-def test_type_error(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
-    spoil(pair[1], "(at mk1 room2)", "(at mk1 mk2)")
-    assert_one_line(run(TASK), f"problem.pddl:{line_of(pair[1], '(at mk1 mk2)')}:", "mk2")
-
-
-def test_no_human(tmp_path: Path, run: Callable[[str], Run]) -> None:
+@pytest.mark.parametrize(
+    ("who", "old", "new", "words"),
+    [
+        ("commx", " (conducted_triage commx room1)", "", ["human"]),
+        ("robot", "(:goal (and))", "(:goal (at robot room1))", ["commx", "robot", "human"]),
+    ],
+)
+def test_one_agent_has_a_goal(
+    who: str, old: str, new: str, words: list[str], tmp_path: Path, run: Runs
+) -> None:
     serendipity.generate_usar(tmp_path / "task", preset="room2")
-    spoil(tmp_path / "task/commx/problem.pddl", " (conducted_triage commx room1)", "")
-    assert_one_line(run("plan task"), "human")
+    spoil(tmp_path / f"task/{who}/problem.pddl", old, new)
+    assert_one_line(run("plan task"), *words)
 
 
-def test_who_could_be_the_human_is_said(pair: tuple[Path, Path], run: Callable[[str], Run]) -> None:
+def test_who_could_be_the_human_is_said(pair: tuple[Path, Path], run: Runs) -> None:
     assert_one_line(run("plan domain.pddl problem.pddl"), "--human", "--robot")
     delivery = Path(__file__).parents[1] / "pddl" / "data" / "delivery"
     words = ["its agents: v, w, x", "--human H"]
     assert_one_line(run(f"plan {delivery / 'domain.pddl'} {delivery / 'problem.pddl'}"), *words)
-
-
-def test_two_humans(tmp_path: Path, run: Callable[[str], Run]) -> None:
-    serendipity.generate_usar(tmp_path / "task", preset="room2")
-    spoil(tmp_path / "task/robot/problem.pddl", "(:goal (and))", "(:goal (at robot room1))")
-    assert_one_line(run("plan task"), "commx", "robot", "human")
 
 
 @pytest.mark.parametrize(
@@ -140,17 +130,45 @@ def test_two_humans(tmp_path: Path, run: Callable[[str], Run]) -> None:
         ("generate usar -o out --rooms many", ["--rooms", "many"]),
         ("generate usar -o out --preset room3", ["preset", "room3"]),
         ("dance", ["dance"]),
+        ("explain --example room2 --mode individual", ["explain", "individual"]),
+        ("explain --example room2 --horizon 3", ["horizon", "13"]),
+        ("explain --example room2 absent.json", ["absent.json", "can't be read"]),
+        ("explain --example room2 -o absent/file", ["no folder"]),
+        ("interruptions --example room2 --horizon 3", ["horizon", "13"]),
+        ("interruptions --example room2 --heat-map map.pdf", [".svg", "map.pdf"]),
+        ("interruptions --example room2 --heat-map absent/map.svg", ["--heat-map", "no folder"]),
+        ("interruptions --example room2 --discount 2", ["discount"]),
+        ("reproduce nowhere", ["nowhere", "expected a folder of tasks"]),
+        ("reproduce nowhere --modes help", ["modes", "individual, serendipity", "'help'"]),
+        ("reproduce nowhere --modes assistance", ["modes", "'assistance'"]),
+        ("reproduce nowhere --discounts 2", ["discount", "[0, 1]"]),
+        ("reproduce nowhere --discounts ,", ["at least one"]),
+        ("reproduce nowhere --jobs 0", ["jobs", "at least 1"]),
+        ("reproduce nowhere --format text", ["--format", "table, csv, json"]),
+        ("reproduce nowhere -o absent/rows.csv", ["no folder"]),
+        ("reproduce nowhere --report absent/page.html", ["--report", "no folder"]),
+        ("plan --example room2 --save-plan nowhere/help.plan", ["--save-plan"]),
+        ("plan --example room2 --save-plan .", ["--save-plan"]),
+        ("plan --example room2 --progress loud", ["--progress", "plain", "loud"]),
+        ("bench --rooms 4 --seeds 1 --plot timings.txt", ["--plot"]),
+        ("bench --rooms 4 --seeds 1 --discounts x", ["discount"]),
+        ("bench --rooms 4 --seeds 1 --scaling width", ["width"]),
+        ("bench --rooms 4 --seeds 1 here --scaling rooms", ["--scaling"]),
+        ("bench --rooms 4 --seeds 1 --modes x", ["'x'"]),
+        ("bench --rooms 4 --seeds 1 --contenders search,guess", ["guess"]),
     ],
 )
-def test_wrong_usage(command: str, words: list[str], run: Callable[[str], Run]) -> None:
+def test_wrong_usage(command: str, words: list[str], run: Runs) -> None:
     assert_one_line(run(command), *words)
 
 
-@pytest.fixture
-def answer(run: Callable[[str], Run]) -> dict[str, object]:
-    """A good result to spoil."""
-    read: dict[str, object] = json.loads(run("plan --example room2 --discount 0.6 --format json").out)
-    return read
+Answer = dict[str, object]
+
+
+def assert_refused(run: Runs, text: str, *words: str) -> None:
+    """A result of that text is."""
+    Path("help.json").write_text(text)
+    assert_one_line(run("verify --example room2 help.json"), "help.json", *words)
 
 
 @pytest.mark.parametrize(
@@ -167,60 +185,50 @@ def answer(run: Callable[[str], Run]) -> dict[str, object]:
         ({"options": {"discount": 2}}, ["discount"]),
     ],
 )
-def test_spoilt_results(
-    changes: dict[str, object], words: list[str], answer: dict[str, object], run: Callable[[str], Run]
-) -> None:
-    Path("answer.json").write_text(json.dumps(answer | changes))
-    assert_one_line(run("verify --example room2 answer.json"), "answer.json", *words)
+def test_spoilt_results(changes: dict[str, object], words: list[str], answer: Answer, run: Runs) -> None:
+    assert_refused(run, json.dumps(answer | changes), *words)
 
 
-def test_result_for_another_task(answer: dict[str, object], run: Callable[[str], Run]) -> None:
-    Path("answer.json").write_text(json.dumps(answer))
+def test_result_for_another_task(answer: Answer, run: Runs) -> None:
     assert run("generate usar --rooms 4 -o other").code == 0
-    assert_one_line(run("verify other answer.json"), "answer.json", "another task")
-    Path("answer.json").write_text(json.dumps(answer | {"human": "somebody"}))
-    assert_one_line(run("verify --example room2 answer.json"), "another task", "somebody")
+    assert_one_line(run("verify other help.json"), "help.json", "another task")
+    assert_refused(run, json.dumps(answer | {"human": "somebody"}), "another task", "somebody")
 
 
-def test_result_with_nan(answer: dict[str, object], run: Callable[[str], Run]) -> None:
-    Path("answer.json").write_text(json.dumps(answer | {"cost": float("nan")}))
-    assert_one_line(run("verify --example room2 answer.json"), "answer.json", "NaN")
+def test_result_with_nan(answer: Answer, run: Runs) -> None:
+    assert_refused(run, json.dumps(answer | {"cost": float("nan")}), "NaN")
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "[" * 100_000, "9" * 5000, "\x00"])
-def test_results_that_are_no_object(text: str, run: Callable[[str], Run]) -> None:
-    Path("answer.json").write_text(text)
-    assert_one_line(run("verify --example room2 answer.json"), "answer.json")
+def test_results_that_are_no_object(text: str, run: Runs) -> None:
+    assert_refused(run, text)
 
 
-def test_results_and_goals_may_begin_with_a_byte_order_mark(
-    answer: dict[str, object], run: Callable[[str], Run]
-) -> None:
-    Path("answer.json").write_text("\ufeff" + json.dumps(answer))
-    assert run("verify --example room2 answer.json").code == 0
+def test_results_and_goals_may_begin_with_a_byte_order_mark(answer: Answer, run: Runs) -> None:
+    Path("help.json").write_text("\ufeff" + json.dumps(answer))
+    assert run("verify --example room2 help.json").code == 0
     Path("goals.json").write_text('\ufeff[{"goal": ["conducted_triage commx room1"]}]')
     assert run("recognise --example room2 --goals goals.json").code == 0
 
 
-def test_truncated_result_names_the_line(answer: dict[str, object], run: Callable[[str], Run]) -> None:
-    Path("answer.json").write_text(json.dumps(answer, indent=1)[:-40])
-    lines = Path("answer.json").read_text().count("\n") + 1
-    assert_one_line(run("verify --example room2 answer.json"), f"answer.json:{lines}:")
+def test_truncated_result_names_the_line(answer: Answer, run: Runs) -> None:
+    text = json.dumps(answer, indent=1)[:-40]
+    assert_refused(run, text, f"help.json:{text.count(chr(10)) + 1}:")
 
 
 @pytest.mark.parametrize("option", ["--window-weight", "--max-cost"])
-def test_weights_that_no_float_is(option: str, run: Callable[[str], Run]) -> None:
+def test_weights_that_no_float_is(option: str, run: Runs) -> None:
     done = run(f"plan --example room2 --discount 0.6 {option} 99999999999999999999 -o help.json")
     assert (done.code, done.err) == (0, "")
     assert run("verify --example room2 help.json").code == 0
 
 
 @pytest.mark.parametrize("number", ["1e300", "9" * 101])
-def test_numbers_that_are_too_long_are_called_so(number: str, run: Callable[[str], Run]) -> None:
+def test_numbers_that_are_too_long_are_called_so(number: str, run: Runs) -> None:
     done = run(f"plan --example room2 --window-weight {number}")
     assert_one_line(done, "window_weight: expected a finite number of at most 100 digits", number[:40])
 
 
-def test_in_a_process_of_its_own(process: Callable[[str], Run]) -> None:
+def test_in_a_process_of_its_own(process: Runs) -> None:
     assert_one_line(process("plan nowhere --discount 0.5"), "nowhere")
     assert_one_line(process("plan --discount"), "--discount")

@@ -1,15 +1,12 @@
 """``serendipity check-task``: text, JSON and exit codes, in every way of naming a task."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import serendipity
-from tests.cli.conftest import Run, assert_one_line
-
-Runs = Callable[[str], Run]
+from tests.cli.conftest import Runs, assert_one_line
 
 AGENTS = (
     "--agent commx=task/commx/domain.pddl,task/commx/problem.pddl "

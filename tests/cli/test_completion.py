@@ -1,7 +1,5 @@
 """The shell completes commands, options, their values, and the names of examples."""
 
-from collections.abc import Callable
-
 import pytest
 
 from serendipity.cli.on_demand import NAMES
@@ -9,7 +7,7 @@ from serendipity.cli.streams.manner import STYLES
 from serendipity.cli.streams.output import FORMATS
 from serendipity.model.keywords import CHOICES
 from serendipity.scenarios.examples import EXAMPLES
-from tests.cli.conftest import Run
+from tests.cli.conftest import Runs
 
 
 @pytest.mark.parametrize(
@@ -29,9 +27,7 @@ from tests.cli.conftest import Run
         ("show --epo", {"--epoch"}),
     ],
 )
-def test_completions(
-    words: str, expected: set[str], run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_completions(words: str, expected: set[str], run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
     line = f"serendipity {words}"
     monkeypatch.setenv("_SERENDIPITY_COMPLETE", "complete_bash")
     monkeypatch.setenv("COMP_WORDS", line)
@@ -41,9 +37,7 @@ def test_completions(
     assert set(done.out.split()) == expected
 
 
-def test_the_script_for_a_shell_is_printed(
-    run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_script_for_a_shell_is_printed(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("shellingham.detect_shell", lambda: ("bash", "/bin/bash"))
     done = run("--show-completion")
     assert done.code == 0

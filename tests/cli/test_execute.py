@@ -3,17 +3,16 @@
 import csv
 import io
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Run, assert_one_line
+from tests.cli.conftest import Runs, assert_one_line
 
 CALL = "execute --example room2 --discount 0.6"
 
 
-def test_text_tells_the_story(run: Callable[[str], Run]) -> None:
+def test_text_tells_the_story(run: Runs) -> None:
     told = run(CALL)
     assert told.code == 0
     lines = told.out.splitlines()
@@ -22,7 +21,7 @@ def test_text_tells_the_story(run: Callable[[str], Run]) -> None:
     assert "in the mean 11 instead of 13; the team 12.6" in lines
 
 
-def test_json_and_csv_hold_a_row_a_run(run: Callable[[str], Run]) -> None:
+def test_json_and_csv_hold_a_row_a_run(run: Runs) -> None:
     told = json.loads(run(f"{CALL} --human noisy:0.2 --runs 3 --seed 4 --format json").out)
     assert told["schema"] == "serendipity.executions/1" and told["summary"]["runs"] == 3
     text = run(f"{CALL} --human noisy:0.2 --runs 3 --seed 4 --format csv").out
@@ -33,12 +32,12 @@ def test_json_and_csv_hold_a_row_a_run(run: Callable[[str], Run]) -> None:
     )
 
 
-def test_who_does_not_arrive_is_no_answer(run: Callable[[str], Run]) -> None:
+def test_who_does_not_arrive_is_no_answer(run: Runs) -> None:
     told = run(f"{CALL} --epochs 2")
     assert told.code == 1 and "not reached in 1 of 1 run, so nothing is saved" in told.out.splitlines()
 
 
-def test_a_log_is_played_again(run: Callable[[str], Run]) -> None:
+def test_a_log_is_played_again(run: Runs) -> None:
     assert run(f"{CALL} --runs 2 --faults fail=0.2,drop=0.05 --log runs.jsonl").code == 0
     again = run("execute --example room2 --replay runs.jsonl")
     assert again.code == 0 and [line[:21] for line in again.out.splitlines()] == [
@@ -51,12 +50,12 @@ def test_a_log_is_played_again(run: Callable[[str], Run]) -> None:
     assert changed.code == 1 and "runs.jsonl:3: log: human_cost: comes out as 2.0" in changed.out
 
 
-def test_a_log_that_is_nested_too_deeply(run: Callable[[str], Run]) -> None:
+def test_a_log_that_is_nested_too_deeply(run: Runs) -> None:
     Path("runs.jsonl").write_text("[" * 100_000)
     assert_one_line(run("execute --example room2 --replay runs.jsonl"), "runs.jsonl:1: log: expected a JSON")
 
 
-def test_a_record_may_stand_behind_the_task(run: Callable[[str], Run]) -> None:
+def test_a_record_may_stand_behind_the_task(run: Runs) -> None:
     Path("record").write_text("noop\nmove commx room13 hall8\n")
     first, second = (
         run(f"execute --example room2 --human {words}").out.partition("\nrun ")[0]
@@ -83,6 +82,6 @@ def test_a_record_may_stand_behind_the_task(run: Callable[[str], Run]) -> None:
         ("--person nobody", "nobody"),
     ],
 )
-def test_wrong_input_is_one_line(run: Callable[[str], Run], arguments: str, complaint: str) -> None:
+def test_wrong_input_is_one_line(run: Runs, arguments: str, complaint: str) -> None:
     told = run(f"execute --example room2 {arguments}")
     assert told.code == 2 and complaint in told.err and told.err.count("\n") == 1

@@ -1,7 +1,7 @@
 """Each exit code, and that nothing but the documented ones comes out."""
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, get_args
@@ -12,7 +12,7 @@ import serendipity
 from serendipity.cli.exit_codes import OF_STATUS, OF_VERDICT, ExitCode
 from serendipity.model import Result, Task
 from serendipity.model.answers.answer import Status
-from tests.cli.conftest import Run
+from tests.cli.conftest import Runs
 
 HUMAN_ALONE_CANNOT = """
 (define (domain d) (:requirements :strips)
@@ -46,50 +46,49 @@ def test_codes_are_the_documented_ones() -> None:
 
 
 @pytest.mark.parametrize("discount", ["0", "0.6"])
-def test_an_answer_is_0(discount: str, run: Callable[[str], Run]) -> None:
+def test_an_answer_is_0(discount: str, run: Runs) -> None:
     assert run(f"plan --example room2 --discount {discount}").code == 0
 
 
-def test_infeasible_is_3_and_still_written(stuck: str, run: Callable[[str], Run]) -> None:
+def test_infeasible_is_3_and_still_written(stuck: str, run: Runs) -> None:
     done = run(f"plan {stuck} --format json")
     assert done.code == 3
     assert (json.loads(done.out)["status"], json.loads(done.out)["reason"]) == ("infeasible", "no-human-plan")
     assert run(f"plan {stuck}").out.count("infeasible") == 1
 
 
-def test_a_joint_plan_where_he_has_none_is_0(stuck: str, run: Callable[[str], Run]) -> None:
+def test_a_joint_plan_where_he_has_none_is_0(stuck: str, run: Runs) -> None:
     assert run(f"plan {stuck} --mode composite").code == 0
     assert run(f"plan {stuck} --mode communication --horizon 2").code == 0
 
 
-def test_no_answer_within_the_limit_is_4(run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch) -> None:
-    def nothing(task: Task, **options: Any) -> Iterator[Result]:
-        yield Result("serendipity", "unknown", "commx", serendipity.Options())
+def anytime(monkeypatch: pytest.MonkeyPatch, error: BaseException | None, *found: Result) -> None:
+    """Planning finds some answers, and then ends or fails."""
 
-    monkeypatch.setattr(serendipity, "plan_anytime", nothing)
+    def answers(task: Task, **options: Any) -> Iterator[Result]:
+        yield from found
+        if error is not None:
+            raise error
+
+    monkeypatch.setattr(serendipity, "plan_anytime", answers)
+
+
+def test_no_answer_within_the_limit_is_4(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
+    anytime(monkeypatch, None, Result("serendipity", "unknown", "commx", serendipity.Options()))
     done = run("plan --example room2 --time-limit 60")
     assert done.code == 4
     assert "the limit came before any answer" in done.out
 
 
-def test_an_interrupt_writes_the_incumbent_and_is_130(
-    run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_interrupt_writes_the_incumbent_and_is_130(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
     found = serendipity.plan(serendipity.example("room2"), discount=0.6)
-
-    def interrupted(task: Task, **options: Any) -> Iterator[Result]:
-        yield replace(found, status="feasible")
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(serendipity, "plan_anytime", interrupted)
+    anytime(monkeypatch, KeyboardInterrupt(), replace(found, status="feasible"))
     done = run("plan --example room2 --discount 0.6 --format json -o answer.json")
     assert done.code == 130
     assert json.loads(Path("answer.json").read_text())["status"] == "feasible"
 
 
-def test_an_interrupted_proof_does_not_lose_the_answer(
-    run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_interrupted_proof_does_not_lose_the_answer(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupted(task: Task, result: Result, **limits: Any) -> serendipity.Certificate:
         raise KeyboardInterrupt
 
@@ -100,43 +99,29 @@ def test_an_interrupted_proof_does_not_lose_the_answer(
     assert (written["cost"], "certificate" in written) == (12.6, False)
 
 
-def test_an_interrupt_before_any_plan_is_130_too(
-    run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def interrupted(task: Task, **options: Any) -> Iterator[Result]:
-        raise KeyboardInterrupt
-        yield
-
-    monkeypatch.setattr(serendipity, "plan_anytime", interrupted)
+def test_an_interrupt_before_any_plan_is_130_too(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
+    anytime(monkeypatch, KeyboardInterrupt())
     done = run("plan --example room2 -o answer.json")
     assert done.code == 130
     assert not Path("answer.json").exists()
     assert done.err.count("\n") == 1
 
 
-def test_a_doctored_result_is_1(run: Callable[[str], Run]) -> None:
-    assert run("plan --example room2 --discount 0.6 -o answer.json").code == 0
-    assert run("verify --example room2 answer.json").code in (0, 4)
-    answer = json.loads(Path("answer.json").read_text())
+def test_a_doctored_result_is_1(answer: dict[str, Any], run: Runs) -> None:
+    assert run("verify --example room2 help.json").code in (0, 4)
     answer["plan"] = [step for step in answer["plan"] if not step["action"].startswith("hand_over")]
-    Path("answer.json").write_text(json.dumps(answer))
-    done = run("verify --example room2 answer.json")
+    Path("help.json").write_text(json.dumps(answer))
+    done = run("verify --example room2 help.json")
     assert done.code == 1
     assert "refuted" in done.out
-    certificate = json.loads(run("verify --example room2 answer.json --format json").out)
+    certificate = json.loads(run("verify --example room2 help.json --format json").out)
     assert certificate["verdict"] == "refuted"
     assert any(claim["verdict"] == "refuted" and claim["reason"] for claim in certificate["claims"])
 
 
 @pytest.mark.parametrize("option", ["", "-vv"])
-def test_a_fault_of_ours_is_70(
-    option: str, run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def broken(task: Task, **options: Any) -> Iterator[Result]:
-        raise AssertionError("never\nso")
-        yield
-
-    monkeypatch.setattr(serendipity, "plan_anytime", broken)
+def test_a_fault_of_ours_is_70(option: str, run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
+    anytime(monkeypatch, AssertionError("never\nso"))
     done = run(f"plan --example room2 {option}")
     assert (done.code, done.out) == (70, "")
     *before, last = done.err.splitlines()

@@ -1,14 +1,9 @@
 """``serendipity explain`` on the command line."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
-import pytest
-
-from tests.cli.conftest import Run, assert_one_line
-
-Runs = Callable[[str], Run]
+from tests.cli.conftest import Runs, assert_one_line
 
 
 def test_text_and_json_say_the_same(run: Runs) -> None:
@@ -31,27 +26,7 @@ def test_a_result_is_explained(run: Runs) -> None:
     assert from_file.out == run("explain --example room7 --discount 0.6").out
 
 
-def test_a_doctored_result_is_refused(run: Runs, tmp_path: Path) -> None:
-    run("plan --example room2 --discount 0.6 -o answer.json")
-    answer = json.loads((tmp_path / "answer.json").read_text())
-    answer["cost"] = 12
-    (tmp_path / "answer.json").write_text(json.dumps(answer))
-    assert_one_line(run("explain --example room2 answer.json"), "answer.json", "no answer to this task")
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ("--mode individual", ("explain", "individual")),
-        ("--horizon 3", ("horizon", "13")),
-        ("absent.json", ("absent.json", "can't be read")),
-        ("-o absent/file", ("no folder",)),
-    ],
-)
-def test_bad_options(options: str, words: tuple[str, ...], run: Runs) -> None:
-    assert_one_line(run(f"explain --example room2 {options}"), *words)
-
-
-def test_options_beside_a_result(run: Runs) -> None:
-    run("plan --example room2 --discount 0.6 -o answer.json")
-    assert_one_line(run("explain --example room2 answer.json --discount 0.6"), "got both")
+def test_a_doctored_result_is_refused(run: Runs, answer: dict[str, object]) -> None:
+    assert_one_line(run("explain --example room2 help.json --discount 0.6"), "got both")
+    Path("help.json").write_text(json.dumps(answer | {"cost": 12}))
+    assert_one_line(run("explain --example room2 help.json"), "help.json", "no answer to this task")

@@ -1,17 +1,16 @@
 """Every example that --help shows runs, in the order shown."""
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from serendipity.cli.help_examples import EXAMPLES, SERVERS
 from serendipity.cli.on_demand import NAMES
-from tests.cli.conftest import Run
+from tests.cli.conftest import Runs
 
 
-def test_examples_of_help_run(run: Callable[[str], Run], tmp_path: Path) -> None:
+def test_examples_of_help_run(run: Runs, tmp_path: Path) -> None:
     (tmp_path / "goals.txt").write_text("2: conducted_triage commx room1\n1: conducted_triage commx room2\n")
     for command in EXAMPLES:
         program, rest = command.split(" ", 1)
@@ -21,7 +20,7 @@ def test_examples_of_help_run(run: Callable[[str], Run], tmp_path: Path) -> None
         assert done.err == ""
 
 
-def test_examples_of_servers_are_right_but_for_the_port(run: Callable[[str], Run], tmp_path: Path) -> None:
+def test_examples_of_servers_are_right_but_for_the_port(run: Runs, tmp_path: Path) -> None:
     for command in SERVERS:
         rest, _, port = command.split(" ", 1)[1].rpartition(" ")
         done = run(f"{rest} 70000")
@@ -31,7 +30,7 @@ def test_examples_of_servers_are_right_but_for_the_port(run: Callable[[str], Run
 
 
 @pytest.mark.parametrize("command", [*(name for name in NAMES if name != "generate"), "generate usar"])
-def test_help_shows_its_examples(command: str, run: Callable[[str], Run]) -> None:
+def test_help_shows_its_examples(command: str, run: Runs) -> None:
     done = run(f"{command} --help")
     shown = [text for text in (*EXAMPLES, *SERVERS) if text.startswith(f"serendipity {command}".rstrip())]
     assert done.code == 0
@@ -40,7 +39,7 @@ def test_help_shows_its_examples(command: str, run: Callable[[str], Run]) -> Non
         assert text in done.out
 
 
-def test_help_fits_a_terminal(run: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_help_fits_a_terminal(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     shown = run("--help").out.splitlines()
     assert all(len(line) <= 80 and not line.endswith("...") for line in shown[1:])
@@ -51,14 +50,14 @@ def test_help_fits_a_terminal(run: Callable[[str], Run], monkeypatch: pytest.Mon
 
 
 @pytest.mark.parametrize("option", ["mode", "suffix", "preservation", "interference", "human_model", "ties"])
-def test_help_names_the_choices_of_the_registry(option: str, run: Callable[[str], Run]) -> None:
+def test_help_names_the_choices_of_the_registry(option: str, run: Runs) -> None:
     from serendipity.model.keywords import CHOICES
 
     shown = "".join(run("plan --help").out.split())
     assert f"--{option.replace('_', '-')}{'|'.join(CHOICES[option])}" in shown
 
 
-def test_version(run: Callable[[str], Run]) -> None:
+def test_version(run: Runs) -> None:
     import serendipity
     from search.kernel.library import state
 

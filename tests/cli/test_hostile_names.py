@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,9 +10,7 @@ import pytest
 import serendipity
 from serendipity.model.printable import LONGEST, message, printable, printable_json
 from serendipity.writing.csv_text import as_csv
-from tests.cli.conftest import Run, assert_one_line
-
-Runs = Callable[[str], Run]
+from tests.cli.conftest import Runs, assert_one_line
 
 HOSTILE = "mk\u200e2j\u200b1\u00ad"
 """Says how the direction of writing goes on, and is not as long as it looks.

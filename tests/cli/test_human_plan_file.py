@@ -8,7 +8,7 @@ import pytest
 
 import serendipity
 from serendipity.cli.files.plans import checked_plan
-from tests.cli.conftest import Run, assert_one_line
+from tests.cli.conftest import Runs, assert_one_line
 
 
 @pytest.fixture
@@ -37,7 +37,7 @@ LOOKS: dict[str, Callable[[list[str]], str]] = {
 
 
 @pytest.mark.parametrize("look", LOOKS)
-def test_every_look_is_the_same_plan(look: str, names: list[str], run: Callable[[str], Run]) -> None:
+def test_every_look_is_the_same_plan(look: str, names: list[str], run: Runs) -> None:
     Path("plan.txt").write_text(LOOKS[look](names))
     done = run("plan --example room2 --discount 0.6 --human-plan plan.txt --format json")
     assert done.code == 0, done
@@ -50,39 +50,41 @@ def test_every_look_is_the_same_plan(look: str, names: list[str], run: Callable[
     "look",
     ["plain", "comments", "json lines", "noops", "carriage returns only"],
 )
-def test_an_error_names_file_and_line(look: str, names: list[str], run: Callable[[str], Run]) -> None:
+def test_an_error_names_file_and_line(look: str, names: list[str], run: Runs) -> None:
     spoilt = [*names[:4], "fly commx hall5 hall1", *names[5:]]
     Path("plan.txt").write_text(LOOKS[look](spoilt))
     line = next(i for i, text in enumerate(Path("plan.txt").read_text().splitlines(), 1) if "fly" in text)
     assert_one_line(run("plan --example room2 --human-plan plan.txt"), f"plan.txt:{line}:", "fly")
 
 
-def test_an_inapplicable_action_is_named(names: list[str], run: Callable[[str], Run]) -> None:
-    Path("plan.txt").write_text("# his\n" + "\n".join([names[0], *names[2:]]))
-    done = run("plan --example room2 --human-plan plan.txt")
-    assert_one_line(done, "plan.txt:3:", names[2], "not applicable")
+SPOILT: list[tuple[Callable[[list[str]], list[str]], list[str]]] = [
+    (lambda his: ["# his", his[0], *his[2:]], ["plan.txt:3:", "hall7 hall6", "not applicable"]),
+    (lambda his: [*his[:2], "move robot room4 hall4", *his[2:]], ["plan.txt:3:", "commx", "alone"]),
+    (lambda his: his[:-1], ["plan.txt", "goal"]),
+]
 
 
-def test_a_robots_action_is_named(names: list[str], run: Callable[[str], Run]) -> None:
-    Path("plan.txt").write_text("\n".join([*names[:2], "move robot room4 hall4", *names[2:]]))
-    assert_one_line(run("plan --example room2 --human-plan plan.txt"), "plan.txt:3:", "commx", "alone")
+@pytest.mark.parametrize(
+    ("spoil", "words"), SPOILT, ids=["an inapplicable action", "a robot's action", "a missed goal"]
+)
+def test_what_is_no_plan_is_named(
+    spoil: Callable[[list[str]], list[str]], words: list[str], names: list[str], run: Runs
+) -> None:
+    Path("plan.txt").write_text("\n".join(spoil(names)))
+    assert_one_line(run("plan --example room2 --human-plan plan.txt"), *words)
 
 
-def test_a_missed_goal_is_named(names: list[str], run: Callable[[str], Run]) -> None:
-    Path("plan.txt").write_text("\n".join(names[:-1]))
-    assert_one_line(run("plan --example room2 --human-plan plan.txt"), "plan.txt", "goal")
-
-
-def test_half_a_bracket_is_named(tmp_path: Path) -> None:
-    path = tmp_path / "plan.txt"
-    path.write_text("move a b\n(move b c\n")
-    with pytest.raises(serendipity.InputError, match=r"plan\.txt:2: .*expected one action"):
-        checked_plan(path, serendipity.example("room2"))
-
-
-@pytest.mark.parametrize("text", ["[1, 2]", '["a",', "[[]]"])
-def test_json_that_is_no_list_of_names(text: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("move a b\n(move b c\n", r"plan\.txt:2: .*expected one action"),
+        ("[1, 2]", r"plan\.txt"),
+        ('["a",', r"plan\.txt"),
+        ("[[]]", r"plan\.txt"),
+    ],
+)
+def test_half_a_bracket_or_no_list_of_names_is_named(text: str, said: str, tmp_path: Path) -> None:
     path = tmp_path / "plan.txt"
     path.write_text(text)
-    with pytest.raises(serendipity.InputError, match=r"plan\.txt"):
+    with pytest.raises(serendipity.InputError, match=said):
         checked_plan(path, serendipity.example("room2"))

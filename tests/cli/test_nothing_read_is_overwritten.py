@@ -1,13 +1,12 @@
 """An answer never takes the place of what it is made of, nor of another answer."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import serendipity
-from tests.cli.conftest import Run, assert_one_line
+from tests.cli.conftest import Runs, assert_one_line
 
 TASK = "domain.pddl problem.pddl --human commx --robot robot"
 
@@ -44,7 +43,7 @@ def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, bytes]:
     ],
 )
 def test_files_stay_what_they_are(
-    command: str, option: str, file: str, files: dict[str, bytes], run: Callable[[str], Run]
+    command: str, option: str, file: str, files: dict[str, bytes], run: Runs
 ) -> None:
     Path("link.html").symlink_to("help.json")
     assert_one_line(run(command), f"{option}: expected another file than {file}")
@@ -52,12 +51,12 @@ def test_files_stay_what_they_are(
     assert {path.name: path.read_bytes() for path in Path().iterdir()} == files
 
 
-def test_a_device_may_be_named_twice(run: Callable[[str], Run]) -> None:
+def test_a_device_may_be_named_twice(run: Runs) -> None:
     done = run("plan --example room2 --save-plan /dev/null -o /dev/null")
     assert (done.code, done.out, done.err) == (0, "", "")
 
 
-def test_an_older_answer_may_be_replaced(run: Callable[[str], Run]) -> None:
+def test_an_older_answer_may_be_replaced(run: Runs) -> None:
     for _ in range(2):
         assert run("plan --example room2 -o room2").code == 0
     assert Path("room2").read_text()

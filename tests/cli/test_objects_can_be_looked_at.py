@@ -13,7 +13,7 @@ import pytest
 import serendipity
 from serendipity import InputError, Result, Task, UsageError
 from serendipity.scenarios.examples import DATA, EXAMPLES
-from tests.cli.conftest import Run
+from tests.cli.conftest import Runs
 
 FILES = (DATA / EXAMPLES["room2"].domain, DATA / EXAMPLES["room2"].problem)
 GOALS = [{"name": "triage", "goal": ["conducted_triage commx room1"]}]
@@ -43,7 +43,7 @@ def result(task: Task) -> Result:
 
 @pytest.mark.parametrize("command", MADE)
 def test_objects_look_like_what_the_command_prints(
-    command: str, task: Task, result: Result, run: Callable[[str], Run]
+    command: str, task: Task, result: Result, run: Runs
 ) -> None:
     Path("help.json").write_text(result.to_json(), encoding="utf-8")
     Path("goals.json").write_text(json.dumps(GOALS), encoding="utf-8")
@@ -54,7 +54,7 @@ def test_objects_look_like_what_the_command_prints(
     assert_page(made._repr_html_())
 
 
-def test_results_and_tasks_do_so_too(task: Task, result: Result, run: Callable[[str], Run]) -> None:
+def test_results_and_tasks_do_so_too(task: Task, result: Result, run: Runs) -> None:
     printed = _timeless(run("plan --example room2 --discount 0.6").out).splitlines()
     assert _timeless(str(result)).splitlines() == [printed[0].removeprefix("usar-room2: "), *printed[1:-1]]
     assert repr(task) == "Task('usar-room2', 2 agents, 216 facts, 353 actions)"
@@ -76,7 +76,7 @@ def test_a_long_name_makes_no_long_line(task: Task) -> None:
     assert_page(replace(task, name="<script>&\u202e", known_variables=task.variables)._repr_html_())
 
 
-def test_show_draws_what_the_command_draws(task: Task, result: Result, run: Callable[[str], Run]) -> None:
+def test_show_draws_what_the_command_draws(task: Task, result: Result, run: Runs) -> None:
     Path("help.json").write_text(result.to_json(), encoding="utf-8")
     report = serendipity.interruptions(task, discount=0.6)
     assert not run("show --example room2 help.json -o page.html").err

@@ -6,7 +6,6 @@ import os
 import stat
 import subprocess
 import sys
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +14,7 @@ import pytest
 import serendipity
 from serendipity.cli.streams import manner, output
 from serendipity.model import Result, UsageError
-from tests.cli.conftest import ROOT, Run
+from tests.cli.conftest import ROOT, Runs
 
 
 def test_a_file_is_written_whole_with_usual_permissions(tmp_path: Path) -> None:
@@ -64,23 +63,21 @@ def test_a_link_is_followed_and_a_device_is_not_replaced(tmp_path: Path) -> None
         ("-o answer.json --format text", False),
     ],
 )
-def test_the_format_follows_the_option_then_the_file(
-    words: str, is_json: bool, run: Callable[[str], Run]
-) -> None:
+def test_the_format_follows_the_option_then_the_file(words: str, is_json: bool, run: Runs) -> None:
     done = run(f"plan --example room2 {words}")
     assert (done.code, done.out, done.err) == (0, "", "")
     text = Path(words.split()[1]).read_text()
     assert text.startswith("{") == is_json
 
 
-def test_the_json_is_the_result(run: Callable[[str], Run]) -> None:
+def test_the_json_is_the_result(run: Runs) -> None:
     read = Result.from_dict(json.loads(run("plan --example room2 --discount 0.6 --format json").out))
     expected = serendipity.plan(serendipity.example("room2"), discount=0.6)
     same = {"statistics": {}}
     assert replace(read, **same) == replace(expected, **same)
 
 
-def test_warnings_go_to_stderr_unless_quiet(run: Callable[[str], Run]) -> None:
+def test_warnings_go_to_stderr_unless_quiet(run: Runs) -> None:
     serendipity.generate_usar("task", preset="room2")
     robot = Path("task/robot/problem.pddl")
     robot.write_text(robot.read_text().replace("(at mk2 room3)", ""))
@@ -102,12 +99,6 @@ def test_verbosity_sets_the_level_of_our_loggers() -> None:
 
 def test_a_reader_that_stops_early_is_no_error() -> None:
     program = f"{sys.executable} -m serendipity plan --example room2 | true; exit ${{PIPESTATUS[0]}}"
-    done = subprocess.run(
-        ["bash", "-c", program],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-        stdin=subprocess.DEVNULL,
-    )
+    given = {"cwd": ROOT, "stdin": subprocess.DEVNULL}
+    done = subprocess.run(["bash", "-c", program], capture_output=True, text=True, check=False, **given)
     assert (done.returncode, done.stderr) == (0, "")

@@ -1,8 +1,6 @@
 """``plan --save-plan``: the plan as planning competitions write it, executable line by line."""
 
-from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -11,9 +9,8 @@ from serendipity.cli.files.plans import plan_file
 from serendipity.model import Result, Task
 from serendipity.testing.builders import task
 from serendipity.testing.cases import WORKED, Worked
-from tests.cli.conftest import Run, assert_one_line
-
-Runs = Callable[[str], Run]
+from tests.cli.conftest import Runs
+from tests.cli.test_exit_codes import anytime
 
 
 def actions(text: str) -> list[str]:
@@ -72,15 +69,7 @@ def test_who_undoes_something_comes_later() -> None:
 
 
 def test_without_a_plan_there_is_no_file(run: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def nothing(task: Task, **options: Any) -> Iterator[Result]:
-        yield Result("serendipity", "unknown", "commx", serendipity.Options())
-
-    monkeypatch.setattr(serendipity, "plan_anytime", nothing)
+    anytime(monkeypatch, None, Result("serendipity", "unknown", "commx", serendipity.Options()))
     done = run("plan --example room2 --save-plan help.plan")
     assert done.err.startswith("Warning: --save-plan: there is no plan")
     assert not (tmp_path / "help.plan").exists()
-
-
-@pytest.mark.parametrize("option", ["--save-plan nowhere/help.plan", "--save-plan ."])
-def test_what_is_wrong_is_said_before_the_work(option: str, run: Runs) -> None:
-    assert_one_line(run(f"plan --example room2 {option}"), "--save-plan")

@@ -6,15 +6,13 @@ import pty
 import re
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import serendipity
-from tests.cli.conftest import Run, assert_one_line
+from tests.cli.conftest import Runs, assert_one_line
 
-Runs = Callable[[str], Run]
 SHORT = "--modes serendipity,individual --discounts 0.6"
 
 
@@ -62,7 +60,7 @@ def test_progress_in_lines(run: Runs, suite: Path) -> None:
     assert "opportunities" in told
 
 
-def test_progress_on_a_terminal(suite: Path, tmp_path: Path) -> None:
+def test_progress_on_a_terminal(suite: Path) -> None:
     ours, theirs = pty.openpty()
     command = [
         sys.executable,
@@ -85,29 +83,9 @@ def test_progress_on_a_terminal(suite: Path, tmp_path: Path) -> None:
     assert done.stdout.startswith(b"test,mode,")
 
 
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        ("", ("nowhere", "expected a folder of tasks")),
-        ("--modes help", ("modes", "individual, serendipity", "'help'")),
-        ("--modes assistance", ("modes", "'assistance'")),
-        ("--discounts 2", ("discount", "[0, 1]")),
-        ("--discounts ,", ("at least one",)),
-        ("--jobs 0", ("jobs", "at least 1")),
-        ("--format text", ("--format", "table, csv, json")),
-        ("-o absent/rows.csv", ("no folder",)),
-        ("--report absent/page.html", ("--report", "no folder")),
-    ],
-)
-def test_bad_options(options: str, words: tuple[str, ...], run: Runs) -> None:
-    assert_one_line(run(f"reproduce nowhere {options}"), *words)
-
-
-def test_a_single_task_is_not_a_folder_of_tasks(run: Runs, suite: Path) -> None:
+@pytest.mark.usefixtures("suite")
+def test_what_is_no_folder_of_tasks_or_no_scheduler(run: Runs) -> None:
     assert_one_line(run("reproduce suite/test1"), "single task", "serendipity plan")
-
-
-def test_no_scheduler(run: Runs, suite: Path) -> None:
     assert_one_line(run(f"reproduce suite {SHORT} --dask nonsense://x --quiet"), "--dask", "nonsense://x")
 
 

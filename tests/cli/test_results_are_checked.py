@@ -1,26 +1,15 @@
 """A result that breaks a rule is not believed where it is used: a warning, or exit 1 with --strict."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from serendipity.pictures.scene.building import MOST_EPOCHS
-from tests.cli.conftest import Run, assert_one_line
-
-Runs = Callable[[str], Run]
+from tests.cli.conftest import Runs, assert_one_line
 
 USES = ("show --example room2 help.json -o out.svg", "simulate --example room2 help.json -o out.txt")
-
-
-@pytest.fixture
-def answer(run: Runs) -> dict[str, Any]:
-    """A good result, in help.json."""
-    assert run("plan --example room2 --discount 0.6 -o help.json").code == 0
-    read: dict[str, Any] = json.loads(Path("help.json").read_text())
-    return read
 
 
 DOCTORED = [

@@ -2,7 +2,6 @@
 
 import json
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -15,10 +14,8 @@ from serendipity.evaluation.benchmark.coverage.table import as_table, read_rows
 from serendipity.model.table import Table, table_of
 from serendipity.writing.rows import FORMATS
 from serendipity.writing.rows import written as written_as
-from tests.cli.conftest import Run, assert_one_line
+from tests.cli.conftest import Runs, assert_one_line
 from tests.writing.reading import rows_of
-
-Runs = Callable[[str], Run]
 
 
 def saved(run: Runs, command: str, table: Table) -> dict[str, list[tuple[object, ...]]]:

@@ -2,7 +2,6 @@
 
 import json
 import os
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -10,9 +9,8 @@ import pytest
 import serendipity
 from serendipity.cli.on_demand import NAMES
 from serendipity.cli.options.settings import COMMANDS
-from tests.cli.conftest import Run, assert_one_line
+from tests.cli.conftest import Runs, assert_one_line
 
-Runs = Callable[[str], Run]
 PLAN = "plan --example room2 --format json"
 
 
@@ -123,14 +121,15 @@ def test_wrong_settings_are_one_line(name: str, text: str, words: tuple[str, ...
 def test_settings_that_do_not_go_together_are_named(run: Runs) -> None:
     Path("serendipity.toml").write_text('human_model = "observant"\n')
     told = run("plan --example room2 --mode composite")
-    assert_one_line(
-        told, "human_model: 'observant' is for serendipity mode only", "(settings: ", "serendipity.toml)"
-    )
+    words = "human_model: 'observant' is for serendipity mode only", "(settings: ", "serendipity.toml)"
+    assert_one_line(told, *words)
 
 
-def test_files_that_can_not_be_read_are_one_line(run: Runs) -> None:
+def test_files_that_can_not_be_read_are_one_line_and_others_are_told_in_the_log(run: Runs) -> None:
     Path("serendipity.toml").write_bytes(b"mode = '\xff'")
     assert_one_line(run(PLAN), "serendipity.toml: can't be read: it is not UTF-8")
+    Path("serendipity.toml").write_text("discount = 0.6\n")
+    assert "settings from" in run(f"{PLAN} -v").err
 
 
 def test_a_working_directory_that_is_gone_has_no_settings(
@@ -141,8 +140,3 @@ def test_a_working_directory_that_is_gone_has_no_settings(
     (tmp_path / "gone").rmdir()
     assert run("plan --example room2").code == 0
     os.chdir(tmp_path)
-
-
-def test_the_log_says_where_settings_come_from(run: Runs) -> None:
-    Path("serendipity.toml").write_text("discount = 0.6\n")
-    assert "settings from" in run(f"{PLAN} -v").err

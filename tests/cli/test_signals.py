@@ -68,7 +68,6 @@ def test_a_signal_while_planning_writes_the_incumbent(number: signal.Signals, tm
     running = subprocess.Popen(
         [sys.executable, "-c", WORKING], cwd=tmp_path, stderr=subprocess.PIPE, text=True, bufsize=1
     )
-    assert running.stderr is not None
     while '"answer"' not in running.stderr.readline():
         assert running.poll() is None
     running.send_signal(number)

@@ -2,12 +2,11 @@
 
 import subprocess
 import sys
-from collections.abc import Callable
 
 import pytest
 
 from serendipity.cli.on_demand import NAMES
-from tests.cli.conftest import Run
+from tests.cli.conftest import Runs
 
 SOLVERS = ("pulp", "highspy")
 
@@ -61,9 +60,7 @@ def test_nothing_heavy_loads_for(command: list[str]) -> None:
 
 
 @pytest.mark.parametrize("quiet", [False, True])
-def test_a_missing_kernel_is_one_line(
-    quiet: bool, process: Callable[[str], Run], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_missing_kernel_is_one_line(quiet: bool, process: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("SERENDIPITY_KERNEL", "off")
     done = process(f"plan --example room2 --format json {'--quiet' if quiet else ''}")
     assert '"kernel": "none (SERENDIPITY_KERNEL=off)"' in done.out

@@ -1,13 +1,12 @@
 """``--strategies`` chooses what is tried, and ``-v`` tells what came of each."""
 
 import json
-from collections.abc import Callable
 
 import pytest
 
 from search.strategies.portfolio import chosen as chosen_turns
 from serendipity.cli.text.answers import table_of
-from tests.cli.conftest import Run, assert_one_line
+from tests.cli.conftest import Runs, assert_one_line
 
 
 def tried(text: str) -> list[str]:
@@ -26,9 +25,7 @@ def tried(text: str) -> list[str]:
         ("--strategies=-all,-bound", "-all,-bound"),
     ],
 )
-def test_the_table_has_those_that_were_tried(
-    run: Callable[[str], Run], words: str, chosen: str | None
-) -> None:
+def test_the_table_has_those_that_were_tried(run: Runs, words: str, chosen: str | None) -> None:
     done = run(f"plan --example room2 --discount 0.6 --format json -v {words}")
     answer = json.loads(done.out)
     names = [row["name"] for row in answer["statistics"]["strategies"]]
@@ -38,12 +35,9 @@ def test_the_table_has_those_that_were_tried(
     assert names == [name for name in known if name in names]
 
 
-def test_nothing_is_told_without_v(run: Callable[[str], Run]) -> None:
+def test_nothing_is_told_without_v_and_another_name_is_refused(run: Runs) -> None:
     run("plan --example room2 -v")
     assert run("plan --example room2 --quiet").err == ""
-
-
-def test_another_name_is_refused(run: Callable[[str], Run]) -> None:
     assert_one_line(run("plan --example room2 --strategies magic"), "strategies", "magic")
 
 

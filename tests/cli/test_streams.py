@@ -8,10 +8,8 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from tests.cli.conftest import Run, assert_one_line
+from tests.cli.conftest import Runs, assert_one_line
 from tests.writing.full_disk import largest_file
-
-Runs = Callable[[str], Run]
 
 
 def names(folder: Path) -> list[str]:

@@ -1,7 +1,6 @@
 """The text of an answer says what the result says."""
 
 import re
-from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
@@ -17,7 +16,7 @@ from serendipity.model.telling import Grid, Line
 from serendipity.pictures import build_scene
 from serendipity.pictures.scene.scene import headline
 from serendipity.testing.builders import task
-from tests.cli.conftest import Run
+from tests.cli.conftest import Runs
 
 
 def rows(text: str) -> dict[str, list[str]]:
@@ -33,12 +32,10 @@ def rows(text: str) -> dict[str, list[str]]:
     return table
 
 
-def test_the_demo_shows_both_plans_in_parallel(run: Callable[[str], Run]) -> None:
+def test_the_demo_shows_both_plans_in_parallel(run: Runs) -> None:
     text = run("plan --example room2 --discount 0.6").out
     result = serendipity.plan(serendipity.example("room2"), discount=0.6)
     table = rows(text)
-    assert result.human_plan is not None
-    assert result.plan is not None
     assert len(result.human_plan) == 13
     for epoch, action in enumerate(result.human_plan, start=1):
         assert table[str(epoch)][-1] == action
@@ -61,13 +58,13 @@ def test_the_demo_shows_both_plans_in_parallel(run: Callable[[str], Run]) -> Non
         ("--example room2 --max-window 2", ["max_window 2"]),
     ],
 )
-def test_headlines(command: str, words: list[str], run: Callable[[str], Run]) -> None:
+def test_headlines(command: str, words: list[str], run: Runs) -> None:
     text = run(f"plan {command}").out
     for word in words:
         assert word in text
 
 
-def test_a_plan_that_is_only_the_humans_is_not_shown_twice(run: Callable[[str], Run]) -> None:
+def test_a_plan_that_is_only_the_humans_is_not_shown_twice(run: Runs) -> None:
     text = run("plan --example room7 --discount 0.6").out
     assert "former plan" not in text
     assert text.count("conduct_triage commx room1") == 1
@@ -109,6 +106,12 @@ def answer(**changes: object) -> Result:
     return replace(result, status="feasible", **changes)
 
 
+def reported(**changes: object) -> str:
+    """The text of such an answer."""
+    task, result = serendipity.example("room2"), answer(**changes)
+    return plan_report(task, result, serendipity.check(task, result))
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
@@ -122,17 +125,13 @@ def answer(**changes: object) -> Result:
     ],
 )
 def test_what_is_not_proved_is_said_in_costs(changes: dict[str, object], words: str) -> None:
-    task = serendipity.example("room2")
-    result = answer(**changes)
-    text = plan_report(task, result, serendipity.check(task, result))
+    text = reported(**changes)
     assert f"not proved to be the best: {words}" in text
     assert "100" not in text.splitlines()[1]
 
 
 def test_a_small_window_weight_stays_in_the_sentence() -> None:
-    task = serendipity.example("room2")
-    result = answer(lower_bound=11.0, options=Options(window_weight=2))
-    text = plan_report(task, result, serendipity.check(task, result))
+    text = reported(lower_bound=11.0, options=Options(window_weight=2))
     assert "no less than 11 is possible, with 2 for each epoch of a window" in text
 
 
@@ -145,9 +144,7 @@ def test_a_small_window_weight_stays_in_the_sentence() -> None:
     ],
 )
 def test_a_saving_is_seen_in_the_costs_beside_it(before: float, after: float, words: str) -> None:
-    task = serendipity.example("room2")
-    result = answer(human_cost=before, cost=after, saving=0.4)
-    assert words in plan_report(task, result, serendipity.check(task, result)).splitlines()
+    assert words in reported(human_cost=before, cost=after, saving=0.4).splitlines()
 
 
 @pytest.mark.parametrize("mode", CHOICES["mode"])
@@ -159,7 +156,7 @@ def test_a_goal_that_holds_already_is_said_to(mode: str) -> None:
     assert headline(build_scene(there, result)) == "No help is needed: the goal of h holds already"
 
 
-def test_the_human_alone_is_a_search_too(run: Callable[[str], Run]) -> None:
+def test_the_human_alone_is_a_search_too(run: Runs) -> None:
     text = run("plan --example room2 --mode individual").out
     assert re.search(r"planned in .*, [1-9]\d* nodes expanded", text)
 
@@ -167,7 +164,7 @@ def test_the_human_alone_is_a_search_too(run: Callable[[str], Run]) -> None:
 PRONOUNS = re.compile(r"\b(he|his|him|himself|she|her)\b", re.IGNORECASE)
 
 
-def test_nobody_is_called_he(run: Callable[[str], Run]) -> None:
+def test_nobody_is_called_he(run: Runs) -> None:
     assert run("plan --example room5 --discount 0.9 -o help.json").code == 0
     commands = [f"{name} --help" for name in NAMES]
     commands += ["generate usar --help", "plan --example room2 --discount 0.6", "explain --example room2"]

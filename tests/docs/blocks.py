@@ -13,6 +13,7 @@ from pathlib import Path
 from serendipity.cli.app import main
 
 ROOT = Path(__file__).resolve().parents[2]
+README = ROOT / "README.md"
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 OTHERS = sorted([*ROOT.glob("*.md"), *ROOT.glob("*/DECISIONS.md")])
 """What is written beside the documentation, and links to it."""
@@ -57,23 +58,31 @@ def linked_files(page: Path) -> list[Path]:
     return [page.parent / link for link in _LINKED.findall(page.read_text(encoding="utf-8"))]
 
 
+def prose(page: Path) -> str:
+    """A page without its fenced blocks."""
+    return re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+
+
 def run(block: Block, folder: Path) -> str:
     """Run a block in a folder; what it prints.
+
+    `make demo` is left out: it installs, and runs what is below it.
 
     Raises:
         AssertionError: it fails.
     """
-    if block.language == "bash" and _SIMPLE.fullmatch(block.text):
-        return _run_here(block.text, folder)
+    text = block.text.replace(".venv/bin/serendipity", "serendipity").replace("make demo\n", "")
+    if block.language == "bash" and _SIMPLE.fullmatch(text):
+        return _run_here(text, folder)
     if block.language == "bash":
         program = shlex.join([sys.executable, "-m", "serendipity"])
         testing = shlex.join([sys.executable, "-m", "pytest", "-p", "serendipity.testing.plugin"])
         functions = f'serendipity() {{ {program} "$@"; }}\npytest() {{ {testing} "$@"; }}\n'
-        command = ["bash", "-c", f"set -e\nexport PYTEST_DISABLE_PLUGIN_AUTOLOAD=1\n{functions}{block.text}"]
+        command = ["bash", "-c", f"set -e\nexport PYTEST_DISABLE_PLUGIN_AUTOLOAD=1\n{functions}{text}"]
     else:
-        command = [sys.executable, "-c", block.text]
+        command = [sys.executable, "-c", text]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, (block.text, done.stdout, done.stderr)
+    assert done.returncode == 0, (text, done.stdout, done.stderr)
     return done.stdout
 
 

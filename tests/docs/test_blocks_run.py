@@ -5,18 +5,20 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.blocks import PAGES, ROOT, Block, assert_shown, blocks, linked_files, run
+from tests.docs.blocks import PAGES, README, ROOT, Block, assert_shown, blocks, linked_files, run
 
 RUN = ("bash", "python")
 SHOWN = ("pddl", "text")
 
 
 def pages_with(*, slow: bool) -> list[Path]:
-    return [page for page in PAGES if any(b.language in RUN and b.slow == slow for b in blocks(page))]
+    return [
+        page for page in (README, *PAGES) if any(b.language in RUN and b.slow == slow for b in blocks(page))
+    ]
 
 
 def name(page: Path) -> str:
-    return str(page.relative_to(ROOT / "docs"))
+    return str(page.relative_to(ROOT))
 
 
 @pytest.mark.parametrize("page", pages_with(slow=False), ids=name)
@@ -45,10 +47,20 @@ def test_slow_blocks_run(page: Path, usar200: Path, codmap15: Path, tmp_path: Pa
             run(block, tmp_path)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=name)
+@pytest.mark.parametrize("page", [README, *PAGES], ids=name)
 def test_every_block_is_of_a_known_kind(page: Path) -> None:
     for block in blocks(page):
         assert block.language in (*RUN, *SHOWN), block
+
+
+def test_the_readme_opens_with_the_two_commands() -> None:
+    first, *more = blocks(README)
+    commands = first.text.splitlines()
+    assert first.language == "bash" and len(more) >= 3
+    assert commands[0] == "make demo"
+    assert commands[1].endswith("serendipity plan --example room2 --discount 0.6")
+    demo = next(line for line in (ROOT / "Makefile").read_text().splitlines() if "serendipity plan" in line)
+    assert demo.split("serendipity ")[1] == commands[1].split("serendipity ")[1]
 
 
 def test_a_line_that_was_not_printed_is_noticed() -> None:

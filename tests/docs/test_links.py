@@ -11,7 +11,7 @@ import pytest
 
 import serendipity
 from serendipity.cli.on_demand import NAMES
-from tests.docs.blocks import OTHERS, PAGES, ROOT
+from tests.docs.blocks import OTHERS, PAGES, ROOT, prose
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
@@ -29,8 +29,7 @@ def test_anchors_are_those_of_markdown() -> None:
 
 @pytest.mark.parametrize("page", [*PAGES, *OTHERS], ids=lambda page: str(page.relative_to(ROOT)))
 def test_links_lead_somewhere(page: Path) -> None:
-    text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
-    for link in LINK.findall(text):
+    for link in LINK.findall(prose(page)):
         if link.startswith(("https://", "http://")):
             continue
         path, _, fragment = link.partition("#")
@@ -48,8 +47,6 @@ def test_all_pages_are_in_the_navigation() -> None:
 @pytest.fixture(scope="module")
 def hooks() -> ModuleType:
     spec = importlib.util.spec_from_file_location("hooks", ROOT / "docs" / "hooks.py")
-    assert spec is not None
-    assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.blocks import OTHERS, PAGES, ROOT
+from tests.docs.blocks import OTHERS, PAGES, ROOT, prose
 
 WIDTH = 120
 FILE = re.compile(r"`([\w.-]+/[\w/.-]+\.(?:py|c|h|md))`")
@@ -15,11 +15,6 @@ READ = [*PAGES, *OTHERS]
 
 def name(page: Path) -> str:
     return str(page.relative_to(ROOT))
-
-
-def prose(page: Path) -> str:
-    """A page without its fenced blocks."""
-    return re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
 
 
 @pytest.fixture(scope="module")

@@ -1,11 +1,11 @@
 """A page from disk gets no workers from the browser; the script of our own gives it what the search needs."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from tests.docs.blocks import ROOT
-from tests.show.browser import chromium, chromium_path
 
 pytestmark = pytest.mark.browser
 
@@ -24,17 +24,13 @@ PAGE = """<!doctype html><body><script src="iframe-worker.js"></script><script>
 </script></body>"""
 
 
-def test_a_worker_works_from_disk(tmp_path: Path) -> None:
-    pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    path = chromium_path()
-    if path is None:
-        pytest.skip("there is no chromium (set CHROMIUM to its path)")
+def test_a_worker_works_from_disk(browser: Any, tmp_path: Path) -> None:
     script = (ROOT / "docs/javascripts/iframe-worker.js").read_text(encoding="utf-8")
     files = {"iframe-worker.js": script, "worker.js": WORKER, "more.js": "var more = 1;", "page.html": PAGE}
     for name, text in files.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
-    with chromium(path) as browser:
-        page = browser.new_page()
-        page.goto((tmp_path / "page.html").as_uri())
-        page.wait_for_function("window.heard.length === 1")
-        assert page.evaluate("window.heard") == [[2, True]]
+    page = browser.new_page()
+    page.goto((tmp_path / "page.html").as_uri())
+    page.wait_for_function("window.heard.length === 1")
+    assert page.evaluate("window.heard") == [[2, True]]
+    page.close()

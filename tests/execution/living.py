@@ -4,21 +4,12 @@ import json
 from random import Random
 from typing import Any
 
-import pytest
-
-import serendipity
 from serendipity.execution import Execution, LogLine, Omniscient, Person, log_lines, moment_of
 from serendipity.model import Task
 from verify.base.optimal_plans import OptimalPlans
 from verify.certificate.simulator.person import ReplanningPerson as Oracle
 
 MOST_EPOCHS = 60
-
-
-@pytest.fixture(name="room2")
-def room2_fixture() -> Task:
-    """The paper's example III-C."""
-    return serendipity.example("room2")
 
 
 def lived(run: Execution, person: Person, most: int = MOST_EPOCHS) -> Execution:

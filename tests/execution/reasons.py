@@ -166,7 +166,9 @@ class _Seen:
             yield "they have none"
 
     def _own_goals_lost(self, lost: bool = True) -> Iterator[str]:
-        found = self._asked(self.task, human_model=self.header["human_model"])
+        free = {"mode": "composite", "horizon": "inf"}  # of who has nothing to do
+        asked = free if self.task.goal.holds(self.state) else {"human_model": self.header["human_model"]}
+        found = self._asked(self.task, **asked)
         if found is not None and (found.plan is None) is not lost:
             yield f"they are {'within' if lost else 'out of'} reach"
 

@@ -117,23 +117,6 @@ def test_slow_robots_help_less(room2: Task) -> None:
     assert [each.rows[0].human_cost for each in runs] == [11, 13]
 
 
-@pytest.mark.parametrize(
-    ("arguments", "complaint"),
-    [
-        ({"adapter": "nao"}, "adapter: expected one of simulated.*, got 'nao'"),
-        ({"durations": "move"}, "durations: expected some of"),
-        ({"epoch_seconds": 0}, "epoch_seconds: expected more than 0"),
-        ({"adapter": lambda *_: Scripted(), "durations": "*=1"}, "durations: only simulated robots"),
-        ({"adapter": lambda *_: Scripted(), "faults": "fail=0.1"}, "faults: only simulated robots"),
-        ({"mode": "communication"}, "mode: expected serendipity, where nobody is told"),
-        ({"human": "omniscient", "mode": "composite"}, "mode: expected serendipity or communication"),
-    ],
-)
-def test_wrong_arguments_are_refused(room2: Task, arguments: dict[str, object], complaint: str) -> None:
-    with pytest.raises(UsageError, match=complaint):
-        serendipity.execute(room2, **arguments)
-
-
 def test_with_a_word_the_person_leaves_their_own_plan() -> None:
     room7 = serendipity.example("room7")  # the paper's III-D
     silent = serendipity.execute(room7, "omniscient", discount="0.6").rows[0]

@@ -11,11 +11,14 @@ from verify.certificate.simulator.person import ReplanningPerson as Oracle
 PEOPLE = ("observant", "local", "noisy:0.3", "omniscient")
 
 
+@pytest.mark.parametrize(
+    "seeds", [range(20), pytest.param(range(20, 100), marks=pytest.mark.slow)], ids=["some", "many"]
+)
 @pytest.mark.parametrize("human", PEOPLE)
 @pytest.mark.parametrize("faults", [None, "fail=0.2,slow=0.2,drop=0.05"])
-def test_in_random_runs(human: str, faults: str | None) -> None:
+def test_in_random_runs(human: str, faults: str | None, seeds: range) -> None:
     kinds = set()
-    for seed in range(40):
+    for seed in seeds:
         task = random_call(seed).task
         oracle = Oracle(task, OptimalPlans(task))
         discount = ("0.5", "0.9")[seed % 2]

@@ -75,6 +75,13 @@ def test_a_run_ends_at_some_epoch() -> None:
         ({"human_model": "psychic"}, "human_model: expected one of"),
         ({"human": "omniscient", "goals": [{"goal": ["at commx room1"]}]}, "goals: an omniscient person"),
         ({"deadline": -1}, "deadline: expected"),
+        ({"adapter": "nao"}, "adapter: expected one of simulated.*, got 'nao'"),
+        ({"durations": "move"}, "durations: expected some of"),
+        ({"epoch_seconds": 0}, "epoch_seconds: expected more than 0"),
+        ({"adapter": lambda *_: None, "durations": "*=1"}, "durations: only simulated robots"),
+        ({"adapter": lambda *_: None, "faults": "fail=0.1"}, "faults: only simulated robots"),
+        ({"mode": "communication"}, "mode: expected serendipity, where nobody is told"),
+        ({"human": "omniscient", "mode": "composite"}, "mode: expected serendipity or communication"),
     ],
 )
 def test_wrong_arguments_are_one_line(arguments: dict[str, object], complaint: str) -> None:

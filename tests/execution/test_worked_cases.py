@@ -129,6 +129,14 @@ def test_robots_see_to_their_own_goals() -> None:
     assert [step.action for step in run.step("go h").steps] == ["go h", "tidy r"]
 
 
+def test_robots_goals_are_out_of_reach_beside_somebody_who_has_nothing_to_do() -> None:
+    """It was an error: whoever has nothing to do sets no horizon."""
+    actions = {"go h": "a -> b !a", "rest r": "-> rested"}
+    task = build(init="a", goal="b", robot_goal="done", actions=actions)
+    run = Execution(task, goals=[{"name": "stay", "goal": ["a"]}])
+    assert run.decided.reason == "stays out of the way: its own goals are out of reach"
+
+
 def test_a_robot_that_is_out_of_order_is_not_counted_on(room2: Task) -> None:
     run = Execution(room2, discount="0.6")
     run.drop(["robot"])

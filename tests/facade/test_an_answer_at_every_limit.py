@@ -1,8 +1,8 @@
 """From the first plan of the human's on there is an answer, whatever limit comes."""
 
 import json
-from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -20,6 +20,7 @@ from serendipity.model.resources.collection import no_collection
 from serendipity.testing.builders import task as build
 from serendipity.testing.countdown import Countdown
 from serendipity.testing.generator.families import family_task
+from tests.endings import endings
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
 
@@ -35,35 +36,23 @@ SILENT: list[dict[str, Any]] = [{"mode": "assistance"}, {"mode": "assistance", "
 ALL: list[dict[str, Any]] = [{}, {"preservation": "state"}, {"horizon": 9}, *REPLANS, *TIES, *SILENT]
 
 
-def _memory() -> Exception:
-    return LimitReachedError("memory-limit")
-
-
 def _switches() -> Task:
     return family_task("switches", 4, 6)
 
 
-def _ended(options: dict[str, Any], *, once: bool = False) -> list[Result]:
-    """What comes of a call that ends at the first look, at the second one, and so on; the looks are sparse.
+def _ended(options: dict[str, Any], *, memory: bool = False) -> list[Result]:
+    """What comes of a call that ends at any look: its time is up, or memory is short for once."""
 
-    Args:
-        options: of the call.
-        once: it is memory, which is free again after that.
-    """
-    found, looks = list[Result](), 0
-    while True:
-        limit = Countdown(looks, _memory, once=True) if once else Countdown(looks)
-        try:
-            result = serendipity.plan(
-                replace(_switches()), deadline=limit, discount="0.5", max_ties=100_000, **options
-            )
-        except LimitReachedError:
-            pass  # there was no time even to pack the task
-        else:
-            found.append(result)
-        if not limit.ran_out:
-            return found
-        looks += 1 + looks // 40
+    def call(limit: Deadline) -> Result:
+        return serendipity.plan(
+            replace(_switches()), deadline=limit, discount="0.5", max_ties=100_000, **options
+        )
+
+    limit = partial(LimitReachedError, "memory-limit" if memory else "time-limit")
+    found = endings(call, limit, sparser=20, once=memory)
+    return [
+        ending for ending in found if isinstance(ending, Result)
+    ]  # else there was no time even to pack it
 
 
 def _says(result: Result) -> tuple[Any, ...]:
@@ -77,32 +66,24 @@ def _is_at_hand(result: Result) -> bool:
 
 
 @pytest.mark.parametrize("options", ALL, ids=str)
-def test_an_answer_is_not_lost(options: dict[str, Any]) -> None:
-    """Where humans replan, ties count or help is silent there was none before their optimum was proved."""
-    found = _ended(options)
+def test_an_answer_is_not_lost_breaks_no_rule_and_is_not_refuted(options: dict[str, Any]) -> None:
+    """Where humans replan, ties count or help is silent there was none before their optimum was proved.
+
+    Memory may be free again after what asked for too much is given up: that loses none either.
+    """
+    found, again = _ended(options), _ended(options, memory=True)
     last = found[-1]
     assert (found[0].status, last.status) == ("unknown", "optimal")
-    for early, later in pairwise(found):
-        assert early.status == "unknown" or later.status != "unknown"
+    for results in (found, again):
+        statuses = [result.status for result in results]
+        answered = statuses.index(next(status for status in statuses if status != "unknown"))
+        assert "unknown" not in statuses[answered:]
     for result in found:
         if result.status != "unknown":
             assert result.lower_bound is not None and last.objective is not None and result.cost is not None
             assert result.lower_bound <= last.objective
             assert (last.cost is not None and last.cost <= result.cost) or result.options.ties == "robust"
-
-
-@pytest.mark.parametrize("options", ALL, ids=str)
-def test_an_answer_is_not_lost_for_want_of_memory(options: dict[str, Any]) -> None:
-    """Memory may be free again after what asked for too much is given up."""
-    statuses = [result.status for result in _ended(options, once=True)]
-    answered = statuses.index(next(status for status in statuses if status != "unknown"))
-    assert "unknown" not in statuses[answered:]
-
-
-@pytest.mark.parametrize("options", ALL, ids=str)
-def test_such_an_answer_breaks_no_rule_and_is_not_refuted(options: dict[str, Any]) -> None:
-    different = {_says(result): result for once in (False, True) for result in _ended(options, once=once)}
-    for result in different.values():
+    for result in {_says(result): result for result in (*found, *again)}.values():
         assert serendipity.check(_switches(), result).refuted is None
         assert serendipity.verify(_switches(), result, time_limit=5).refuted is None
         assert serendipity.verify(_switches(), result, deadline=Countdown(200)).refuted is None
@@ -115,16 +96,11 @@ def test_only_the_canonical_plan_is_called_the_human_s_best() -> None:
     actions = {f"{kind}_{i} h": f"-> p_{i}" for i in range(4) for kind in ("do", "also")}
     goal = " ".join(f"p_{i}" for i in range(4))
     task = build(goal=goal, actions={**actions, "help r": "-> p_3"})
-    last, others, looks = serendipity.plan(replace(task)), 0, 0
-    limit = Countdown(looks)
-    while looks == 0 or limit.ran_out:
-        limit = Countdown(looks)
-        with suppress(LimitReachedError):
-            result = serendipity.plan(replace(task), deadline=limit)
-            if result.human_plan is not None and result.human_plan != last.human_plan:
-                others += result.human_cost == last.human_cost
-                assert (result.status, result.saving_alone, result.opportunity) == ("feasible", None, False)
-        looks += 1
+    last, others = serendipity.plan(replace(task)), 0
+    for result in endings(lambda limit: serendipity.plan(replace(task), deadline=limit), sparser=0):
+        if isinstance(result, Result) and result.human_plan not in (None, last.human_plan):
+            others += result.human_cost == last.human_cost
+            assert (result.status, result.saving_alone, result.opportunity) == ("feasible", None, False)
     assert others, "no limit came while the canonical plan was looked for"
 
 

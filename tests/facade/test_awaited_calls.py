@@ -12,12 +12,7 @@ import serendipity
 import serendipity.aio
 from serendipity import Result, Task
 from serendipity.testing.cases import case_1
-from tests.facade.endless import ENDLESS, endless_task
-
-
-@pytest.fixture(scope="module")
-def endless(tmp_path_factory: pytest.TempPathFactory) -> Task:
-    return endless_task(tmp_path_factory.mktemp("building"))
+from tests.facade.conftest import ENDLESS
 
 
 def test_answers_are_those_of_plain_calls() -> None:

@@ -23,14 +23,11 @@ def test_a_large_task_is_packed_when_it_is_loaded(folder, monkeypatch):
     assert serendipity.plan(task, discount=0.6).status == "optimal"
 
 
-def test_what_is_only_read_is_packed_by_the_first_call(folder, monkeypatch):
+def test_what_is_only_read_is_packed_by_the_first_call_and_both_plan_alike(folder, monkeypatch):
     task = pddl.read_folder(folder)
-    monkeypatch.setattr(PackedTask, "__init__", _no_packing)
-    with pytest.raises(AssertionError, match="packed in a planning call"):
-        serendipity.plan(task, discount=0.6)
-
-
-def test_both_plan_alike(folder):
-    tasks = serendipity.load(folder), pddl.read_folder(folder)
-    loaded, read = (serendipity.plan(task, discount=0.6) for task in tasks)
+    with monkeypatch.context() as patch:
+        patch.setattr(PackedTask, "__init__", _no_packing)
+        with pytest.raises(AssertionError, match="packed in a planning call"):
+            serendipity.plan(task, discount=0.6)
+    loaded, read = (serendipity.plan(each, discount=0.6) for each in (serendipity.load(folder), task))
     assert (loaded.cost, loaded.plan) == (read.cost, read.plan)

@@ -8,11 +8,12 @@ import pytest
 
 import serendipity
 from serendipity import PlanStep, Result, SerendipityError, Session, Task
+from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.keywords import Ties
 from serendipity.testing.builders import task
 from serendipity.testing.cases import case_1, case_2, usar
-from serendipity.testing.countdown import Countdown
 from serendipity.testing.generator import PlanCall, random_call
+from tests.endings import endings
 
 _FIGURES = ("status", "cost", "objective", "opportunity", "saving", "saving_alone", "lower_bound", "horizon")
 
@@ -126,7 +127,6 @@ def test_so_it_is_over_ties_and_goals_and_with_people_who_replan(options: dict[s
 def test_what_is_proved_stays_proved_while_all_goes_as_planned() -> None:
     session = Session(serendipity.example("room2"), discount=0.6)
     answer = session.plan()
-    assert answer.window is not None
     for epoch in range(1, answer.window.start):
         session.execute([step.action for step in answer.plan or () if step.epoch == epoch])
         now = session.plan()
@@ -209,7 +209,6 @@ def test_a_predicted_plan_gives_way_to_a_better_one_that_robots_have_made_possib
 def test_so_it_does_where_nobody_has_planned_that() -> None:
     session = Session(_shortcut("far -> open"), discount=0.5)
     walks = session.plan().human_plan
-    assert walks is not None
     session.execute([walks[0]])
     session.change({"open": True})
     answer = session.plan()
@@ -235,15 +234,18 @@ def test_the_rest_is_there_to_be_finished_though_the_new_question_has_no_answer(
 
 def _at_each_look(call: PlanCall, session: Session) -> Iterator[tuple[Session, Result]]:
     """Answers of sessions that know what this one does, if the first look is the last, or the second."""
-    looks = 0
-    while True:
+
+    def asked(deadline: Deadline) -> tuple[Session, Result]:
         other = Session(replace(session.task), human_plan=session.human_plan, **call.keywords())
         other._remind(session._remembered())
-        deadline = Countdown(looks)
-        yield other, other.plan(deadline=deadline)
-        if not deadline.ran_out:
-            return
-        looks = max(looks + 1, looks * 9 // 8)
+        return other, other.plan(deadline=deadline)
+
+    return map(_no_error, endings(asked))
+
+
+def _no_error(ending: tuple[Session, Result] | LimitReachedError) -> tuple[Session, Result]:
+    assert not isinstance(ending, LimitReachedError)
+    return ending
 
 
 def test_whenever_time_is_up_help_that_was_begun_is_answered_or_still_there() -> None:

@@ -14,7 +14,7 @@ import pytest
 import serendipity
 from serendipity import Session, Task
 from serendipity.testing.cases import case_1, case_2
-from tests.facade.endless import ENDLESS, endless_task
+from tests.facade.conftest import ENDLESS
 
 OPTIONS: list[dict[str, Any]] = [
     {"discount": "0.9"},
@@ -92,13 +92,8 @@ def test_values_are_pickled_and_sessions_stay_where_they_are() -> None:
     assert Session(pickle.loads(pickle.dumps(session.task)), discount="0.9").plan().cost == result.cost
 
 
-@pytest.fixture(scope="module")
-def building(tmp_path_factory: pytest.TempPathFactory) -> Task:
-    return endless_task(tmp_path_factory.mktemp("building"))
-
-
-def test_cancel_ends_a_call_of_another_thread_with_the_best_answer_so_far(building: Task) -> None:
-    session = Session(building, **ENDLESS)
+def test_cancel_ends_a_call_of_another_thread_with_the_best_answer_so_far(endless: Task) -> None:
+    session = Session(endless, **ENDLESS)
     timer = threading.Timer(0.5, session.cancel)
     timer.start()
     begun = time.perf_counter()
@@ -109,11 +104,11 @@ def test_cancel_ends_a_call_of_another_thread_with_the_best_answer_so_far(buildi
     timer.join()
 
 
-def test_one_event_may_end_several_calls(building: Task) -> None:
+def test_one_event_may_end_several_calls(endless: Task) -> None:
     cancelled = threading.Event()
     asked = {**ENDLESS, "cancelled": cancelled}
     with ThreadPoolExecutor(2) as threads:
-        calls = [threads.submit(serendipity.plan, building, **asked) for _ in range(2)]
+        calls = [threads.submit(serendipity.plan, endless, **asked) for _ in range(2)]
         threads.submit(time.sleep, 0)
         time.sleep(0.5)
         cancelled.set()

@@ -1,5 +1,6 @@
 """What is of another type gets one sentence that names it, whatever is called, and no error of Python's."""
 
+import inspect
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -61,93 +62,61 @@ def test_wrong_types(what: str) -> None:
         ask(serendipity.example("room2"))
 
 
+Asked = tuple[Callable[..., Any], dict[str, Any]]
+_TRIED = {"discount", "mode", "human_model", "interference", "ties", "time_limit", "memory_limit"}
+MORE_OPTIONS = set(Options().to_dict()) - _TRIED
+"""They are read as those are."""
+
+
 TASK = built(goal="g", actions={"do h": "!g -> g", "spare r": "!p -> p"})
 RESULT = serendipity.plan(TASK)
 GOALS = [{"name": "a", "goal": ["g"]}]
-LIMITS = {"time_limit": None, "memory_limit": None, "deadline": None}
 
-CALLS: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
-    "plan": (
-        serendipity.plan,
-        {"task": TASK, "human_plan": None, "visible": None, "on_improvement": None, "cancelled": None}
-        | {"goals": None, "discount": 0, "mode": "serendipity", **LIMITS},
+
+def _of(function: Callable[..., Any], call: Callable[..., Any] | None = None, /, **good: Any) -> Asked:
+    """What to call, and good values of its arguments: the defaults, but for those that are given."""
+    told = inspect.signature(function).parameters.values()
+    named = [p for p in told if p.default is not p.empty and p.name not in MORE_OPTIONS]
+    defaults = {p.name: p.default for p in named}
+    return call or function, defaults | good
+
+
+CALLS: dict[str, Asked] = {
+    "plan": _of(serendipity.plan, task=TASK),
+    "plan for goals": _of(serendipity.plan, task=TASK, goals=GOALS),
+    "plan_anytime": _of(
+        serendipity.plan_anytime, lambda **given: list(serendipity.plan_anytime(**given)), task=TASK
     ),
-    "plan for goals": (serendipity.plan, {"task": TASK, "goals": GOALS, "observed": (), "beta": 1}),
-    "plan_anytime": (
-        lambda **given: list(serendipity.plan_anytime(**given)),
-        {"task": TASK, "human_plan": None, "visible": None, "cancelled": None, **LIMITS},
-    ),
-    "check": (serendipity.check, {"task": TASK, "result": RESULT, "time_limit": None, "deadline": None}),
-    "verify": (
-        serendipity.verify,
-        {"task": TASK, "result": RESULT, "solver": "highs", "encoding": "automata", "method": "auto"}
-        | {"proof": None, **LIMITS},
-    ),
-    "check_proof": (serendipity.check_proof, {"path": "none", "task": TASK, "result": RESULT, **LIMITS}),
-    "check_task": (serendipity.check_task, {"task": TASK, "files": (), "deadline": None}),
-    "example": (serendipity.example, {"name": "room2", "deadline": None}),
-    "execute": (
-        serendipity.execute,
-        {"task": TASK, "human": "observant", "runs": 1, "seed": 0, "ties": "fixed", "faults": None}
-        | {"adapter": None, "durations": None, "epoch_seconds": None, "human_model": None, "goals": None}
-        | {"epochs": 3, "jobs": 1, "on_progress": None, "deadline": None},
-    ),
-    "explain": (serendipity.explain, {"task": TASK, "result": RESULT, "on_progress": None, **LIMITS}),
-    "explain without a result": (serendipity.explain, {"task": TASK, "human_plan": None, "discount": 0}),
-    "generate_usar": (
-        serendipity.generate_usar,
-        {"folder": "usar", "rooms": 4, "medkits": 1, "robots": 1, "seed": 0, "extra_edges": 0}
-        | {"corridors": None, "preset": None, "layout": "pair"},
-    ),
-    "interruptions": (
-        serendipity.interruptions,
-        {"task": TASK, "human_plan": None, "on_progress": None, "discount": 0, **LIMITS},
-    ),
-    "load": (serendipity.load, {"path": "none", "human": None, "on_progress": None, **LIMITS}),
-    "load_agents": (
-        serendipity.load_agents,
-        {
-            "agents": {"h": ("d", "p")},
-            "team": None,
-            "human": "h",
-            "name": None,
-            "on_progress": None,
-            **LIMITS,
-        },
-    ),
-    "load_pddl": (
-        serendipity.load_pddl,
-        {"domain": "d", "problem": "p", "human": "h", "robots": ["r"], "name": None, "on_progress": None}
-        | LIMITS,
-    ),
-    "recognise": (serendipity.recognise, {"task": TASK, "goals": GOALS, "observed": (), "beta": 1, **LIMITS}),
-    "reproduce": (
-        serendipity.reproduce,
-        {"folder": "none", "modes": ("individual",), "discounts": (0,), "jobs": 1, "journal": None}
-        | {"on_progress": None, **LIMITS},
-    ),
-    "simulate": (
-        serendipity.simulate,
-        {"task": TASK, "result": RESULT, "human_model": "observant", "visible": None, **LIMITS},
-    ),
-    "Session": (Session, {"task": TASK, "human_plan": None}),
+    "check": _of(serendipity.check, task=TASK, result=RESULT),
+    "verify": _of(serendipity.verify, task=TASK, result=RESULT),
+    "check_proof": _of(serendipity.check_proof, path="none", task=TASK, result=RESULT),
+    "check_task": _of(serendipity.check_task, task=TASK),
+    "example": _of(serendipity.example, name="room2"),
+    "execute": _of(serendipity.execute, task=TASK, epochs=3),
+    "explain": _of(serendipity.explain, task=TASK, result=RESULT),
+    "explain without a result": _of(serendipity.explain, task=TASK),
+    "generate_usar": _of(serendipity.generate_usar, folder="usar", rooms=4, layout="pair"),
+    "interruptions": _of(serendipity.interruptions, task=TASK),
+    "load": _of(serendipity.load, path="none"),
+    "load_agents": _of(serendipity.load_agents, agents={"h": ("d", "p")}, human="h"),
+    "load_pddl": _of(serendipity.load_pddl, domain="d", problem="p", human="h", robots=["r"]),
+    "recognise": _of(serendipity.recognise, task=TASK, goals=GOALS),
+    "reproduce": _of(serendipity.reproduce, folder="none", modes=("individual",), discounts=(0,)),
+    "simulate": _of(serendipity.simulate, task=TASK, result=RESULT),
+    "Session": _of(Session, task=TASK),
     "Session.execute": (lambda actions: Session(TASK).execute(actions), {"actions": []}),
     "Session.change": (lambda facts: Session(TASK).change(facts), {"facts": {}}),
     "Session.follow": (lambda names: Session(TASK).follow(names), {"names": None}),
     "Session.set_goal": (lambda goal: Session(TASK).set_goal(goal), {"goal": ["g"]}),
     "Session.plan": (lambda **given: Session(TASK).plan(**given), {"discount": 0, "time_limit": None}),
-    "Execution": (
-        Execution,
-        {"task": TASK, "discount": 0, "human_model": "observant", "goals": None, "beta": 1, "deadline": None}
-        | {"interference": "paper", "told": False, "mode": "serendipity"},
-    ),
+    "Execution": _of(Execution, task=TASK),
     "Execution.step": (lambda action: Execution(TASK).step(action), {"action": None}),
     "Execution.change": (lambda facts: Execution(TASK).change(facts), {"facts": {}}),
     "Execution.drop": (lambda robots: Execution(TASK).drop(robots), {"robots": ["r"]}),
-    "Deadline": (serendipity.Deadline, {"time_limit": None, "memory_limit": None}),
+    "Deadline": _of(serendipity.Deadline),
     "Options.from_dict": (Options.from_dict, {"data": Options().to_dict()}),
     "Result.from_dict": (Result.from_dict, {"data": RESULT.to_dict()}),
-    "Task.at": (TASK.at, {"state": TASK.init, "deadline": None}),
+    "Task.at": _of(TASK.at, state=TASK.init),
     "Task.with_human": (TASK.with_human, {"human": "r"}),
     "Task.plan_from_names": (TASK.plan_from_names, {"names": ["do h"]}),
 }

@@ -6,7 +6,6 @@ import pytest
 
 from tests.live.server import Server, serving
 from tests.live.studies import PLAIN
-from tests.show.browser import chromium, chromium_path
 
 Opened = Callable[..., Any]
 
@@ -16,16 +15,6 @@ def server() -> Iterator[Server]:
     """One service for all tests that leave it as they found it."""
     with serving("--workers", "2", "--queue", "8", "--body-limit", "0.5", "--time-limit", "20") as started:
         yield started
-
-
-@pytest.fixture(scope="package")
-def browser() -> Iterator[Any]:
-    path = chromium_path()
-    if path is None:
-        pytest.skip("no chromium: `make test-browser` installs it where it may")
-    pytest.importorskip("playwright", reason="no playwright: `make test-browser` installs it")
-    with chromium(path) as running:
-        yield running
 
 
 @pytest.fixture

@@ -5,6 +5,7 @@ from pathlib import Path
 from serendipity.scenarios.examples import DATA
 
 DOMAIN = DATA / "usar/domain.pddl"
+TAKE = "take medkit mk2 from the robot"
 
 
 def with_third_kit(folder: Path, place: str, robot: str = "room4") -> Path:

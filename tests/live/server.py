@@ -35,7 +35,6 @@ class Server:
         """Its exit code, and what it wrote to stderr."""
         self.process.send_signal(number)
         code = self.process.wait(timeout=20)
-        assert self.process.stderr is not None
         return code, self.process.stderr.read()
 
 
@@ -78,7 +77,6 @@ def _serving(folder: str, *arguments: str, command: str, env: dict[str, str] | N
     watchdog = threading.Timer(120, process.kill)
     watchdog.start()
     try:
-        assert process.stdout is not None
         line = process.stdout.readline()
         found = re.search(r"http://\S+?:\d+", line)
         assert found is not None, (line, process.stderr and process.stderr.read())

@@ -37,9 +37,7 @@ def opened(folder: Path, **given: Any) -> Study:
 
 def join(study: Study, **more: Any) -> Participant:
     lobby = study.room("")
-    assert lobby is not None
     answer = lobby.do({"do": "join", "agree": True, **more})
-    assert answer is not None
     room = study.room(answer["to"].removeprefix("/s/"))
     assert isinstance(room, Participant)
     return room

@@ -18,6 +18,10 @@ from serendipity.live.service.answering import HANDLERS
 HEAD = "POST / HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n"
 
 
+class VeryImpatient(ImpatientProtocol):
+    seconds = 0.3
+
+
 @pytest.fixture(scope="module")
 def port() -> Iterator[int]:
     app = FastAPI(middleware=[Middleware(BodyLimits, most=100, seconds=0.3)], exception_handlers=HANDLERS)
@@ -26,9 +30,8 @@ def port() -> Iterator[int]:
     async def answer(body: dict[str, int]) -> dict[str, int]:
         return body
 
-    with pytest.MonkeyPatch.context() as patch, connections.listening("127.0.0.1", 0) as listener:
-        patch.setattr(connections, "_SECONDS", 0.3)
-        config = uvicorn.Config(app, http=ImpatientProtocol, ws="none", log_config=None, timeout_keep_alive=1)
+    with connections.listening("127.0.0.1", 0) as listener:
+        config = uvicorn.Config(app, http=VeryImpatient, ws="none", log_config=None, timeout_keep_alive=1)
         server = uvicorn.Server(config)
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         thread.start()

@@ -18,12 +18,11 @@ from serendipity.live.play.rounds import SharedRounds
 from serendipity.model import InputError, UsageError
 from serendipity.scenarios.examples import EXAMPLES
 from serendipity.testing.builders import task as build
-from tests.live.play_tasks import DOMAIN, two_goals, with_third_kit
+from tests.live.play_tasks import DOMAIN, TAKE, two_goals, with_third_kit
 from tests.live.server import serving
 
 TO_HALL4 = [f"go to hall{i}" for i in (8, 7, 6, 5, 4)]
 TO_ROOM1 = ["go to hall3", "go to hall2", "go to hall1", "go to room1", "give treatment in room1"]
-TAKE = "take medkit mk2 from the robot"
 
 
 def setting(**changes: Any) -> RoundSetting:
@@ -61,7 +60,6 @@ def test_the_papers_example() -> None:
         f"commx and robot: {TAKE}",
     )
     told = table.do({"do": "explain"})
-    assert told is not None
     said = [sentence["text"] for sentence in told["sentences"] if sentence["topic"] == "run"]
     assert said[0] == "Epoch 1: waits: its part comes in epoch 2." and "mk2" in said[1]
     assert said[-1] == "commx paid 11 instead of 13 alone, the team 12.6."
@@ -74,16 +72,14 @@ def test_the_papers_example() -> None:
 def test_what_robots_do_in_each_condition(name: str, team: float, said: bool) -> None:
     table = SharedRounds(setting(condition=name))
     view = go(table, *TO_HALL4)
-    assert (view["said"] is not None) is said
     helped = name != "none"
-    assert (view["can"][0]["kind"] == "offer") is helped
+    assert ((view["said"] is not None), view["can"][0]["kind"] == "offer") == (said, helped)
     if helped:
         view = go(table, TAKE, *TO_ROOM1)
     else:
         view = go(table, "go to hall3", "go to hall2", "go to room2", "pick up medkit mk1", "go to hall2")
         view = go(table, "go to hall1", "go to room1", "give treatment in room1")
-    assert view["end"]["team"] == team
-    assert (view["end"]["helped"] > 0) is helped
+    assert (view["end"]["team"], view["end"]["helped"] > 0) == (team, helped)
 
 
 def test_several_robots_speak_one_after_the_other() -> None:
@@ -91,7 +87,6 @@ def test_several_robots_speak_one_after_the_other() -> None:
         setting(name="taxis", task=serendipity.example("taxis"), discount=1, condition="announced")
     )
     said = table.view()["said"]
-    assert said is not None
     assert "I will" not in said
     assert said.startswith(("Uno will ", "Due will "))
 

@@ -10,19 +10,26 @@ import httpx
 import pytest
 
 from tests.live.conftest import Opened
-from tests.live.play_tasks import DOMAIN, two_goals, with_third_kit
+from tests.live.play_tasks import DOMAIN, TAKE, two_goals, with_third_kit
 from tests.live.server import Server, serving
 
 pytestmark = pytest.mark.browser
 
 TO_ROOM1 = ("hall3", "hall2", "hall1", "room1")
-TAKE = "take medkit mk2 from the robot"
 
 
 def go(page: Any, *places: str) -> None:
     for place in places:
         page.click(f'.reach[data-place="{place}"]')
         page.wait_for_selector(f'.reach[data-place="{place}"]', state="detached")
+
+
+def treat(page: Any) -> list[str]:
+    """End the round in room1; what it came to."""
+    choose(page, "give treatment")
+    page.wait_for_selector("#finish")
+    costs: list[str] = page.locator("#finish-costs td").all_inner_texts()
+    return costs
 
 
 def choose(page: Any, text: str) -> None:
@@ -51,10 +58,8 @@ def test_the_papers_example_by_clicks(opened: Opened) -> None:
         choose(page, TAKE)
         page.wait_for_selector('#can button:has-text("take medkit mk2")', state="detached")
         go(page, *TO_ROOM1)
-        choose(page, "give treatment")
-        page.wait_for_selector("#finish")
+        costs = treat(page)
         assert page.inner_text("#finish-text") == "11 epochs. You paid 11 instead of 13."
-        costs = page.locator("#finish-costs td").all_inner_texts()
         assert costs == ["11", "12.6", "13", "0.4"]
         assert "epoch 6: commx and robot: take medkit mk2 from the robot" in page.inner_text("#finish-help")
         page.click("#ask-why")
@@ -106,8 +111,7 @@ def test_somebody_turns_off_towards_another_kit(opened: Opened, tmp_path: Path) 
         go(page, "hall8", "hall7", "room7", "room6")
         choose(page, "pick up medkit")
         go(page, "room7", "hall7", "hall6", "hall5", "hall4", *TO_ROOM1)
-        choose(page, "give treatment")
-        page.wait_for_selector("#finish")
+        treat(page)
         said = verdicts(server)
         assert said[:2] == ["waits", "helps"]
         assert set(said[-4:]) == {"stopped"}, "the help that was begun is of no use any more"
@@ -128,10 +132,8 @@ def test_two_goals_are_possible(opened: Opened, tmp_path: Path) -> None:
         choose(page, TAKE)
         page.wait_for_selector('#can button:has-text("take medkit mk2")', state="detached")
         go(page, *TO_ROOM1)
-        choose(page, "give treatment")
-        page.wait_for_selector("#finish")
+        assert treat(page)[1] == "12.2"
         assert verdicts(server)[:6] == ["unsure", "unsure", "helps", "helps", "helps", "helps"]
-        assert page.locator("#finish-costs td").all_inner_texts()[1] == "12.2"
 
 
 def test_two_pages_a_reload_and_a_server_that_stops(opened: Opened) -> None:

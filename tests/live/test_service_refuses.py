@@ -3,7 +3,9 @@
 import functools
 import json
 import sys
+from typing import Any
 
+import httpx
 import pytest
 
 from serendipity.cli.app import main
@@ -78,15 +80,16 @@ def test_wrong_requests(server: Server, path: str, body: object, status: int, st
     ids=["empty", "half", "bytes", "nested", "digits"],
 )
 def test_what_is_no_json(server: Server, content: bytes, status: int) -> None:
-    answer = server.client.post("/plan", content=content, headers={"content-type": "application/json"})
-    assert answer.status_code == status
-    assert set(answer.json()) == {"error"}
+    answer = sent(server, content)
+    assert (answer.status_code, set(answer.json())) == (status, {"error"})
+
+
+def sent(server: Server, content: Any, kind: str = "application/json") -> httpx.Response:
+    return server.client.post("/plan", content=content, headers={"content-type": kind})
 
 
 def test_a_form_of_another_site_is_no_json(server: Server) -> None:
-    answer = server.client.post(
-        "/plan", content=b'{"task": {"example": "room2"}}', headers={"content-type": "text/plain"}
-    )
+    answer = sent(server, b'{"task": {"example": "room2"}}', "text/plain")
     assert answer.status_code == 422
     assert answer.json() == {"error": "body: expected JSON, and 'Content-Type: application/json'"}
 
@@ -123,8 +126,7 @@ def priced(cost: str) -> dict[str, object]:
     ids=["nested", "deeply", "example", "domain", "option", "name", "product"],
 )
 def test_what_is_odd_is_one_line(server: Server, body: object, start: str) -> None:
-    content = json.dumps(body)
-    answer = server.client.post("/plan", content=content, headers={"content-type": "application/json"})
+    answer = sent(server, json.dumps(body))
     assert answer.status_code in (400, 422)
     assert set(answer.json()) == {"error"}
     assert answer.json()["error"].startswith(start)
@@ -142,10 +144,8 @@ def test_a_result_with_very_many_steps_in_an_epoch_is_refuted(server: Server) ->
 @pytest.mark.parametrize("chunked", [False, True])
 def test_bodies_that_are_too_large(server: Server, chunked: bool) -> None:
     large = b" " * 600_000
-    content = iter([large]) if chunked else large
-    answer = server.client.post("/plan", content=content, headers={"content-type": "application/json"})
-    assert answer.status_code == 413
-    assert answer.json() == {"error": "body: expected at most 524288 bytes"}
+    answer = sent(server, iter([large]) if chunked else large)
+    assert (answer.status_code, answer.json()) == (413, {"error": "body: expected at most 524288 bytes"})
 
 
 def test_names_of_other_hosts_and_pages_of_other_sites(server: Server) -> None:
@@ -187,10 +187,8 @@ def test_the_extra_is_named_where_it_is_missing(command: str, monkeypatch, capsy
 
 def test_a_port_in_use_is_one_line(server: Server, capsys) -> None:
     assert main(["serve", "--port", str(server.port)]) == 2
-    said = capsys.readouterr().err
-    assert said == (
-        f"Error: --port: {server.port} is in use on 127.0.0.1: name another one, or 0 for any that is free\n"
-    )
+    words = f"{server.port} is in use on 127.0.0.1: name another one, or 0 for any that is free"
+    assert capsys.readouterr().err == f"Error: --port: {words}\n"
 
 
 @pytest.mark.parametrize(

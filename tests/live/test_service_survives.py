@@ -13,6 +13,7 @@ from starlette.exceptions import HTTPException
 
 from serendipity.cli.app import main
 from serendipity.live.service.sessions import SessionStore
+from tests.facade.conftest import ENDLESS
 from tests.live.server import Server, serving, workers_of
 
 ROOM2 = {"example": "room2"}
@@ -39,7 +40,7 @@ def long_call(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
     assert main(["generate", "usar", *words.split(), "-o", str(folder)]) == 0
     texts = {name: (folder / f"{name}.pddl").read_text() for name in ("domain", "problem")}
     task = {**texts, "human": "commx", "robots": ["robot1", "robot2", "robot3"]}
-    return {"task": task, "options": {"discount": 0.9, "mode": "communication", "keep_prefix": True}}
+    return {"task": task, "options": ENDLESS}
 
 
 def figure(server: Server, name: str) -> float:

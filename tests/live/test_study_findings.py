@@ -23,7 +23,6 @@ def test_only_who_has_the_secret_sees_and_saves(folder: Path) -> None:
     assert study.file(start + "study.json") is None
     assert study.file("export.json") is None
     page = study.file(start)
-    assert page is not None
     assert "&lt;b&gt;x" in page.text
     assert not any(f">{name}<" in page.text for name in CONDITIONS)
 
@@ -48,8 +47,6 @@ def test_the_table_of_rounds_is_read_back(folder: Path, capsys) -> None:
     say(join(study), "withdraw")
     start = f"experimenter/{design.secret}/"
     table, book = study.file(start + "rounds.csv"), study.file(start + "codebook.csv")
-    assert table is not None
-    assert book is not None
     head = table.text.splitlines()[0].split(",")
     assert [line.split(",")[0] for line in book.text.splitlines()[1:]] == head
     (folder / "rounds.csv").write_text(table.text)

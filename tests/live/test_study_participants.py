@@ -51,7 +51,6 @@ def test_who_is_not_heard_of_for_long_gives_their_place_back_and_may_come_back(f
 def test_a_participant_from_consent_to_the_end(folder: Path) -> None:
     study, design = opened(folder), open_design(folder)
     lobby = study.room("")
-    assert lobby is not None
     with pytest.raises(UsageError, match="consent"):
         lobby.do({"do": "join"})
     room = join(study, page={"browser": "Lynx", "screen": "80x24", "more": 1})
@@ -93,7 +92,6 @@ def test_practice_comes_first_and_says_what_would_have_been_best(tmp_path: Path)
     room = join(Study(design, tmp_path))
     assert "practice" in room.view()["study"]["text"][-1]
     assert say(room, "go on")["round"] == 0
-    assert design.practice is not None
     for action in serendipity.plan(design.practice.task, mode="individual").human_plan or ():
         view = say(room, "act", action=action)
     assert view["end"]["alone"] == view["end"]["paid"]
@@ -116,7 +114,6 @@ def test_a_page_in_a_study_is_told_nothing_of_conditions_and_of_what_robots_thin
 def test_what_comes_twice_or_too_late_is_kept_once(folder: Path) -> None:
     study, design = opened(folder), open_design(folder)
     lobby = study.room("")
-    assert lobby is not None
     for visit in ("0.5", "long" * 100):
         sent = {"do": "join", "agree": True, "visit": visit}
         assert lobby.do(sent) == lobby.do(sent)

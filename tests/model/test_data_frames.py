@@ -40,7 +40,6 @@ def test_a_plan_has_a_row_a_step(library: str) -> None:
     pytest.importorskip(library)
     result = serendipity.plan(serendipity.example("room2"), discount=0.6)
     rows = rows_of(result.to_dataframe(library))
-    assert result.plan is not None
     assert rows == [
         {"epoch": s.epoch, "agents": ", ".join(s.agents), "action": s.action, "cost": s.cost}
         for s in result.plan

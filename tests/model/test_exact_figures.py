@@ -14,8 +14,6 @@ from serendipity.testing import task
 
 _ODD = Fraction(1012, 997) + Fraction(9984, 9973) + Fraction(1, 10**15 + 37)
 _TASK = task(
-    agents="h r",
-    human="h",
     goal="g",
     actions={
         "do h": f"-> g @ {_ODD + 7}",

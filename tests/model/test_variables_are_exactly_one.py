@@ -248,34 +248,29 @@ def test_a_position_and_a_carried_thing_are_found() -> None:
     }
 
 
-def test_what_two_groups_move_together_stays_in_the_later_one() -> None:
+TRACES = {f"move-{x} h": f"{x}0 -> {x}1 trace !{x}0" for x in "abc"}
+TRACES |= {f"back-{x} h": f"{x}1 -> {x}0 !{x}1 !trace" for x in "abc"}
+BOTH = {
+    "both h": "a0 b0 -> a1 b1 !a0 !b0",
+    "back h": "a1 -> a0 !a1",
+    "on h": "b0 -> b2 !b0",
+    "up h": "b2 -> b1 !b2",
+}
+LOST = {"go h": "a0 -> a1 !a0", "back h": "a1 -> a0 !a1", "lose h": "a1 -> !a1"}
+
+
+@pytest.mark.parametrize(
+    ("init", "actions", "groups"),
+    [
+        ("a0 b0", BOTH, ["a0 a1", "b0 b1 b2"]),
+        ("a0 b0 c0", TRACES, ["a0 a1", "b0 b1", "c0 c1", "trace"]),
+        ("a0", LOST, ["a0", "a1"]),
+        ("shut", {"open h": "shut -> !shut"}, ["shut"]),
+    ],
+    ids=["moved together", "a trace that all leave", "a thing that can vanish", "a door that opens for good"],
+)
+def test_what_looks_like_a_group(init: str, actions: dict[str, str], groups: list[str]) -> None:
     """``b1`` is unbalanced for the group of ``a0``, but not for that of ``b0``, which comes later."""
-    task = build(
-        init="a0 b0",
-        actions={
-            "both h": "a0 b0 -> a1 b1 !a0 !b0",
-            "back h": "a1 -> a0 !a1",
-            "on h": "b0 -> b2 !b0",
-            "up h": "b2 -> b1 !b2",
-        },
-    )
-    groups = [[task.facts[f] for f in variable.facts] for variable in task.variables]
-    assert groups == [["a0", "a1"], ["b0", "b1", "b2"]]
-
-
-def test_a_trace_that_all_groups_leave_is_a_boolean() -> None:
-    moves = {f"move-{x} h": f"{x}0 -> {x}1 trace !{x}0" for x in "abc"}
-    moves |= {f"back-{x} h": f"{x}1 -> {x}0 !{x}1 !trace" for x in "abc"}
-    task = build(init="a0 b0 c0", actions=moves)
-    groups = [[task.facts[f] for f in variable.facts] for variable in task.variables]
-    assert groups == [["a0", "a1"], ["b0", "b1"], ["c0", "c1"], ["trace"]]
-
-
-def test_a_thing_that_can_vanish_has_no_group() -> None:
-    task = build(init="a0", actions={"go h": "a0 -> a1 !a0", "back h": "a1 -> a0 !a1", "lose h": "a1 -> !a1"})
-    assert all(variable.boolean for variable in task.variables)
-
-
-def test_a_door_that_opens_for_good_is_a_boolean() -> None:
-    task = build(init="shut", actions={"open h": "shut -> !shut"})
-    assert all(variable.boolean for variable in task.variables)
+    task = build(init=init, actions=actions)
+    assert [" ".join(task.facts[f] for f in variable.facts) for variable in task.variables] == groups
+    assert all(variable.boolean == (len(variable.facts) == 1) for variable in task.variables)

@@ -10,7 +10,7 @@ from random import Random
 from typing import NamedTuple
 
 from serendipity.scenarios.examples import DATA as SHIPPED
-from tests.pddl.texts import DATA
+from tests.pddl.texts import DATA, pair
 
 TOKEN = re.compile(r"\(|\)|;[^\n]*|[^\s();]+|\s+")
 
@@ -35,10 +35,8 @@ class Mutant(NamedTuple):
 
     def write(self, folder: Path) -> tuple[Path, Path]:
         """Write both files."""
-        files = folder / "domain.pddl", folder / "problem.pddl"
-        for file, text in zip(files, (self.domain, self.problem), strict=True):
-            file.write_bytes(text.encode("utf-8", "surrogateescape"))
-        return files
+        texts = (text.encode("utf-8", "surrogateescape") for text in (self.domain, self.problem))
+        return pair(folder, *texts)
 
 
 def _original(folder: Path, problem: str, human: str, *robots: str) -> Original:
@@ -53,104 +51,27 @@ ORIGINALS = (
     _original(SHIPPED / "usar", "room2", "commx", "robot"),
 )
 
-NOISE = (
-    *(
-        "(",
-        ")",
-        "?",
-        "-",
-        ";",
-        "=",
-        ":",
-        "\n",
-        "\r",
-        "\t",
-        "\x00",
-        "\x1b[2J",
-        "\u202e",
-        "\ufeff",
-        "é",
-        "İ",
-        "ſ",
-        "\x85",
-    ),
-    *(
-        "(and",
-        "(or",
-        "(not (",
-        "forall",
-        "(= ",
-        "1e9",
-        "0.",
-        "-1",
-        "1e-400",
-        "9" * 40,
-        "noop",
-        "object",
-        "either",
-    ),
-)
+_WORDS = "(and|(or|(not (|forall|(= |1e9|0.|-1|1e-400|" + "9" * 40 + "|noop|object|either"
+NOISE = (*"()?-;=:\n\r\t\x00", "\x1b[2J", *"\u202e\ufefféİſ\x85", *_WORDS.split("|"))
 
-ODD = (
-    *("(and)", "(or)", "()", "(not (and))", "(= {x} {y})", "(not (= {x} {y}))", "(total-cost)", "(noop)"),
-    *(
-        "(forall (?z) {f})",
-        "(exists (?z) {f})",
-        "(forall (?z - {t}) (exists (?u - {t}) {f}))",
-        "(imply {f} {g})",
-    ),
-    *(
-        "(or {f} {g})",
-        "(not {f})",
-        "(not (or {f} (not {g})))",
-        "(when {f} {g})",
-        "(when (or {f} {g}) (not {g}))",
-    ),
-    *(
-        "(forall (?z - {t}) (when {f} {g}))",
-        "(and {f} {g} {f})",
-        "(increase (total-cost) {n})",
-        "(and {f} (not {f}))",
-    ),
-    *(
-        "(increase (total-cost) (total-cost))",
-        "(= (total-cost) {n})",
-        "(at 5 {f})",
-        "(preference p {f})",
-        "(> {n} 1)",
-    ),
-    *(
-        "(forall (?a ?b ?c ?d ?e ?f - {t}) {f})",
-        "(exists (?a ?b ?c ?d ?e ?f - {t}) (or {f} (= ?a ?b) (= ?c ?f)))",
-    ),
-    *(
-        "(:action noop :parameters () :effect {f})",
-        "(:requirements :adl {w})",
-        "(:private {x} {f})",
-        "(either {t} {t})",
-    ),
-)
+_ODD = """
+(and)|(or)|()|(not (and))|(= {x} {y})|(not (= {x} {y}))|(total-cost)|(noop)
+(forall (?z) {f})|(exists (?z) {f})|(forall (?z - {t}) (exists (?u - {t}) {f}))|(imply {f} {g})
+(or {f} {g})|(not {f})|(not (or {f} (not {g})))|(when {f} {g})|(when (or {f} {g}) (not {g}))
+(forall (?z - {t}) (when {f} {g}))|(and {f} {g} {f})|(increase (total-cost) {n})|(and {f} (not {f}))
+(increase (total-cost) (total-cost))|(= (total-cost) {n})|(at 5 {f})|(preference p {f})|(> {n} 1)
+(forall (?a ?b ?c ?d ?e ?f - {t}) {f})|(exists (?a ?b ?c ?d ?e ?f - {t}) (or {f} (= ?a ?b) (= ?c ?f)))
+(:action noop :parameters () :effect {f})|(:requirements :adl {w})|(:private {x} {f})|(either {t} {t})
+"""
+ODD = tuple(_ODD.strip().replace("\n", "|").split("|"))
 """Groups to put in: ``f``, ``g`` stand for groups of the file, the others for words, types and a number."""
 
-LEGAL = (
-    *(
-        "(or {f} {g})",
-        "(not {f})",
-        "(imply {g} {f})",
-        "(not (and {f} (not {g})))",
-        "(and {f} (or {g} (not {g})))",
-    ),
-    *(
-        "(exists (?z - {t}) {f})",
-        "(forall (?z ?u - {t}) (or {f} {g}))",
-        "(forall (?z - {t}) (imply {g} {f}))",
-    ),
-    *(
-        "(or (and {f} {g}) (and (not {f}) (not {g})))",
-        "(and {f} {g})",
-        "(exists (?z - {t}) (and {f} (= ?z ?z)))",
-    ),
-)
+_LEGAL = """
+(or {f} {g})|(not {f})|(imply {g} {f})|(not (and {f} (not {g})))|(and {f} (or {g} (not {g})))
+(exists (?z - {t}) {f})|(forall (?z ?u - {t}) (or {f} {g}))|(forall (?z - {t}) (imply {g} {f}))
+(or (and {f} {g}) (and (not {f}) (not {g})))|(and {f} {g})|(exists (?z - {t}) (and {f} (= ?z ?z)))
+"""
+LEGAL = tuple(_LEGAL.strip().replace("\n", "|").split("|"))
 """Conditions that are legal where ``f`` is."""
 
 SECTION = re.compile(r":(precondition|goal)\b.*?(?=:effect|:metric|:precondition|\Z)", re.DOTALL)

@@ -6,18 +6,15 @@ from pathlib import Path
 import pytest
 
 from serendipity import InputError, load, load_pddl
-from tests.pddl.texts import OFFICE, YARD, action, domain, one, problem
+from tests.pddl.texts import OFFICE, YARD, action, domain, one, pair, problem
 
 DOMAIN, PROBLEM = (path.read_text() for path in OFFICE)
 
 
 def office(folder: Path, domain_text: str | bytes, problem_text: str | bytes) -> InputError:
     """The error that these two files give."""
-    files = folder / "domain.pddl", folder / "problem.pddl"
-    for file, text in zip(files, (domain_text, problem_text), strict=True):
-        file.write_bytes(text.encode() if isinstance(text, str) else text)
     with pytest.raises(InputError) as caught:
-        load_pddl(*files, human="ann", robots=["bot"])
+        load_pddl(*pair(folder, domain_text, problem_text), human="ann", robots=["bot"])
     assert "\n" not in str(caught.value)
     return caught.value
 
@@ -26,6 +23,14 @@ def spoilt(text: str, old: str, new: str) -> tuple[str, int]:
     """The text with a part replaced, and the line of that part."""
     assert text.count(old) >= 1
     return text.replace(old, new, 1), text.count("\n", 0, text.index(old)) + 1
+
+
+def is_named_with_its_line(folder: Path, name: str, old: str, new: str, message: str) -> None:
+    texts = {"domain": DOMAIN, "problem": PROBLEM}
+    texts[name], line = spoilt(texts[name], old, new)
+    error = office(folder, *texts.values())
+    assert message in str(error)
+    assert (error.file, error.line) == (str(folder / f"{name}.pddl"), line)
 
 
 @pytest.mark.parametrize(
@@ -64,10 +69,7 @@ def spoilt(text: str, old: str, new: str) -> tuple[str, int]:
     ],
 )
 def test_bad_domain(tmp_path: Path, old: str, new: str, message: str) -> None:
-    text, line = spoilt(DOMAIN, old, new)
-    error = office(tmp_path, text, PROBLEM)
-    assert message in str(error)
-    assert (error.file, error.line) == (str(tmp_path / "domain.pddl"), line)
+    is_named_with_its_line(tmp_path, "domain", old, new, message)
 
 
 @pytest.mark.parametrize(
@@ -100,10 +102,7 @@ def test_bad_domain(tmp_path: Path, old: str, new: str, message: str) -> None:
     ],
 )
 def test_bad_problem(tmp_path: Path, old: str, new: str, message: str) -> None:
-    text, line = spoilt(PROBLEM, old, new)
-    error = office(tmp_path, DOMAIN, text)
-    assert message in str(error)
-    assert (error.file, error.line) == (str(tmp_path / "problem.pddl"), line)
+    is_named_with_its_line(tmp_path, "problem", old, new, message)
 
 
 @pytest.mark.parametrize("text", ["", "  \n ; only a comment\n"])
@@ -126,28 +125,18 @@ def test_every_cut_of_a_file_is_one_error(tmp_path: Path) -> None:
         assert error.file == str(tmp_path / "problem.pddl")
 
 
-def test_missing_file(tmp_path: Path) -> None:
+def test_files_and_folders_that_are_none(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"nowhere\.pddl: there is no such file"):
         load_pddl(OFFICE[0], tmp_path / "nowhere.pddl", human="ann", robots=["bot"])
-
-
-def test_a_directory_in_place_of_a_file(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="the file can't be read: is a directory"):
         load_pddl(tmp_path, OFFICE[1], human="ann", robots=["bot"])
-
-
-def test_directories_that_are_none(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no agent's folder"):
         load(tmp_path)
     with pytest.raises(InputError, match="nowhere: there is no such folder"):
         load(tmp_path / "nowhere")
     with pytest.raises(InputError, match="this is a file: expected a folder"):
         load(OFFICE[0])
-
-
-def test_an_agents_folder_with_one_file(tmp_path: Path) -> None:
-    folder = tmp_path / "yard"
-    shutil.copytree(YARD, folder)
+    folder = shutil.copytree(YARD, tmp_path / "yard")
     (folder / "robo" / "problem.pddl").unlink()
     with pytest.raises(InputError, match=r"robo.problem\.pddl: there is no such file"):
         load(folder)

@@ -146,7 +146,8 @@ def test_ground_actions_do_what_the_lifted_text_says(condition: Node, effects: l
         *flips,
         action("act", condition.text(), " ".join(e.text() for e in effects), "?who - agent ?x - thing"),
         predicates="(p) (q) (a ?x - thing) (s ?x - thing)",
-    ).replace("(:predicates", "(:constants o1 o2 o3 - thing)(:predicates")
+        constants="o1 o2 o3 - thing",
+    )
     init = " ".join(f"({fact})" for fact in STATIC)
     with tempfile.TemporaryDirectory() as folder:
         task = one(Path(folder), text, problem(init=init, objects="h r - agent o1 o2 o3 - thing"))

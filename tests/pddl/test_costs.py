@@ -16,12 +16,17 @@ def costs(folder: Path, effect: str, init: str = "(q)", more: str = "", function
     return {a.cost for a in one(folder, text, problem(init=init, more=more)).actions}
 
 
-def test_without_costs_every_action_costs_one(tmp_path: Path) -> None:
-    assert costs(tmp_path, "(p)") == {1}
-
-
-def test_with_a_metric_an_action_that_says_nothing_is_free(tmp_path: Path) -> None:
-    assert costs(tmp_path, "(p)", more=METRIC) == {0}
+@pytest.mark.parametrize(
+    ("effect", "more", "cost"),
+    [
+        ("(p)", "", 1),
+        ("(p)", METRIC, 0),
+        ("(p) (increase (total-cost) 1) (increase (total-cost) 0.5)", "", Fraction(3, 2)),
+    ],
+    ids=["without costs it is one", "with a metric, none where nothing is said", "increases add up"],
+)
+def test_what_an_action_costs(tmp_path: Path, effect: str, more: str, cost: Fraction) -> None:
+    assert costs(tmp_path, effect, more=more) == {cost}
 
 
 def test_with_another_priced_action_an_action_that_says_nothing_is_free(tmp_path: Path) -> None:
@@ -67,10 +72,6 @@ def test_products_may_be_long_but_not_costs(tmp_path: Path, value: str) -> None:
                 product(of)
 
 
-def test_several_increases_add_up(tmp_path: Path) -> None:
-    assert costs(tmp_path, "(p) (increase (total-cost) 1) (increase (total-cost) 0.5)") == {Fraction(3, 2)}
-
-
 @pytest.mark.parametrize(
     ("effect", "init", "message"),
     [
@@ -95,7 +96,6 @@ def test_bad_costs(tmp_path: Path, effect: str, init: str, message: str) -> None
     with pytest.raises(InputError, match=message) as caught:
         costs(tmp_path, effect, init=init, functions="(far)")
     assert caught.value.line == 5
-    assert caught.value.file is not None
     assert caught.value.file.endswith("domain.pddl")
 
 

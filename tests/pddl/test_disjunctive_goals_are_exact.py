@@ -49,8 +49,7 @@ def text(goal: list[Clause]) -> str:
 
 
 def loaded(actions: list[str], init: str, goal: str) -> Task:
-    head = domain(*actions, predicates=PREDICATES)
-    head = head.replace("(:predicates", "(:constants h r - agent o1 o2 - thing)(:predicates")
+    head = domain(*actions, predicates=PREDICATES, constants="h r - agent o1 o2 - thing")
     with tempfile.TemporaryDirectory() as folder:
         return one(Path(folder), head, problem(init, goal, objects=""))
 
@@ -102,31 +101,22 @@ def test_random_goals(actions: list[str], init: list[str], goal: list[Clause]) -
     check(actions, " ".join(f"({fact})" for fact in ["at h o1", "at r o1", *init]), goal)
 
 
-GO, ON, SET, UNSET, FLIP, GIVE, MAKE, CLEAR, DROP = POSITION + CHANGES
+GO, ON, SET, UNSET, *_ = POSITION + CHANGES
+START = "(at h o1) (at r o1)"
 
 
-def test_values_of_one_variable_are_none_of_the_others() -> None:
-    task = check([GO], "(at h o1) (at r o1)", [(("at h o1", True), ("at h o2", False))])
-    assert task is not None
-    assert task.facts == ("at h o1", "at h o2", "at r o1", "at r o2")
+def test_what_stands_for_a_disjunction() -> None:
+    task = check([GO], START, [(("at h o1", True), ("at h o2", False))])
+    assert task.facts == ("at h o1", "at h o2", "at r o1", "at r o2"), "values of one variable"
     assert (task.goal.positive, task.goal.negative) == ((0,), ())
-
-
-def test_what_is_never_undone_may_be_done_by_anybody() -> None:
-    task = check([GO, SET], "(at h o1) (at r o1)", [(("on h o2", True), ("on r o1", True))])
-    assert task is not None
+    task = check([GO, SET], START, [(("on h o2", True), ("on r o1", True))])
+    assert task is not None, "what is never undone may be done by anybody"
     assert [task.facts[i] for i in task.goal.positive] == ["either on h o2 or on r o1 holds"]
-
-
-def test_what_one_agent_does_and_undoes() -> None:
-    task = check([GO, SET, UNSET], "(at h o1) (at r o1)", [(("on h o1", True), ("on h o2", True))])
-    assert task is not None
+    task = check([GO, SET, UNSET], START, [(("on h o1", True), ("on h o2", True))])
+    assert task is not None, "one agent does and undoes it"
     assert len(task.named["unset h o1"]) == 2
-
-
-def test_what_two_agents_may_undo_in_one_epoch_is_refused() -> None:
     goal: list[Clause] = [(("on h o1", True), ("on r o1", True))]
-    assert check([GO, SET, UNSET], "(at h o1) (at r o1)", goal) is None
+    assert check([GO, SET, UNSET], START, goal) is None, "two agents may undo it in one epoch"
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from tests.pddl.texts import action, domain, one, problem
 
 OBJECTS = ("o1", "o2", "o3")
+CONSTANTS = "o1 o2 o3 - thing"
 TERMS = ("?x", "?y", "?z", "o1")
 PREDICATES = "(s ?x) (c ?x ?y) (f ?x ?y) (g ?x) (h ?x ?y)"
 ARITY = {"s": 1, "c": 2, "f": 2, "g": 1, "h": 2, "=": 2}
@@ -82,8 +83,7 @@ def test_ground_actions_are_those_that_can_be_executed(
         for name, (pre, effects) in actions.items()
         for parameters in ["?who - agent ?x ?y ?z - thing"]
     ]
-    head = domain(*texts, predicates=PREDICATES)
-    head = head.replace("(:predicates", "(:constants o1 o2 o3 - thing)(:predicates")
+    head = domain(*texts, predicates=PREDICATES, constants=CONSTANTS)
     pairs = [("f", *pair) for pair in product(OBJECTS, repeat=2)]
     init = " ".join(text((True, atom)) for atom in [*static, *pairs])
     with tempfile.TemporaryDirectory() as folder:
@@ -106,8 +106,8 @@ def test_many_actions_may_wait_for_few_and_few_for_many(tmp_path: Path) -> None:
         action("never", "(c ?x ?y)", "(g ?x)", "?who - agent ?x ?y - thing"),
         action("link", "(f o1 o1)", "(c o1 o1)"),
         predicates=PREDICATES,
+        constants=CONSTANTS,
     )
-    head = head.replace("(:predicates", "(:constants o1 o2 o3 - thing)(:predicates")
     found = one(tmp_path, head, problem("(s o1)", "(s o3)", "h r - agent"))
     assert Counter(a.name.split()[0] for a in found.actions if a.participants == (0,)) == {
         "last": 3,
@@ -124,7 +124,7 @@ def test_what_needs_a_lasting_fact_to_be_false_is_left_out(tmp_path: Path) -> No
         action("make", "(s o1)", "(g o3)"),
         action("undo", "(g o3)", "(not (g o3))"),
         predicates=PREDICATES,
+        constants=CONSTANTS,
     )
-    head = head.replace("(:predicates", "(:constants o1 o2 o3 - thing)(:predicates")
     found = one(tmp_path, head, problem("(s o1)", "(g o3)", "h r - agent"))
     assert {a.name for a in found.actions} == {"make h", "make r", "undo h", "undo r"}

@@ -18,17 +18,11 @@ def test_directory_gives_each_agent_his_own_actions() -> None:
     assert own == {(0,)}
     assert {a.participants for a in task.actions if a.name.startswith(("load", "unload"))} == {(1,)}
     assert facts(task, task.goal.positive) == {"watered roses"}
-
-
-def test_equal_names_in_two_files_stay_two_actions() -> None:
-    task = load(YARD)
     walks = [a.participants for a in task.actions if a.name == "walk kale shed"]
-    assert walks == [(0,), (1,)]
-
-
-def test_an_action_that_an_agent_owns_is_not_joint() -> None:
-    task = load(YARD)
-    assert all(a.cost < 100 for a in task.actions)
+    assert walks == [(0,), (1,)], "equal names in two files stay two actions"
+    assert all(a.cost < 100 for a in task.actions), "what an agent owns is not joint"
+    unload = [a.name for a in task.actions if a.name.startswith("unload")]
+    assert unload == ["unload can1 kale", "unload can1 shed"], "of the objects of its own files"
 
 
 def test_joint_actions_name_their_participants() -> None:
@@ -43,14 +37,6 @@ def test_joint_actions_name_their_participants() -> None:
         "greet robo anna shed",
     }
     assert {a.participants for a in task.actions if a.joint} == {(0, 1)}
-
-
-def test_an_agents_actions_range_over_the_objects_of_his_own_files() -> None:
-    task = load(YARD)
-    assert [a.name for a in task.actions if a.name.startswith("unload")] == [
-        "unload can1 kale",
-        "unload can1 shed",
-    ]
 
 
 def test_noops_are_dropped_whatever_they_cost() -> None:
@@ -85,20 +71,28 @@ def test_human_can_be_chosen_and_others_goals_are_the_robots_own() -> None:
     assert facts(task, task.robot_goal.positive) == {"watered roses"}
 
 
-def test_goals_of_the_team_beyond_the_humans_are_the_robots_own(tmp_path: Path) -> None:
-    folder = tmp_path / "yard"
-    shutil.copytree(YARD, folder)
-    team = folder / "superagent" / "problem.pddl"
+@pytest.fixture
+def yard(tmp_path: Path) -> Path:
+    return shutil.copytree(YARD, tmp_path / "yard")
+
+
+def test_goals_of_the_team_beyond_the_humans_are_the_robots_own(yard: Path) -> None:
+    team = yard / "superagent" / "problem.pddl"
     team.write_text(team.read_text().rstrip().removesuffix(")") + "(:goal (and (at-robo kale))))")
-    task = load(folder)
+    task = load(yard)
     assert facts(task, task.robot_goal.positive) == {"at-robo kale"}
 
 
-def test_the_team_folder_is_optional(tmp_path: Path) -> None:
-    folder = tmp_path / "yard"
-    shutil.copytree(YARD, folder)
-    shutil.rmtree(folder / "superagent")
-    assert not any(a.joint for a in load(folder).actions)
+def test_the_team_folder_is_optional(yard: Path) -> None:
+    shutil.rmtree(yard / "superagent")
+    assert not any(a.joint for a in load(yard).actions)
+
+
+def test_joint_action_that_names_nobody_is_an_error(yard: Path) -> None:
+    team = yard / "superagent" / "domain.pddl"
+    team.write_text(team.read_text().replace("lift_down_robo_anna", "lift_down"))
+    with pytest.raises(InputError, match=r"domain.pddl:11: joint action 'lift_down can1 \w+': no agent"):
+        load(yard)
 
 
 def test_no_goal_anywhere_needs_a_named_human(tmp_path: Path) -> None:
@@ -114,33 +108,22 @@ def test_two_goals_need_a_named_human(tmp_path: Path) -> None:
         two(tmp_path, texts, texts)
 
 
-def test_unknown_human(tmp_path: Path) -> None:
+def test_unknown_agents() -> None:
     with pytest.raises(UsageError, match="expected one of anna, robo, got 'berta'"):
         load(YARD, human="berta")
-
-
-def test_unknown_agents_of_one_task() -> None:
-    with pytest.raises(UsageError, match="agent 'cat' is not an object"):
-        load_pddl(*OFFICE, human="ann", robots=["cat"])
-    with pytest.raises(UsageError, match="named twice"):
-        load_pddl(*OFFICE, human="ann", robots=["Ann"])
-    with pytest.raises(UsageError, match="at least one robot"):
-        load_pddl(*OFFICE, human="ann", robots=[])
+    for robots, message in (
+        (["cat"], "agent 'cat' is not an object"),
+        (["Ann"], "named twice"),
+        ([], "at least one robot"),
+    ):
+        with pytest.raises(UsageError, match=message):
+            load_pddl(*OFFICE, human="ann", robots=robots)
 
 
 @pytest.mark.parametrize("empty", ["(:goal)", "(:goal ())", "(:goal (and))", ""])
 def test_empty_and_absent_goals(tmp_path: Path, empty: str) -> None:
     task = one(tmp_path, domain(action("go", "(q)", "(p)")), problem(init="(q)", goal="", more=empty))
     assert not task.goal
-
-
-def test_joint_action_that_names_nobody_is_an_error(tmp_path: Path) -> None:
-    folder = tmp_path / "yard"
-    shutil.copytree(YARD, folder)
-    team = folder / "superagent" / "domain.pddl"
-    team.write_text(team.read_text().replace("lift_down_robo_anna", "lift_down"))
-    with pytest.raises(InputError, match=r"domain.pddl:11: joint action 'lift_down can1 \w+': no agent"):
-        load(folder)
 
 
 def test_an_agent_with_a_name_of_several_parts(tmp_path: Path) -> None:

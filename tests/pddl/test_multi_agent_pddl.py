@@ -14,20 +14,16 @@ def loaded(folder: Path, *robots: str, text: str = DOMAIN, problem: str = PROBLE
     return load_pddl(*pair(folder, text, problem), human="w", robots=robots)
 
 
-def test_without_robots_all_other_agents_are_robots(tmp_path: Path) -> None:
-    task = loaded(tmp_path)
-    assert task.agents == ("w", "v", "x")
-    assert task.warnings == ()
-
-
-def test_all_names_every_other_agent(tmp_path: Path) -> None:
-    assert loaded(tmp_path, "all").agents == ("w", "v", "x")
-
-
-def test_an_object_may_be_called_all(tmp_path: Path) -> None:
+def test_who_the_robots_are(tmp_path: Path) -> None:
+    """Without robots, or with ``all``, every other agent; unless there is one of that name."""
+    for robots in ((), ("all",)):
+        task = loaded(tmp_path, *robots)
+        assert (task.agents, task.warnings) == (("w", "v", "x"), ())
     renamed = PROBLEM.replace("v v - van", "all all - van").replace("(is v a)", "(is all a)")
-    task = loaded(tmp_path, "all", problem=renamed)
-    assert task.agents == ("w", "all")
+    assert loaded(tmp_path, "all", problem=renamed).agents == ("w", "all")
+    task = loaded(tmp_path, "v")
+    assert task.agents == ("w", "v")
+    assert task.warnings == ("'x' is no agent of this call; its actions are left out",)
 
 
 def test_an_action_is_its_agents_alone(tmp_path: Path) -> None:
@@ -38,12 +34,6 @@ def test_an_action_is_its_agents_alone(tmp_path: Path) -> None:
     assert not any(a.joint for a in task.actions)
     assert {a.name.split()[1] for a in task.actions} == {"v", "w", "x"}
     assert plan(task, mode="composite", horizon="inf", discount="0.5").cost == 1
-
-
-def test_others_are_objects(tmp_path: Path) -> None:
-    task = loaded(tmp_path, "v")
-    assert task.agents == ("w", "v")
-    assert task.warnings == ("'x' is no agent of this call; its actions are left out",)
 
 
 def test_others_are_told_of_in_one_line_and_never_ground(tmp_path: Path) -> None:

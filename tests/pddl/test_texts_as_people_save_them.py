@@ -7,18 +7,15 @@ import pytest
 
 from serendipity import InputError, SerendipityError, load_pddl
 from serendipity.pddl.parsing.tree import MAX_DEPTH
-from tests.pddl.texts import OFFICE, action, domain, one, problem
+from tests.pddl.texts import OFFICE, action, domain, one, pair, problem
 
 DOMAIN, PROBLEM = (path.read_text() for path in OFFICE)
 LONG = "x" * 1_000_000
 
 
-def office(folder: Path, domain_data: bytes, problem_data: bytes = PROBLEM.encode()) -> int:
+def office(folder: Path, domain_data: str | bytes, problem_data: str | bytes = PROBLEM) -> int:
     """How many actions the office has."""
-    files = folder / "domain.pddl", folder / "problem.pddl"
-    for file, data in zip(files, (domain_data, problem_data), strict=True):
-        file.write_bytes(data)
-    return len(load_pddl(*files, human="ann", robots=["bot"]).actions)
+    return len(load_pddl(*pair(folder, domain_data, problem_data), human="ann", robots=["bot"]).actions)
 
 
 @pytest.mark.parametrize(
@@ -36,7 +33,7 @@ def office(folder: Path, domain_data: bytes, problem_data: bytes = PROBLEM.encod
     ids=["crlf", "cr", "utf-8 mark", "utf-16 le", "utf-16 be", "blanks", "upper case", "comments"],
 )
 def test_the_same_office(tmp_path: Path, saved: bytes) -> None:
-    assert office(tmp_path, saved) == office(tmp_path, DOMAIN.encode()) == 26
+    assert office(tmp_path, saved) == office(tmp_path, DOMAIN) == 26
 
 
 def test_lines_are_counted_however_they_end(tmp_path: Path) -> None:
@@ -44,7 +41,7 @@ def test_lines_are_counted_however_they_end(tmp_path: Path) -> None:
     line = spoilt.count("\n", 0, spoilt.index("thong")) + 1
     for end in ("\n", "\r\n", "\r"):
         with pytest.raises(InputError, match="unknown type 'thong'") as caught:
-            office(tmp_path, spoilt.replace("\n", end).encode())
+            office(tmp_path, spoilt.replace("\n", end))
         assert caught.value.line == line
 
 
@@ -54,7 +51,7 @@ def test_lines_are_counted_however_they_end(tmp_path: Path) -> None:
 def test_characters_that_are_no_text(tmp_path: Path, character: str) -> None:
     spoilt = DOMAIN.replace("basement", f"base{character}ment", 1)
     with pytest.raises(InputError, match="the file is not text: it has control characters") as caught:
-        office(tmp_path, spoilt.encode())
+        office(tmp_path, spoilt)
     assert caught.value.line == DOMAIN.count("\n", 0, DOMAIN.index("basement")) + 1
 
 
@@ -79,7 +76,7 @@ def test_characters_that_are_no_text(tmp_path: Path, character: str) -> None:
 )
 def test_errors_stay_short(tmp_path: Path, domain_text: str, problem_text: str) -> None:
     with pytest.raises(SerendipityError) as caught:
-        office(tmp_path, domain_text.encode(), problem_text.encode())
+        office(tmp_path, domain_text, problem_text)
     assert len(str(caught.value).replace(str(tmp_path), "")) < 300
     assert "\n" not in str(caught.value)
 
@@ -152,5 +149,5 @@ def test_costs_may_be_nested_as_deeply(tmp_path: Path) -> None:
 )
 def test_what_was_expected(tmp_path: Path, spoilt: str, message: str) -> None:
     with pytest.raises(InputError) as caught:
-        office(tmp_path, spoilt.encode())
+        office(tmp_path, spoilt)
     assert f"domain.pddl:{message}" in str(caught.value)

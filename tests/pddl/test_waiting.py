@@ -29,14 +29,11 @@ def test_a_given_plan_may_name_what_only_waits(tmp_path: Path) -> None:
     assert plan(task, human_plan=["rest h", "go h"]).human_plan == ("go h",)
 
 
-def test_nobody_waits_for_somebody_else(tmp_path: Path) -> None:
+def test_nobody_waits_for_somebody_else_nor_by_what_can_never_be_done(tmp_path: Path) -> None:
     task = one(tmp_path, waits(tmp_path), problem("(q) (home)"))
     with pytest.raises(PlanError, match="step 1: there is no action 'wait r'"):
         task.plan_from_names(["wait r", "go h"])
     assert task.with_human("r").plan_from_names(["wait r", "go r"])
-
-
-def test_what_can_never_be_done_is_no_waiting(tmp_path: Path) -> None:
     task = one(tmp_path, waits(tmp_path), problem("(q)"))
     with pytest.raises(PlanError, match="step 1: there is no action 'wait h'"):
         task.plan_from_names(["wait h", "go h"])

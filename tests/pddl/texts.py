@@ -12,14 +12,18 @@ PREDICATES = "(p) (q) (r) (a ?x) (b ?x - thing) (has ?who ?what)"
 
 
 def domain(
-    *actions: str, predicates: str = PREDICATES, functions: str = "", types: str = "thing agent"
+    *actions: str,
+    predicates: str = PREDICATES,
+    functions: str = "",
+    types: str = "thing agent",
+    constants: str = "",
 ) -> str:
     """A domain with the given actions, each written out."""
     return "\n".join(
         [
             "(define (domain small)",
             f"(:types {types})",
-            f"(:predicates {predicates})",
+            f"{f'(:constants {constants})' if constants else ''}(:predicates {predicates})",
             f"(:functions (total-cost) {functions})",
             *actions,
             ")",
@@ -49,11 +53,13 @@ def action(name: str, precondition: str, effect: str, parameters: str = "?who - 
     return f"(:action {name} :parameters ({parameters}) :precondition {precondition} :effect (and {effect}))"
 
 
-def pair(folder: Path, domain_text: str, problem_text: str, name: str = "") -> tuple[Path, Path]:
+def pair(
+    folder: Path, domain_text: str | bytes, problem_text: str | bytes, name: str = ""
+) -> tuple[Path, Path]:
     """Two files with these texts."""
     files = folder / f"{name}domain.pddl", folder / f"{name}problem.pddl"
-    files[0].write_text(domain_text)
-    files[1].write_text(problem_text)
+    for file, text in zip(files, (domain_text, problem_text), strict=True):
+        file.write_bytes(text.encode() if isinstance(text, str) else text)
     return files
 
 

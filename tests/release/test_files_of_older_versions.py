@@ -7,7 +7,6 @@ proof by ``1cca723``, the log by ``8c8aaf9``.
 import gzip
 import json
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +16,7 @@ import serendipity
 from serendipity import InputError, Result
 from serendipity.evaluation.reproduction.journal import Journal
 from serendipity.execution.log import read_logs, replay
-from tests.cli.conftest import Run, assert_one_line, run  # noqa: F401  # a fixture
+from tests.cli.conftest import Runs, assert_one_line
 
 WRITTEN = Path(__file__).parent / "written"
 RESULTS = {
@@ -101,7 +100,7 @@ def test_a_newer_file_is_refused_in_one_line(
     name: str,
     command: str,
     says: str,
-    run: Callable[[str], Run],  # noqa: F811
+    run: Runs,
     tmp_path: Path,
 ) -> None:
     if "suite" in command:

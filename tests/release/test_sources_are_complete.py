@@ -1,11 +1,9 @@
 """What is released can be built, tested and cited: nothing that is tracked stays behind."""
 
-import os
 import re
 import subprocess
 import sys
 import tarfile
-import zipfile
 from pathlib import Path
 
 import pytest
@@ -25,14 +23,6 @@ def test_the_sources_have_all_that_is_tracked(tmp_path: Path) -> None:
     with tarfile.open(archive) as sources:
         names = {name.partition("/")[2] for name in sources.getnames()}
     assert set(tracked.stdout.splitlines()) <= names
-
-
-def test_what_is_written_for_developers_is_not_installed(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(tmp_path)]
-    anywhere = {**os.environ, "SERENDIPITY_WHEEL": "any"}
-    subprocess.run(command, cwd=ROOT, check=True, capture_output=True, env=anywhere)
-    (wheel,) = tmp_path.glob("*.whl")
-    assert [name for name in zipfile.ZipFile(wheel).namelist() if name.endswith(".md")] == []
 
 
 def test_the_citation_is_of_this_version() -> None:

@@ -17,6 +17,7 @@ WRONG = {
 }
 
 
+@pytest.mark.slow  # in quick runs tests/model/test_options_are_typed.py holds options to their types
 def test_mypy_sees_what_is_wrong(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "mypy", "--strict", "--config-file=", f"--cache-dir={tmp_path}", PROGRAM]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)

@@ -2,7 +2,6 @@
 
 import io
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -12,10 +11,8 @@ import serendipity
 from serendipity.model import Task, UsageError
 from serendipity.robot import Epoch, physics
 from serendipity.testing.builders import task as build
-from tests.cli.conftest import Run, run
+from tests.cli.conftest import Runs
 from tests.robot.contract import LIFT, WALK, keeps_its_contract, told
-
-__all__ = ["run"]  # a fixture
 
 
 @pytest.fixture(name="needs_bullet", scope="module")
@@ -89,7 +86,7 @@ class TestFigures:
         with pytest.raises(UsageError, match="rubble: there is no doorway between room1 and room2"):
             physics.Stage(room2, rubble={("room1", "room2"): 1.0})
 
-    def test_a_run_is_filmed(self, run: Callable[[str], Run]) -> None:
+    def test_a_run_is_filmed(self, run: Runs) -> None:
         Path("record").write_text("noop\n")
         words = "--human recorded:record --epochs 1 --adapter pybullet --epoch-seconds 0.3 --clip walk.gif"
         assert run(f"execute --example room2 {words}").code == 1  # nobody arrives in one epoch
@@ -137,6 +134,6 @@ def test_without_bullet_one_line_says_what_to_install(room2: Task, monkeypatch: 
         ("--clip no/where.gif --adapter pybullet", "--clip: there is no folder no"),
     ],
 )
-def test_wrong_input_is_one_line(run: Callable[[str], Run], arguments: str, complaint: str) -> None:
+def test_wrong_input_is_one_line(run: Runs, arguments: str, complaint: str) -> None:
     result = run(f"execute --example room2 {arguments}")
     assert result.code == 2 and complaint in result.err and result.err.count("\n") == 1

@@ -1,7 +1,9 @@
-"""A call asked of brute force and of the planner."""
+"""Calls asked of the planner, and of brute force or of the verifier."""
+
+from typing import Any
 
 import serendipity
-from serendipity import Result, UsageError
+from serendipity import Result, Task, UsageError
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
 from serendipity.testing.oracle.answers import Optimum
@@ -23,3 +25,10 @@ def same_cost(call: Call) -> None:
         optimum, answer = both
         expected = None if optimum.cost is None else float(optimum.cost)
         assert (answer.status, answer.cost) == (optimum.status, expected)
+
+
+def proved(task: Task, **options: Any) -> Result:
+    """The planner's answer, once the certificate has proved it."""
+    answer = serendipity.plan(task, **options)
+    assert serendipity.verify(task, answer).verdict == "proved"
+    return answer

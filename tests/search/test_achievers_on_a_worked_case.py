@@ -30,9 +30,7 @@ def corridor(robots: str) -> TaskTables:
 
 def literal(packed: PackedTask, fact: str) -> tuple[int, int]:
     """A fact's variable and value."""
-    bits = packed.fact_bits[packed.task.facts.index(fact)]
-    assert bits is not None
-    return bits
+    return packed.fact_bits[packed.task.facts.index(fact)]
 
 
 def explored(tables: TaskTables) -> AchieverAutomaton:

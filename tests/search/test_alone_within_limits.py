@@ -10,6 +10,7 @@ from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
+from serendipity.testing.countdown import Countdown
 
 
 def _door() -> Task:
@@ -38,28 +39,16 @@ def test_what_is_beyond_a_limit_is_found_under_a_higher_one() -> None:
     assert keys.cost(alone.key(start)) == 6
 
 
-class Watched(Deadline):
-    """Counts the looks at it."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.looks = 0
-
-    def check(self) -> None:
-        """See :class:`Deadline`."""
-        self.looks += 1
-
-
 @pytest.mark.skipif(library() is None, reason="there is no kernel here")
 def test_all_plans_are_looked_for_with_a_look_at_the_clock_before_each_bound(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """A bound of the kernel may take a millisecond, and a state has a hundred successors."""
-    deadline, bound = Watched(), ClassicalPlanner.bound
+    deadline, bound = Countdown(10**9), ClassicalPlanner.bound
     looks: list[int] = []
 
     def watched(self: ClassicalPlanner, state: int, given: Deadline) -> int:
-        looks.append(deadline.looks)
+        looks.append(deadline.left_over[0])
         return bound(self, state, given)
 
     errands = {

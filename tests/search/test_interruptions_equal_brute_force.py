@@ -54,8 +54,6 @@ def assert_fits(call: Call, report: InterruptionReport, entry: Interruption) -> 
     """Its plan follows rules 1 and 3, every epoch is applicable, and the costs are those listed."""
     task, window = call.task, entry.window
     state, his_cost, executed = task.init, Fraction(0), []
-    assert entry.plan is not None
-    assert report.human_plan is not None
     for epoch in range(1, (report.horizon or 0) + 1):
         names = [step.action for step in entry.plan if step.epoch == epoch]
         his = [step.action for step in entry.plan if step.epoch == epoch and report.human in step.agents]
@@ -107,7 +105,6 @@ def window_of(task: Task, window: Window, **options: object) -> Interruption:
 def test_case_1_is_handed_over_in_c() -> None:
     entry = window_of(cases.case_1(), Window(5, 6), discount="0.6")
     assert (entry.human_cost, entry.team_cost) == (8, Fraction("9.6"))
-    assert entry.removal is not None
     assert entry.removal.replacement == ("hand_over rob h k2 c", "move h c d")
     assert (entry.removal.first, entry.removal.last) == (5, 8)
 

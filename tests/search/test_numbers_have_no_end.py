@@ -28,9 +28,7 @@ def kernel(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> N
 )
 @pytest.mark.parametrize("human_model", ["omniscient", "observant"])
 def test_dear_plans_are_plans(cost: str, other: str, human_model: str) -> None:
-    given = task(
-        agents="h r", human="h", goal="g", actions={"a h": f"-> g @ {cost}", "b r": f"-> !g @ {other}"}
-    )
+    given = task(goal="g", actions={"a h": f"-> g @ {cost}", "b r": f"-> !g @ {other}"})
     for mode in ("individual", "serendipity"):
         model = {"human_model": human_model} if mode == "serendipity" else {}
         result = serendipity.plan(given, mode=mode, **model)  # type: ignore[arg-type]
@@ -43,7 +41,7 @@ def test_levels_that_need_both_of_the_level_below() -> None:
     for before, level in pairwise(range(71)):
         actions[f"x{level} h"] = f"a{before} b{before} -> a{level}"
         actions[f"y{level} h"] = f"a{before} b{before} -> b{level}"
-    given = task(agents="h r", human="h", goal="a70", actions=actions)
+    given = task(goal="a70", actions=actions)
     result = serendipity.plan(given, mode="composite", horizon="inf", time_limit=20)
     assert (result.status, result.cost) == ("optimal", 141)
 
@@ -57,9 +55,7 @@ def _counter(bits: int, cost: str) -> Task:
         for bit in range(bits)
     }
     goal = " ".join(f"b{bit}" for bit in range(bits))
-    return task(
-        agents="h r", human="h", goal=goal, actions={**actions, "look h": "b0 -> c", "rr r": "b0 -> !b0"}
-    )
+    return task(goal=goal, actions={**actions, "look h": "b0 -> c", "rr r": "b0 -> !b0"})
 
 
 @pytest.mark.parametrize("mode", ["individual", "composite"])
@@ -72,14 +68,7 @@ def test_long_plans_cost_more_than_all_actions_together(mode: str) -> None:
 
 def test_denominators_without_end_are_refused_in_one_line() -> None:
     actions = {f"a{k} h": f"-> g @ {Fraction(1, 10**99 + k)}" for k in range(60)}
-    given = task(agents="h r", human="h", goal="g", actions={**actions, "b r": "-> !g"})
+    given = task(goal="g", actions={**actions, "b r": "-> !g"})
     with pytest.raises(UsageError, match="common denominator") as caught:
         serendipity.plan(given)
     assert "\n" not in str(caught.value)
-
-
-def test_plans_of_more_epochs_than_there_may_be_are_refused_in_one_line() -> None:
-    given = task(agents="h r", human="h", goal="g", actions={"a h": "-> g", "b h": "-> !g", "c r": "-> !g"})
-    plan = ["a h", "b h"] * 500_000 + ["a h"]
-    with pytest.raises(UsageError, match="1000000 epochs"):
-        serendipity.plan(given, human_plan=plan)

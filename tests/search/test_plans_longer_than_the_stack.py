@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 import serendipity
-from serendipity import Task
+from serendipity import Task, UsageError
 from serendipity.testing.builders import task as build
 
 STEPS = 1_100
@@ -35,3 +35,10 @@ def test_planning_beside_a_long_plan(options: dict[str, Any]) -> None:
     result = serendipity.plan(corridor(), discount="0.9", **options)
     assert (result.status, result.cost) == ("optimal", STEPS)
     assert all(result.realised.values())
+
+
+def test_plans_of_more_epochs_than_there_may_be_are_refused_in_one_line() -> None:
+    given = build(goal="g", actions={"a h": "-> g", "b h": "-> !g", "c r": "-> !g"})
+    plan = ["a h", "b h"] * 500_000 + ["a h"]
+    with pytest.raises(UsageError, match="1000000 epochs"):
+        serendipity.plan(given, human_plan=plan)

@@ -13,7 +13,6 @@ from serendipity.testing.cases import case_1, case_4
 from serendipity.testing.strategies import tasks
 
 OPTIONS = Options(mode="composite", horizon="inf", discount=Fraction(1, 2))
-MODELS = ("omniscient", "observant", "local")
 
 
 def answer(prepared: PreparedTask, options: Options = OPTIONS) -> Answer:

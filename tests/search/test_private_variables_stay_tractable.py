@@ -1,6 +1,5 @@
 """The human's private variables are tabulated together only as far as that does not take long."""
 
-from itertools import pairwise, permutations
 from pathlib import Path
 
 import pytest
@@ -19,6 +18,7 @@ from serendipity.testing.builders import task
 from serendipity.testing.countdown import Countdown
 from serendipity.testing.strategies import Call, calls, family_tasks, tasks
 from tests.search.exact_answers import same_cost
+from tests.search.small_tasks import tower
 
 COUNT = 30
 
@@ -43,7 +43,6 @@ def test_what_can_only_become_little_together_is_kept_together() -> None:
     chain = {f"do{i} h": f"f{i} -> f{i + 1} @ 2" for i in range(COUNT)} | {"help r": "-> light"}
     problem = packed(task(init="f0", goal=f"f{COUNT} light", actions=chain))
     graph = whole_graph(problem, Deadline())
-    assert graph is not None
     assert graph.mask == sum(private_fields(problem))
     assert len(graph.moves) == COUNT + 1
 
@@ -58,29 +57,14 @@ def test_many_easy_searches_are_not_handed_over(monkeypatch: pytest.MonkeyPatch,
     assert not asked
 
 
-def own_blocks(names: str) -> Task:
-    """A tower to be turned over, all by the human, beside a robot that may hold a lamp for it."""
-    do = {"shine r": "-> light", "look h": "light -> seen @ 0.1", "search h": "-> seen @ 3"}
-    for x in names:
-        do[f"pick_{x} h"] = f"table_{x} clear_{x} free -> hold_{x} !table_{x} !clear_{x} !free"
-        do[f"put_{x} h"] = f"hold_{x} -> table_{x} clear_{x} free !hold_{x}"
-    for x, y in permutations(names, 2):
-        do[f"lift_{x}_{y} h"] = (
-            f"on_{x}_{y} clear_{x} free -> hold_{x} clear_{y} !on_{x}_{y} !clear_{x} !free"
-        )
-        do[f"stack_{x}_{y} h"] = f"hold_{x} clear_{y} -> on_{x}_{y} clear_{x} free !hold_{x} !clear_{y}"
-    tower = [f"on_{above}_{below}" for above, below in pairwise(names)]
-    turned = [f"on_{below}_{above}" for above, below in pairwise(names)]
-    init = ["free", f"clear_{names[0]}", f"table_{names[-1]}", *tower]
-    return task(init=" ".join(init), goal=" ".join((*turned, "seen")), actions=do)
-
-
 @pytest.mark.skipif(library() is None, reason="there is no kernel here")
 @pytest.mark.parametrize("call", [{"mode": "individual"}, {"mode": "composite", "horizon": "inf"}, {}])
 def test_the_kernel_plans_where_not_all_can_be_kept(call: dict[str, str]) -> None:
     """Distances in some of the private variables were all there was: no plan, and no proof."""
     deadline = Countdown(15_000)
-    *_, last = solve(prepare(own_blocks("abcdefgh"), deadline), options_from(call), deadline=deadline)
+    lamp = {"shine r": "-> light", "look h": "light -> seen @ 0.1", "search h": "-> seen @ 3"}
+    built = tower("abcdefgh", "h", goal="seen", more=lamp)
+    *_, last = solve(prepare(built, deadline), options_from(call), deadline=deadline)
     assert last.status == "optimal"
 
 

@@ -13,13 +13,13 @@ import serendipity
 from search.classical.planner import ClassicalPlanner
 from search.classical.team import Sets, Team
 from search.kernel.library import library
-from serendipity.model import Deadline, LimitReachedError, Options, UsageError
+from serendipity.model import Deadline, LimitReachedError, Options, Task, UsageError
 from serendipity.model.options import INFINITE
 from serendipity.testing.builders import task as build
 from serendipity.testing.builders import usar
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies import Call, calls, family_tasks
-from tests.search.exact_answers import same_cost
+from tests.search.exact_answers import proved, same_cost
 
 
 @pytest.mark.parametrize("mode", ["individual", "serendipity", "communication", "composite"])
@@ -48,16 +48,14 @@ def test_what_the_human_gains_alone() -> None:
             "unload r": "-> at_b_p1 @ 3",
         },
     )
-    answer = serendipity.plan(task, human_plan=["drive h", "back h", "drive h", "load h", "unload h"])
+    answer = proved(task, human_plan=["drive h", "back h", "drive h", "load h", "unload h"])
     assert (answer.cost, answer.saving_alone, answer.saving) == (3.0, 0.3, 0.4)
-    assert serendipity.verify(task, answer).verdict == "proved"
 
 
 @pytest.mark.parametrize("earlier", [{"window_weight": "0.75"}, {"communication_weight": "0.25"}])
 def test_an_earlier_call_in_a_smaller_unit(earlier: dict[str, str]) -> None:
     """The team of an earlier call was taken, whose costs stood for others."""
     task = build(
-        agents="h r",
         goal="a b",
         actions={"go h": "-> p", "back h": "p -> a !p", "end h": "p -> b", "end r": "-> b @ 3"},
     )
@@ -87,7 +85,6 @@ def test_where_the_kernel_has_no_bound_on_the_team(monkeypatch: pytest.MonkeyPat
 def test_a_fact_that_two_must_add_at_once() -> None:
     """Both need it to be false and make it true, which is no conflict: a circle that was missed."""
     task = build(
-        init="",
         goal="a b",
         actions={"left h": "!c -> a c @ 1", "right r": "!c -> b c @ 1"},
     )
@@ -154,7 +151,7 @@ def test_what_only_others_bring(bridge: str, status: str, most: int) -> None:
     assert answer.statistics["expanded"] <= most
 
 
-def _ride(cabs: int) -> dict[str, str]:
+def _street(cabs: int) -> Task:
     """Somebody walks along a street, or is taken by cabs that come from its end and have to keep apart."""
     actions = {}
     places = range(8)
@@ -166,7 +163,8 @@ def _ride(cabs: int) -> dict[str, str]:
         for cab in "rs"[:cabs]:
             actions[f"enter {cab}_ {i} h"] = f"at_{i} {cab}_{i} -> in_{cab} !at_{i}"
             actions[f"leave {cab}_ {i} h"] = f"in_{cab} {cab}_{i} -> at_{i} !in_{cab}"
-    return actions
+    init = "at_0 r_6 free_0 free_1 free_2 free_3 free_4 free_5 " + ("s_7" if cabs == 2 else "free_7")
+    return build(agents="h r s"[: 1 + 2 * cabs], init=init, goal="at_7", actions=actions)
 
 
 @pytest.mark.skipif(library() is None, reason="there is no kernel here")
@@ -176,17 +174,14 @@ def test_where_robots_have_more_to_do_than_come(cabs: int, cost: float) -> None:
 
     A second cab stands at the end, so that the human has to walk there from the place before.
     """
-    init = "at_0 r_6 free_0 free_1 free_2 free_3 free_4 free_5 " + ("s_7" if cabs == 2 else "free_7")
-    task = build(agents="h r s"[: 1 + 2 * cabs], init=init, goal="at_7", actions=_ride(cabs))
+    task = _street(cabs)
     answers = list(serendipity.plan_anytime(task, mode="composite", horizon=INFINITE, discount="0.9"))
-    assert answers[-1].status == "optimal"
-    assert answers[-1].cost == cost
-    assert answers[-1].saving == 7 - cost
-    assert answers[-1].statistics["expanded"] < 100
-    bounds = [answer.lower_bound for answer in answers]
+    last, bounds = answers[-1], [answer.lower_bound for answer in answers]
+    assert (last.status, last.cost, last.saving) == ("optimal", cost, 7 - cost)
+    assert last.statistics["expanded"] < 100
     assert bounds == sorted(bounds)
     assert all(answer.cost <= 7 for answer in answers), "they could walk"
-    assert serendipity.verify(task, answers[-1]).verdict == "proved"
+    assert serendipity.verify(task, last).verdict == "proved"
 
 
 def _interrupted(plans: list[list[tuple[int, ...]]]) -> Callable[..., Iterator[list[tuple[int, ...]]]]:
@@ -204,8 +199,7 @@ def _interrupted(plans: list[list[tuple[int, ...]]]) -> Callable[..., Iterator[l
 def test_what_was_known_before_the_kernel_went_on_is_kept(
     detour: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    init = "at_0 r_6 free_0 free_1 free_2 free_3 free_4 free_5 free_7"
-    task = build(agents="h r", init=init, goal="at_7", actions=_ride(1))
+    task = _street(1)
     numbers = {action.name: number for number, action in enumerate(task.actions)}
     steps = ["walk 0 1 h", "walk 1 0 h"] * detour + [f"walk {i} {i + 1} h" for i in range(7)]
     dearer = [[(numbers[name],) for name in steps]] * detour

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, TypeVar
+from typing import Any
 
 import pytest
 
@@ -16,9 +16,8 @@ from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_2, case_4
-from serendipity.testing.countdown import Countdown
-
-T = TypeVar("T")
+from serendipity.testing.countdown import Countdown, time_is_up
+from tests.endings import answers
 
 CALLS: list[dict[str, Any]] = [
     {"mode": "individual"},
@@ -40,57 +39,23 @@ CALLS: list[dict[str, Any]] = [
 ]
 
 
-TIME = LimitReachedError("time-limit")
-
-
-def endings(
-    call: Callable[[Deadline], T], error: Exception = TIME, *, each: bool = False
-) -> list[T | LimitReachedError]:
-    """What comes of a call if the first look at the deadline is the last, the second one, and so on.
-
-    The last one has as much time as it needs.  Unless ``each`` look is wanted, later ones are
-    further and further apart.
-    """
-    found: list[T | LimitReachedError] = []
-    looks = 0
-    while True:
-        deadline = Countdown(looks, lambda: error)
-        try:
-            found.append(call(deadline))
-        except LimitReachedError as limit:
-            found.append(limit)
-        if not deadline.ran_out:
-            return found
-        looks = looks + 1 if each else max(looks + 1, looks * 9 // 8)
-
-
-def answers(call: Callable[[Deadline], T], error: Exception = TIME, *, each: bool = False) -> list[T]:
-    """The same for calls that first have nothing to say, and from some look on always an answer."""
-    found = endings(call, error, each=each)
-    silent = [ending for ending in found if isinstance(ending, LimitReachedError)]
-    spoken = [ending for ending in found if not isinstance(ending, LimitReachedError)]
-    assert found == [*silent, *spoken]
-    assert {limit.reason for limit in silent} <= {"time-limit"}
-    return spoken
-
-
 @pytest.mark.parametrize(
-    ("error", "reason"),
+    ("task", "error", "reason"),
     [
-        (TIME, "time-limit"),
-        (LimitReachedError("memory-limit"), "memory-limit"),
-        (MemoryError(), "memory-limit"),
+        (case_2(), time_is_up(), "time-limit"),
+        (case_4(), time_is_up(), "time-limit"),
+        (case_2(), LimitReachedError("memory-limit"), "memory-limit"),
+        (case_4(), MemoryError(), "memory-limit"),
     ],
-    ids=repr,
+    ids=["case 2", "case 4", "memory", "no memory at all"],
 )
 @pytest.mark.parametrize("options", CALLS, ids=str)
-@pytest.mark.parametrize("task", [case_2(), case_4()], ids=["case 2", "case 4"])
 def test_time_may_run_out_at_any_look(
     task: Task, options: dict[str, Any], error: Exception, reason: str
 ) -> None:
     # A copy of the task knows nothing yet.
     *early, last = answers(
-        lambda deadline: serendipity.plan(replace(task), deadline=deadline, **options), error
+        lambda deadline: serendipity.plan(replace(task), deadline=deadline, **options), lambda: error
     )
     assert len(early) > 3
     assert (early[0].status, early[0].reason) == ("unknown", reason)
@@ -111,9 +76,7 @@ def goals_of(task: Task) -> list[dict[str, Any]]:
 
 
 def alone(task: Task) -> tuple[str, ...]:
-    plan = serendipity.plan(task, mode="individual").human_plan
-    assert plan is not None
-    return plan
+    return serendipity.plan(task, mode="individual").human_plan
 
 
 @pytest.mark.parametrize("several", [True, False])
@@ -135,7 +98,6 @@ def test_planning_for_goals_may_be_stopped_at_any_look(several: bool) -> None:
             assert last.cost is not None and answer.lower_bound is not None and last.objective is not None
             assert last.cost <= answer.cost
             assert answer.lower_bound <= last.objective
-            assert answer.recognition is not None
             assert answer.recognition.explained
 
 
@@ -203,7 +165,7 @@ def test_the_epochs_played_by_then_are_told(human_model: str) -> None:
     def call(deadline: Deadline) -> serendipity.Trace:
         return serendipity.simulate(replace(task), result, human_model, deadline=deadline)
 
-    *early, last = answers(call, each=True)
+    *early, last = answers(call, sparser=0)
     assert last.complete
     assert {len(trace.epochs) for trace in early} >= {1, len(last.epochs) - 1}
     for trace in early:
@@ -230,7 +192,6 @@ def _parcels() -> Task:
     """Whoever comes by may deliver one: the goals are shared."""
     human = {f"take_{p} h": f"-> in_h_{p} @ 2" for p in "abc"}
     return build(
-        init="",
         goal="at_a at_b at_c",
         actions={
             **human,
@@ -283,7 +244,7 @@ def test_a_better_answer_is_whole_or_not_there(suffix: str) -> None:
     def call(deadline: Deadline) -> Result:
         return serendipity.plan(replace(task), suffix=suffix, window_weight=1, deadline=deadline)
 
-    found = answers(call, each=True)
+    found = answers(call, sparser=0)
     assert found[-1].opportunity
     for answer in found:
         assert serendipity.check(task, answer).verdict != "refuted"

@@ -81,28 +81,20 @@ def test_what_robots_only_move_together_is_nobodys_place():
     assert (answer.cost, answer.window) == (2.4, Window(1, 5))
 
 
-def test_what_else_a_move_changes_makes_it_a_deed():
-    moves = {"go r a b": "at-a -> at-b !at-a", "go r b a": "at-b -> at-a !at-b !open"}
+@pytest.mark.parametrize(
+    ("there", "back", "distances"),
+    [("at-a", "at-a !at-b !open", (1, -1)), ("at-a lit", "at-a !at-b", (-1, 1))],
+    ids=["what else it changes", "what else it asks for, even what nothing changes"],
+)
+def test_a_walk_that_is_about_more_than_a_place_is_a_deed(there, back, distances):
+    moves = {"go r a b": f"{there} -> at-b !at-a", "go r b a": f"at-b -> {back}"}
     deeds = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
     task = builders.task(init="at-a", goal="done", actions=moves | deeds)
     tables = PreparedTask(task).plain(Deadline())
     packed, walks = tables.packed, tables.robots.decoupled(Deadline())
     a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
     assert walks.foldable
-    assert walks.distance(0, a, b) == 1
-    assert walks.distance(0, b, a) == -1
-
-
-def test_a_walk_that_asks_for_more_than_a_place_is_a_deed():
-    """Even for what nothing changes: it may be false."""
-    moves = {"go r a b": "at-a lit -> at-b !at-a", "go r b a": "at-b -> at-a !at-b"}
-    deeds = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
-    task = builders.task(init="at-a", goal="done", actions=moves | deeds)
-    tables = PreparedTask(task).plain(Deadline())
-    packed, walks = tables.packed, tables.robots.decoupled(Deadline())
-    a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
-    assert walks.distance(0, a, b) == -1
-    assert walks.distance(0, b, a) == 1
+    assert (walks.distance(0, a, b), walks.distance(0, b, a)) == distances
 
 
 def _step_by_step(context, plan):

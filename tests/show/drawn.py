@@ -64,7 +64,6 @@ def _drawn(group: ET.Element, x: float, y: float) -> Drawn:
         left, top = x + float(rect.attrib["x"]), y + float(rect.attrib["y"])
         width, height = float(rect.attrib["width"]), float(rect.attrib["height"])
     else:
-        assert circle is not None
         radius = float(circle.attrib["r"])
         left, top, width, height = x - radius, y - radius, 2 * radius, 2 * radius
     words = group.find(f"{SVG}text")

@@ -54,7 +54,6 @@ def kept_apart(scene: Scene, epoch: int) -> dict[str, Drawn]:
         for key, token in tokens.items():
             apart = not outline.overlaps(token)
             assert apart or outline.encloses(token) or token.encloses(outline), (epoch, frame, key)
-    assert scene.layout is not None
     for key, token in tokens.items():
         assert sheet.encloses(token), (epoch, key)
         boxes = (box.moved(MARGIN, MARGIN) for box in scene.layout.boxes.values())
@@ -76,7 +75,6 @@ def test_places_grow_until_everything_in_them_is_named() -> None:
     for frame in scene.frames:
         shown = kept_apart(scene, frame.epoch)
         assert {f"object-{i}" for i in range(7)} <= shown.keys()
-    assert scene.layout is not None
     assert all(box.height > 100 for box in scene.layout.boxes.values())
 
 
@@ -92,7 +90,6 @@ def test_what_has_no_room_is_counted_and_can_be_looked_up() -> None:
 
 
 def test_agents_are_the_last_to_be_counted(room2: Scene) -> None:
-    assert room2.layout is not None
     small = {place: replace(box, height=100.0) for place, box in room2.layout.boxes.items()}
     tokens = kept_apart(replace(room2, layout=replace(room2.layout, boxes=small), meetings=()), 6)
     assert {"agent-0", "agent-1"} <= tokens.keys()

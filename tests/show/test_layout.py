@@ -104,7 +104,7 @@ def lifts(*ways: str) -> Task:
         for lift in ("h", "r")
         for verb, a, b in map(str.split, ways)
     }
-    return build(agents="h r", human="h", init="at_h_f0 at_r_f0", goal="at_h_f2", actions=actions)
+    return build(init="at_h_f0 at_r_f0", goal="at_h_f2", actions=actions)
 
 
 def test_floors_that_lifts_go_up_and_down_between_are_a_shaft() -> None:

@@ -12,23 +12,11 @@ from typing import Any
 import pytest
 
 from serendipity.pictures import Scene, draw
-from tests.show.browser import chromium, chromium_path
 
 pytestmark = pytest.mark.browser
 
 LABELS = (Path(__file__).parent / "labels.js").read_text(encoding="utf-8")
 _MARKS = re.compile(r"translate\(([-0-9.]+)px, ([-0-9.]+)px\)")
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    """A headless Chromium."""
-    pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    path = chromium_path()
-    if path is None:
-        pytest.skip("there is no chromium (set CHROMIUM to its path)")
-    with chromium(path) as running:
-        yield running
 
 
 class Opened:
@@ -64,16 +52,14 @@ class Opened:
 
 @pytest.fixture(scope="module")
 def file(room2: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    written = tmp_path_factory.mktemp("pages") / "room2.html"
-    written.write_text(str(draw(room2, ".html")), encoding="utf-8")
-    return written
+    return written(room2, tmp_path_factory.mktemp("pages"))
 
 
-@pytest.fixture(scope="module")
-def without_map(no_map: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    written = tmp_path_factory.mktemp("pages") / "no_map.html"
-    written.write_text(str(draw(no_map, ".html")), encoding="utf-8")
-    return written
+def written(scene: Scene, folder: Path) -> Path:
+    """The page of a scene."""
+    page = folder / "page.html"
+    page.write_text(str(draw(scene, ".html")), encoding="utf-8")
+    return page
 
 
 @pytest.fixture
@@ -198,9 +184,7 @@ def test_it_fits_the_screen(width: int, browser: Any, file: Path) -> None:
 def test_labels_stay_in_the_map_and_out_of_each_other(
     width: int, browser: Any, tmp_path: Path, parcels: Scene
 ) -> None:
-    file = tmp_path / "parcels.html"
-    file.write_text(str(draw(parcels, ".html")), encoding="utf-8")
-    page = Opened(browser, file, width, reduced_motion="reduce")
+    page = Opened(browser, written(parcels, tmp_path), width, reduced_motion="reduce")
     for epoch in range(len(parcels.frames)):
         page.page.locator("#slider").fill(str(epoch))
         wrong = page.page.evaluate(LABELS)
@@ -217,12 +201,9 @@ def test_labels_stay_in_the_map_and_out_of_each_other(
 
 def test_a_high_map_is_seen_as_a_whole(browser: Any, tmp_path: Path, room2: Scene) -> None:
     layout = room2.layout
-    assert layout is not None
     turned = {place: replace(box, x=box.y, y=box.x) for place, box in layout.boxes.items()}
     high = replace(layout, boxes=turned, width=layout.height + 100, height=layout.width)
-    file = tmp_path / "high.html"
-    file.write_text(str(draw(replace(room2, layout=high), ".html")), encoding="utf-8")
-    page = Opened(browser, file, 1300, reduced_motion="reduce")
+    page = Opened(browser, written(replace(room2, layout=high), tmp_path), 1300, reduced_motion="reduce")
     shown = [page.page.locator(part).evaluate("e => e.clientHeight") for part in ("#map", "#map-scroller")]
     assert shown[0] <= shown[1]
     page.close()
@@ -256,8 +237,8 @@ def test_motion_is_reduced_where_that_is_preferred(browser: Any, file: Path) -> 
         page.close()
 
 
-def test_a_task_without_map_plays_too(browser: Any, without_map: Path) -> None:
-    page = Opened(browser, without_map, 400)
+def test_a_task_without_map_plays_too(browser: Any, no_map: Scene, tmp_path: Path) -> None:
+    page = Opened(browser, written(no_map, tmp_path), 400)
     assert not page.page.locator("#map-scroller").is_visible()
     page.page.keyboard.press("End")
     assert page.epoch == 2

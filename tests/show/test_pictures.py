@@ -16,8 +16,7 @@ from serendipity.pictures.formats.page import page
 from serendipity.pictures.map.names import ems
 from serendipity.pictures.picture.drawing import HUMAN, ROBOTS, fitted, on, wrapped
 from serendipity.pictures.picture.map_picture import tokens
-
-SVG = "{http://www.w3.org/2000/svg}"
+from tests.show.drawn import SVG
 
 
 def test_a_still_is_well_formed_and_says_what_it_shows(room2: Scene) -> None:
@@ -174,7 +173,6 @@ def test_a_still_of_a_large_building_shows_the_part_that_matters(tmp_path: Path)
     serendipity.generate_usar(tmp_path, rooms=84, medkits=4, robots=2, seed=3)
     task = serendipity.load(tmp_path)
     scene = build_scene(task, serendipity.plan(task, discount="0.9"))
-    assert scene.layout is not None
     root = ET.fromstring(str(draw(scene, ".svg")))
     assert float(root.attrib["width"]) < scene.layout.width
     texts = {element.text for element in root.iter(f"{SVG}text")}

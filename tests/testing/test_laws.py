@@ -12,7 +12,7 @@ from serendipity.model import Options, Result, UsageError, Window
 from serendipity.testing.asking import settled
 from serendipity.testing.call import Call
 from serendipity.testing.cases import case_2
-from serendipity.testing.laws import LAWS, Answered
+from serendipity.testing.laws import LAWS
 from serendipity.testing.oracle import Optimum, best
 from serendipity.testing.strategies import calls
 
@@ -63,73 +63,36 @@ class Said:
         self.objective = self.cost if self.objective is None else self.objective
 
 
-def robots_get_dearer(call: Call) -> Answered:
-    return Said(10 + call.options.discount)
-
-
-def patience_costs(call: Call) -> Answered:
-    horizon = call.options.horizon
-    return Said(100 if horizon == "inf" else horizon)
-
-
-def weight_is_a_gain(call: Call) -> Answered:
-    return Said(5, 2000 - call.options.window_weight, Window(1, 2))
-
-
-def weight_makes_plans_cheap(call: Call) -> Answered:
-    return Said(2000 - call.options.window_weight, 3000, Window(1, 2))
-
-
-def teams_are_dear(call: Call) -> Answered:
-    return Said(20 if call.options.mode == "composite" else 10)
-
-
-def windows_matter_always(call: Call) -> Answered:
-    return Said(9 if call.options.mode == "composite" else 10)
-
-
-def names_matter(call: Call) -> Answered:
-    return Said(len(call.task.agents[call.task.human]))
-
-
-def numbers_matter(call: Call) -> Answered:
-    return Said(call.task.human)
-
-
-def heads_are_counted(call: Call) -> Answered:
-    return Said(len(call.task.agents))
-
-
-def a_fee_is_added(call: Call) -> Answered:
-    return Said(1 + call.task.actions[0].cost)
-
-
-def actions_are_counted(call: Call) -> Answered:
-    return Said(len(call.task.actions))
-
-
-LIARS: tuple[tuple[str, Callable[[Call], Answered]], ...] = (
-    ("discount", robots_get_dearer),
-    ("horizon", patience_costs),
-    ("window weight", weight_is_a_gain),
-    ("window weight", weight_makes_plans_cheap),
-    ("modes", teams_are_dear),
-    ("free windows", windows_matter_always),
-    ("free words", teams_are_dear),
-    ("renaming", names_matter),
-    ("renaming", numbers_matter),
-    ("idle robot", heads_are_counted),
-    ("scale", a_fee_is_added),
-    ("split cost", actions_are_counted),
+LIARS: tuple[tuple[str, str, Callable[[Call], Said]], ...] = (
+    ("discount", "robots get dearer", lambda call: Said(10 + call.options.discount)),
+    (
+        "horizon",
+        "patience costs",
+        lambda call: Said(100 if call.options.horizon == "inf" else call.options.horizon),
+    ),
+    ("window weight", "is a gain", lambda call: Said(5, 2000 - call.options.window_weight, Window(1, 2))),
+    (
+        "window weight",
+        "makes plans cheap",
+        lambda call: Said(2000 - call.options.window_weight, 3000, Window(1, 2)),
+    ),
+    ("modes", "teams are dear", lambda call: Said(20 if call.options.mode == "composite" else 10)),
+    ("free windows", "they matter", lambda call: Said(9 if call.options.mode == "composite" else 10)),
+    ("free words", "teams are dear", lambda call: Said(20 if call.options.mode == "composite" else 10)),
+    ("renaming", "names matter", lambda call: Said(len(call.task.agents[call.task.human]))),
+    ("renaming", "numbers matter", lambda call: Said(call.task.human)),
+    ("idle robot", "heads are counted", lambda call: Said(len(call.task.agents))),
+    ("scale", "a fee is added", lambda call: Said(1 + call.task.actions[0].cost)),
+    ("split cost", "actions are counted", lambda call: Said(len(call.task.actions))),
 )
 
 
-@pytest.mark.parametrize(("law", "liar"), LIARS, ids=lambda value: getattr(value, "__name__", value))
-def test_each_finds_who_breaks_it(law: str, liar: Callable[[Call], Answered]) -> None:
+@pytest.mark.parametrize(("law", "lie", "liar"), LIARS)
+def test_each_finds_who_breaks_it(law: str, lie: str, liar: Callable[[Call], Said]) -> None:
     asked = {"split cost": {"mode": "composite", "horizon": "inf"}, "free words": {"mode": "composite"}}
     options = Options(**asked.get(law, {}))
     assert list(LAWS[law](settled(Call(case_2(), options)), liar))
 
 
 def test_there_is_a_liar_for_every_law() -> None:
-    assert {law for law, _ in LIARS} == {*LAWS}
+    assert {law for law, *_ in LIARS} == {*LAWS}

@@ -45,67 +45,62 @@ def kitchen() -> Problem:
     problem.set_initial_value(at(ann), rooms["Sofa"])
     problem.set_initial_value(at(robot), rooms["Pantry"])
     problem.set_initial_value(tea_at(rooms["Pantry"]), True)
-
     walk = InstantaneousAction("walk", who=agent, start=place, end=place)
-    walk.add_precondition(Equals(at(walk.who), walk.start))
-    walk.add_precondition(door(walk.start, walk.end))
-    walk.add_effect(at(walk.who), walk.end)
     take = InstantaneousAction("take", who=agent, where=place)
-    take.add_precondition(Equals(at(take.who), take.where))
-    take.add_precondition(tea_at(take.where))
-    take.add_effect(tea_at(take.where), False)
-    take.add_effect(has_tea(take.who), True)
     give = InstantaneousAction("hand_over", giver=agent, taker=agent)
-    give.add_precondition(Not(Equals(give.giver, give.taker)))
-    give.add_precondition(Equals(at(give.giver), at(give.taker)))
-    give.add_precondition(has_tea(give.giver))
-    give.add_effect(has_tea(give.giver), False)
-    give.add_effect(has_tea(give.taker), True)
     brew = InstantaneousAction("brew", who=person)
-    brew.add_precondition(Equals(at(brew.who), rooms["Kitchen"]))
-    brew.add_precondition(has_tea(brew.who))
-    brew.add_effect(brewed, True)
+    _set(walk, [Equals(at(walk.who), walk.start), door(walk.start, walk.end)], (at(walk.who), walk.end))
+    _set(
+        take,
+        [Equals(at(take.who), take.where), tea_at(take.where)],
+        (tea_at(take.where), False),
+        (has_tea(take.who), True),
+    )
+    apart, near = Not(Equals(give.giver, give.taker)), Equals(at(give.giver), at(give.taker))
+    _set(give, [apart, near, has_tea(give.giver)], (has_tea(give.giver), False), (has_tea(give.taker), True))
+    _set(brew, [Equals(at(brew.who), rooms["Kitchen"]), has_tea(brew.who)], (brewed, True))
     problem.add_actions([walk, take, give, brew])
     problem.add_goal(brewed)
     problem.add_quality_metric(MinimizeActionCosts({}, default=1))
     return problem
 
 
+def _set(
+    action: InstantaneousAction, conditions: list[Any], *effects: tuple[Any, Any]
+) -> InstantaneousAction:
+    """The action with these conditions and effects."""
+    for condition in conditions:
+        action.add_precondition(condition)
+    for fluent, value in effects:
+        action.add_effect(fluent, value)
+
+
 def corridor() -> MultiAgentProblem:
     """Ann wants to be in the kitchen; the robot can open its door, which takes her two steps."""
     problem = MultiAgentProblem("corridor")
     place = UserType("Place")
-    rooms = [Object(name, place) for name in ("Hall", "Door", "Kitchen")]
+    hall, door, kitchen = rooms = [Object(name, place) for name in ("Hall", "Door", "Kitchen")]
     problem.add_objects(rooms)
-    is_open = Fluent("is_open", BoolType())
+    is_open, unlocked = (Fluent(name, BoolType()) for name in ("is_open", "unlocked"))
     problem.ma_environment.add_fluent(is_open, default_initial_value=False)
     pos = Fluent("pos", BoolType(), where=place)
-    agents = {name: Agent(name, problem) for name in ("Ann", "Robot")}
-    for agent in agents.values():
+    ann, robot = (Agent(name, problem) for name in ("Ann", "Robot"))
+    for agent in (ann, robot):
         agent.add_public_fluent(pos, default_initial_value=False)
         problem.add_agent(agent)
-    for name, start, end in (("approach", 0, 1), ("enter", 1, 2)):
-        action = InstantaneousAction(name)
-        action.add_precondition(pos(rooms[start]))
-        if name == "enter":
-            action.add_precondition(is_open)
-        action.add_effect(pos(rooms[start]), False)
-        action.add_effect(pos(rooms[end]), True)
-        agents["Ann"].add_action(action)
-    unlock, push, pull = (InstantaneousAction(name) for name in ("unlock", "push", "pull"))
-    unlocked = Fluent("unlocked", BoolType())
-    agents["Ann"].add_private_fluent(unlocked, default_initial_value=False)
-    unlock.add_precondition(pos(rooms[1]))
-    unlock.add_effect(unlocked, True)
-    push.add_precondition(unlocked)
-    push.add_effect(is_open, True)
-    pull.add_precondition(pos(rooms[2]))
-    pull.add_effect(is_open, True)
-    agents["Ann"].add_actions([unlock, push])
-    agents["Robot"].add_action(pull)
-    problem.set_initial_value(Dot(agents["Ann"], pos(rooms[0])), True)
-    problem.set_initial_value(Dot(agents["Robot"], pos(rooms[2])), True)
-    agents["Ann"].add_public_goal(pos(rooms[2]))
+    ann.add_private_fluent(unlocked, default_initial_value=False)
+    names = ("approach", "enter", "unlock", "push", "pull")
+    approach, enter, unlock, push, pull = (InstantaneousAction(name) for name in names)
+    _set(approach, [pos(hall)], (pos(hall), False), (pos(door), True))
+    _set(enter, [pos(door), is_open], (pos(door), False), (pos(kitchen), True))
+    _set(unlock, [pos(door)], (unlocked, True))
+    _set(push, [unlocked], (is_open, True))
+    _set(pull, [pos(kitchen)], (is_open, True))
+    ann.add_actions([approach, enter, unlock, push])
+    robot.add_action(pull)
+    problem.set_initial_value(Dot(ann, pos(hall)), True)
+    problem.set_initial_value(Dot(robot, pos(kitchen)), True)
+    ann.add_public_goal(pos(kitchen))
     return problem
 
 
@@ -127,31 +122,22 @@ def _blocks() -> tuple[Problem, dict[str, Any]]:
     return problem, names
 
 
-def _action(problem: Problem, name: str, build: Callable[[InstantaneousAction], None], **kinds: Any) -> None:
-    action = InstantaneousAction(name, **kinds)
-    build(action)
-    problem.add_action(action)
-
-
 def conditions() -> Problem:
     """Quantifiers, implications, equivalences, disjunctions."""
     problem, n = _blocks()
+    marked, done = n["marked"], n["done"]
     x, y = Variable("x", n["block"]), Variable("x", n["red"])
-
-    def mark(action: InstantaneousAction) -> None:
-        action.add_precondition(Implies(n["marked"](action.x), n["done"]))
-        action.add_effect(n["marked"](action.x), True)
-
-    def finish(action: InstantaneousAction) -> None:
-        action.add_precondition(Forall(n["marked"](y), y))
-        action.add_precondition(Exists(And(n["marked"](x), Not(Equals(x, n["b"]))), x))
-        action.add_precondition(Iff(n["marked"](n["a"]), n["done"]))
-        action.add_precondition(Or(n["done"], n["marked"](n["b"])))
-        action.add_effect(n["done"], True)
-
-    _action(problem, "mark", mark, x=n["block"])
-    _action(problem, "finish", finish)
-    problem.add_goal(And(n["done"], Forall(n["marked"](x), x)))
+    mark, finish = InstantaneousAction("mark", x=n["block"]), InstantaneousAction("finish")
+    _set(mark, [Implies(marked(mark.x), done)], (marked(mark.x), True))
+    wanted = [
+        Forall(marked(y), y),
+        Exists(And(marked(x), Not(Equals(x, n["b"]))), x),
+        Iff(marked(n["a"]), done),
+        Or(done, marked(n["b"])),
+    ]
+    _set(finish, wanted, (done, True))
+    problem.add_actions([mark, finish])
+    problem.add_goal(And(done, Forall(marked(x), x)))
     problem.add_quality_metric(MinimizeSequentialPlanLength())
     return problem
 
@@ -159,27 +145,20 @@ def conditions() -> Problem:
 def effects() -> Problem:
     """Conditional effects, for all of a type; fluents and conditions that are assigned."""
     problem, n = _blocks()
+    below, marked, done = n["below"], n["marked"], n["done"]
     x = Variable("x", n["block"])
-
-    def sweep(action: InstantaneousAction) -> None:
-        action.add_effect(n["marked"](x), True, Equals(n["below"](x), action.y), forall=[x])
-        action.add_effect(n["marked"](action.y), False)
-
-    def shift(action: InstantaneousAction) -> None:
-        action.add_effect(n["below"](action.x), n["below"](action.y), n["marked"](action.y))
-        action.add_effect(n["marked"](action.x), n["marked"](n["below"](action.y)))
-
-    def place(action: InstantaneousAction) -> None:
-        action.add_precondition(n["marked"](n["below"](action.x)))
-        action.add_effect(n["below"](action.x), action.x)
-        action.add_effect(n["done"], Not(n["done"]))
-
-    _action(problem, "sweep", sweep, y=n["red"])
-    _action(problem, "shift", shift, x=n["block"], y=n["block"])
-    _action(problem, "place", place, x=n["red"])
-    problem.add_goal(And(Not(Equals(n["below"](n["c"]), n["below"](n["a"]))), Not(n["marked"](n["b"]))))
-    problem.add_goal(Or(n["done"], Equals(n["below"](n["a"]), n["b"])))
-    problem.set_initial_value(n["below"](n["b"]), n["c"])
+    sweep = InstantaneousAction("sweep", y=n["red"])
+    sweep.add_effect(marked(x), True, Equals(below(x), sweep.y), forall=[x])
+    sweep.add_effect(marked(sweep.y), False)
+    shift = InstantaneousAction("shift", x=n["block"], y=n["block"])
+    shift.add_effect(below(shift.x), below(shift.y), marked(shift.y))
+    shift.add_effect(marked(shift.x), marked(below(shift.y)))
+    place = InstantaneousAction("place", x=n["red"])
+    _set(place, [marked(below(place.x))], (below(place.x), place.x), (done, Not(done)))
+    problem.add_actions([sweep, shift, place])
+    problem.add_goal(And(Not(Equals(below(n["c"]), below(n["a"]))), Not(marked(n["b"]))))
+    problem.add_goal(Or(done, Equals(below(n["a"]), n["b"])))
+    problem.set_initial_value(below(n["b"]), n["c"])
     problem.add_quality_metric(MinimizeSequentialPlanLength())
     return problem
 

@@ -15,7 +15,6 @@ def test_optima_are_those_of_the_simulator(name: str) -> None:
     assert result.status == PlanGenerationResultStatus.SOLVED_OPTIMALLY
     verdict = SequentialPlanValidator().validate(problem, result.plan)
     assert verdict, verdict
-    assert verdict.metric_evaluations is not None
     (cost,) = verdict.metric_evaluations.values()
     assert cost == least_cost(problem) == float(result.metrics["cost"])
     (again,) = SerendipityEngine().validate(problem, result.plan).metric_evaluations.values()

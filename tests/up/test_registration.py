@@ -4,8 +4,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 
 def run(code: str, folder: Path) -> str:
     script = folder / "script.py"
@@ -39,11 +37,11 @@ except ImportError as error:
     )
 
 
-@pytest.mark.parametrize("first", ["import serendipity.up", "get_environment()"])
-def test_importing_registers_the_engine_once(first: str, tmp_path: Path) -> None:
-    code = f"""
+def test_importing_registers_the_engine_once(tmp_path: Path) -> None:
+    """In the environment that is there already, and in those to come."""
+    code = """
 from unified_planning.environment import Environment, get_environment
-{first}
+get_environment()
 import serendipity.up
 serendipity.up.register()
 for environment in (get_environment(), Environment()):
@@ -52,8 +50,8 @@ for environment in (get_environment(), Environment()):
 with get_environment().factory.OneshotPlanner(name="serendipity"):
     pass
 """
-    first_line, second_line, *rest = run(code, tmp_path).splitlines()
-    assert first_line == second_line == "1 SerendipityEngine"
+    first, second, *rest = run(code, tmp_path).splitlines()
+    assert first == second == "1 SerendipityEngine"
     assert any("Serendipity" in line for line in rest)
 
 

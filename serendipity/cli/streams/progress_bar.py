@@ -1,15 +1,12 @@
 """Progress as a bar on a terminal; rich draws it, and is loaded when there is something to draw."""
 
 from threading import Lock, Timer
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, ClassVar
 
 from serendipity.cli.streams.progress import Display
 
 if TYPE_CHECKING:
     from rich.progress import Progress
-
-PATIENCE: Final = 1.0
-"""Seconds of work before there is a bar."""
 
 
 class Bar(Display):
@@ -21,6 +18,9 @@ class Bar(Display):
         stays: the bar is there from the beginning, and stays when all is done.
     """
 
+    patience: ClassVar = 1.0
+    """Seconds of work before there is a bar."""
+
     def __init__(self, what: str, *, counts: bool, stays: bool) -> None:
         self._what = what
         self._state: tuple[str, int, int | None] = (what, 0, None)
@@ -28,7 +28,7 @@ class Bar(Display):
         self._stays = stays
         self._bar: Progress | None = None
         self._lock = Lock()
-        self._timer = Timer(PATIENCE, self._appear)
+        self._timer = Timer(self.patience, self._appear)
         self._timer.daemon = True
 
     def open(self) -> None:

@@ -6,7 +6,7 @@ import ipaddress
 import os
 import socket
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Any, ClassVar, Final
 
 import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
@@ -75,9 +75,6 @@ def hosts(host: str, more: Sequence[str] = ()) -> list[str]:
     return sorted({name.lower() for name in (*own, *local, *more)})
 
 
-_SECONDS: Final = 20.0
-"""Until the head of a request has to be there."""
-
 _CONNECTIONS: Final = 1000
 """At once; those beyond are told to come again."""
 
@@ -87,6 +84,9 @@ _GOODBYE: Final = 1
 
 class ImpatientProtocol(H11Protocol):
     """HTTP of uvicorn, which by itself waits for the rest of a request's head without end."""
+
+    seconds: ClassVar = 20.0
+    """Until the head of a request has to be there."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -114,7 +114,7 @@ class ImpatientProtocol(H11Protocol):
         return self.cycle is not None and not self.cycle.response_complete
 
     def _wait(self) -> None:
-        self._patience = self.loop.call_later(_SECONDS, self._lose_patience)
+        self._patience = self.loop.call_later(self.seconds, self._lose_patience)
 
     def _stop_waiting(self) -> None:
         if self._patience is not None:

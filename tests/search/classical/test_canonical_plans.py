@@ -17,10 +17,12 @@ from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from serendipity import Task
 from serendipity.model import Deadline, LimitReachedError
-from serendipity.testing.builders import task, usar
+from serendipity.testing.builders import task
+from serendipity.testing.countdown import Countdown
 from serendipity.testing.strategies import family_tasks, tasks
-from tests.search.classical.exact_costs import exact, packed_of
+from tests.search.classical.exact_costs import exact
 from tests.search.classical.test_kernel_equals_brute_force import assert_leads_to_goal, planner_of
+from tests.search.small_tasks import CORRIDOR, packed_of
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
 
@@ -75,29 +77,15 @@ def test_what_was_come_across_is_a_plan(task: Task) -> None:
         assert found is None or assert_leads_to_goal(packed, state, found) == 0  # a goal
 
 
-class Ends(Deadline):
-    """Runs out at a look."""
-
-    def __init__(self, looks: int) -> None:
-        super().__init__()
-        self.looks = looks
-
-    def check(self) -> None:
-        """See :class:`Deadline`."""
-        self.looks -= 1
-        if self.looks < 0:
-            raise LimitReachedError("time-limit")
-
-
 def test_an_interrupted_search_keeps_its_plan(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("search.classical.planner.SLICE", 0)
-    packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
+    packed = packed_of(CORRIDOR)
     planner, cost = planner_of(packed), exact(packed)[packed.init]
     kept = []
     for looks in range(1000):
         planner = planner_of(packed)
         try:
-            planner.cheapest(packed.init, Ends(looks))
+            planner.cheapest(packed.init, Countdown(looks))
         except LimitReachedError:
             kept.append(planner.best_so_far(packed.init))
         else:
@@ -110,12 +98,12 @@ def test_an_interrupted_search_keeps_its_plan(monkeypatch: pytest.MonkeyPatch) -
 
 def test_the_clock_is_looked_at_before_each_question(monkeypatch: pytest.MonkeyPatch) -> None:
     """Most are answered in less than a slice, and there may be thousands."""
-    packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
-    planner, clock, asked = planner_of(packed), Ends(10**6), []
+    packed = packed_of(CORRIDOR)
+    planner, clock, asked = planner_of(packed), Countdown(10**6), []
     cheapest = planner.cheapest
 
     def noted(state: int, deadline: Deadline, *rest: object, **more: object) -> int:
-        asked.append(clock.looks)
+        asked.append(clock.left_over[0])
         return cheapest(state, deadline, *rest, **more)  # type: ignore[arg-type]
 
     monkeypatch.setattr(planner, "cheapest", noted)
@@ -141,16 +129,14 @@ def test_operators_that_have_nothing_to_do_with_each_other_are_sorted() -> None:
 def test_the_clock_is_looked_at_while_a_long_plan_is_put_together() -> None:
     many = 200
     chores = {f"do{i} h": f"-> done{i}" for i in range(many)}
-    packed = packed_of(
-        task(agents="h r", human="h", goal=" ".join(f"done{i}" for i in range(many)), actions=chores)
-    )
+    packed = packed_of(task(goal=" ".join(f"done{i}" for i in range(many)), actions=chores))
     planner = planner_of(packed)
     planner.cheapest(packed.init, Deadline())
-    assert sorted(planner.known_plan(packed.init, Ends(20)) or ()) == [*range(many)]
+    assert sorted(planner.known_plan(packed.init, Countdown(20)) or ()) == [*range(many)]
     with pytest.raises(LimitReachedError):
-        planner.known_plan(packed.init, Ends(5))
+        planner.known_plan(packed.init, Countdown(5))
     with pytest.raises(LimitReachedError):
-        in_order(planner.problem.operators, range(many), Ends(100))
+        in_order(planner.problem.operators, range(many), Countdown(100))
 
 
 @given(tasks() | family_tasks())

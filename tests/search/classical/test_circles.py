@@ -5,7 +5,7 @@ from search.packed.packed_task import PackedTask
 from serendipity import Task
 from serendipity.model import Deadline
 from serendipity.testing.builders import task as build
-from tests.search.classical.exact_costs import packed_of
+from tests.search.small_tasks import packed_of
 
 
 def _circles(task: Task) -> list[list[str]]:

@@ -1,6 +1,6 @@
 """The kernel on the human's own problem: admissible bounds, costs as by brute force, plans that are plans."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from ctypes import CDLL
 from functools import partial
@@ -20,18 +20,16 @@ from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
 from serendipity import Task, plan
 from serendipity.model import Deadline, LimitReachedError
-from serendipity.testing.builders import usar
 from serendipity.testing.generator.families import family_task
 from serendipity.testing.strategies import tasks
-from tests.search.classical.exact_costs import exact, packed_of
+from tests.search.classical.exact_costs import exact
+from tests.search.small_tasks import CORRIDOR, packed_of
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
 
 
 def planner_of(packed: PackedTask) -> ClassicalPlanner:
-    planner = own_planner(packed, packed.goal, sum(packed.fields), Deadline())
-    assert planner is not None
-    return planner
+    return own_planner(packed, packed.goal, sum(packed.fields), Deadline())
 
 
 def assert_leads_to_goal(packed: PackedTask, state: int, numbers: list[int]) -> int:
@@ -177,32 +175,19 @@ class Refusing(Deadline):
         self.left_over -= size
 
 
-@pytest.fixture
-def frugal(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Memory is asked for before anything is allocated."""
-    monkeypatch.setattr(planner_module, "ROOM", 0)
-    return
-
-
-@pytest.mark.usefixtures("frugal")
-def test_memory_is_asked_for() -> None:
-    packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
+def test_memory_is_asked_for_and_what_was_allocated_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(planner_module, "ROOM", 0)  # before anything is allocated
+    packed = packed_of(CORRIDOR)
     planner, cost = planner_of(packed), exact(packed)[packed.init]
     for ask in (planner.cheapest, planner.first_plan, planner.bound):
         with pytest.raises(LimitReachedError):
             ask(packed.init, Refusing(1000))
-    assert planner.cheapest(packed.init, Refusing(1e8)) == cost
-    assert planner.bound(packed.init, Refusing(0)) == cost
-
-
-@pytest.mark.usefixtures("frugal")
-def test_what_was_allocated_is_kept_while_more_is_asked_for() -> None:
-    packed = packed_of(usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a"))
-    planner, cost = planner_of(packed), exact(packed)[packed.init]
     found = planner.first_plan(packed.init, Refusing(1e8))
     assert found is not None
     assert assert_leads_to_goal(packed, packed.init, found) >= cost
     assert planner.first_plan(packed.init, Refusing(0)) == found
+    assert planner.cheapest(packed.init, Refusing(1e8)) == cost
+    assert planner.bound(packed.init, Refusing(0)) == cost
 
 
 @pytest.fixture(scope="module")
@@ -212,9 +197,7 @@ def forgetful(tmp_path_factory: pytest.TempPathFactory) -> CDLL:
     if command is None:
         pytest.skip("there is no compiler here")
     compile_kernel([*command, *LITTLE], binary)
-    kernel = load(binary, SOURCE)
-    assert kernel is not None
-    return kernel
+    return load(binary, SOURCE)
 
 
 LITTLE = ("-DLONGEST=256", "-DMOST_LANDMARKS=2048", "-DMOST_SETS=65536")

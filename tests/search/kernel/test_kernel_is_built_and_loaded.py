@@ -20,6 +20,7 @@ const char *kernel_source_hash(void) { return KERNEL_SOURCE_HASH; }
 """
 SOURCE = HASH + "".join(f"void {name}(void);\nvoid {name}(void) {{}}\n" for name in SIGNATURES)
 
+OTHER = "int other(void); int other(void) { return 1; }"
 needs_compiler = pytest.mark.skipif(compiler() is None, reason="there is no C compiler here")
 
 
@@ -92,10 +93,12 @@ def test_none_where_the_source_has_changed(source: Path, binary: Path) -> None:
 
 
 @needs_compiler
-def test_none_where_a_function_is_missing(source: Path, binary: Path, capsys) -> None:
-    source.write_text(HASH, encoding="utf-8")
+@pytest.mark.parametrize("text", [HASH, OTHER], ids=["functions are missing", "something else"])
+def test_what_cannot_be_loaded_is_removed(text: str, source: Path, binary: Path, capsys) -> None:
+    source.write_text(text, encoding="utf-8")
     assert main(binary, source) == 1
     assert "can't be loaded here" in capsys.readouterr().err
+    assert not binary.exists()
 
 
 @needs_compiler
@@ -120,7 +123,7 @@ def test_none_where_a_unit_has_changed(change: str, source: Path, binary: Path) 
 @needs_compiler
 def test_none_where_the_library_is_something_else(source: Path, binary: Path) -> None:
     other = source.with_name("other.c")
-    other.write_text("int other(void); int other(void) { return 1; }", encoding="utf-8")
+    other.write_text(OTHER, encoding="utf-8")
     compile_kernel(compiler() or [], binary, other)
     assert "is no kernel for this machine" in refusal(binary, source)
 
@@ -143,16 +146,6 @@ def test_an_error_leaves_what_was_there(
     assert said.endswith(f"No kernel: {source} can't be compiled.\n")
     assert binary.read_bytes() == b"before"
     assert set(source.parent.iterdir()) == {source, binary}
-
-
-@needs_compiler
-def test_what_cannot_be_loaded_is_removed(
-    source: Path, binary: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    source.write_text("int other(void); int other(void) { return 1; }", encoding="utf-8")
-    assert main(binary, source) == 1
-    assert "can't be loaded" in capsys.readouterr().err
-    assert not binary.exists()
 
 
 def test_no_compiler_is_no_failure(

@@ -59,12 +59,13 @@ def test_a_wheel_for_any_platform(
     wheel = build(tmp_path, monkeypatch, **environment)
     assert wheel.name.endswith("-py3-none-any.whl")
     assert kernels(wheel) == UNITS
+    names = zipfile.ZipFile(wheel).namelist()
+    assert [name for name in names if name.endswith(".md")] == [], "that is for developers"
 
 
 def test_each_target_has_its_wheel() -> None:
     makefile = (ROOT / "Makefile").read_text(encoding="utf-8").replace("\\\n", " ")
     platforms = re.search(r"^PLATFORMS := (.*)$", makefile, re.MULTILINE)
-    assert platforms is not None
     assert platforms[1].split() == ["any", *TARGETS]
 
 

@@ -19,7 +19,7 @@ from serendipity.testing.cases import (
 )
 from serendipity.testing.oracle import action_sets_of_names, best, human_plans, optimal_human_plan
 
-QUICK = (case_2, case_3, case_8, case_9, case_10)
+QUICK = (case_2, case_8, case_9, case_10)
 
 
 @pytest.mark.parametrize(
@@ -47,7 +47,6 @@ def test_case_4_canonical_plan_goes_by_r() -> None:
     task = case_4()
     assert len(list(human_plans(task))) == 2
     canonical = optimal_human_plan(task)
-    assert canonical is not None
     assert "move h c r" in [task.actions[i].name for i in canonical]
 
 

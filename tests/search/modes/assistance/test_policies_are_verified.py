@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity import Result, Task
-from serendipity.model import Deadline, Decision, Options, Policy
+from serendipity.model import Deadline, Options, Policy
 from serendipity.model.answers.answer import PolicyBounds
 from serendipity.model.numbers import as_written
 from serendipity.testing.cases import case_5, case_6
@@ -20,7 +20,7 @@ TIES = ("optimistic", "fixed", "robust", "expected")
 
 
 def verdicts(task: Task, result: Result) -> dict[str, str]:
-    return {claim.claim: claim.verdict for claim in check_policy(task, result, Deadline())}
+    return {claim.claim: claim.verdict for claim in serendipity.verify(task, result).claims}
 
 
 @given(task=games(), ties=st.sampled_from(TIES), no_block=st.booleans())
@@ -92,24 +92,21 @@ def test_wrong_value_is_refuted(ties: str) -> None:
     assert "make (0, 2)" in refuted(case_6(), result, wrong)
 
 
-def test_impossible_action_is_refuted() -> None:
+@pytest.mark.parametrize(
+    ("number", "action", "words"),
+    [
+        (0, "carry s a g", "can't do 'carry s a g'"),
+        (1, "noop", "for ever"),
+        (1, None, "idles"),
+    ],
+    ids=["impossible action", "waiting for ever", "missing state"],
+)
+def test_wrong_decisions_are_refuted(number: int, action: str | None, words: str) -> None:
     result = serendipity.plan(case_6(), mode="assistance")
-    assert "can't do 'carry s a g'" in refuted(
-        case_6(), result, tampered(result.policy, 0, action="carry s a g")
-    )
-
-
-def test_policy_that_waits_for_ever_is_refuted() -> None:
-    result = serendipity.plan(case_6(), mode="assistance")
-    second: Decision = result.policy.decisions[1]
-    waits = tampered(result.policy, 1, action="noop", value=second.value)
-    assert "for ever" in refuted(case_6(), result, waits)
-
-
-def test_missing_state_is_refuted() -> None:
-    result = serendipity.plan(case_6(), mode="assistance")
-    half = replace(result.policy, decisions=result.policy.decisions[:1])
-    assert "idles" in refuted(case_6(), result, half)
+    wrong = replace(result.policy, decisions=result.policy.decisions[:number])
+    if action is not None:
+        wrong = tampered(result.policy, number, action=action)
+    assert words in refuted(case_6(), result, wrong)
 
 
 def test_blocking_is_refuted_where_it_is_forbidden() -> None:
@@ -143,12 +140,6 @@ def test_plan_must_be_a_run_of_the_policy() -> None:
     result = serendipity.plan(case_5(), mode="assistance")
     late = replace(result, plan=tuple(replace(step, epoch=step.epoch + 1) for step in result.plan))
     assert "would not wait" in refuted(case_5(), late, late.policy)
-
-
-def test_certificate_of_the_facade_covers_policies() -> None:
-    certificate = serendipity.verify(case_6(), serendipity.plan(case_6(), mode="assistance", ties="robust"))
-    assert certificate.verdict == "proved"
-    assert [claim.claim for claim in certificate.claims] == ["replay", "cost", "optimal", "lower_bound"]
 
 
 @pytest.mark.parametrize("ties", TIES)

@@ -19,7 +19,6 @@ _MOST_POLICIES = 400
 def value(result: Result) -> Costs | None:
     """The proved pair of a result; None where it says that there is none."""
     bounds = result.bounds
-    assert bounds is not None
     if result.status == "infeasible":
         assert result.policy is None
         return None

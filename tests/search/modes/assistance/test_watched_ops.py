@@ -8,6 +8,7 @@ from search.packed.packed_task import PackedTask
 from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
 from tests.search.modes.assistance.strategies import games
+from tests.search.small_tasks import reached
 
 
 @given(task=games())
@@ -15,13 +16,6 @@ def test_every_applicable_op_is_a_candidate(task: Task) -> None:
     packed = PackedTask(task, frozenset(), Deadline())
     ops = packed.own + packed.others
     watched = Watched(packed, ops, Deadline())
-    pending, seen = [packed.init], {packed.init}
-    while pending:
-        state = pending.pop()
+    for state in reached(packed, ops):
         expected = [op for op in ops if applicable(op, state)]
         assert [op for op in watched.candidates(state) if applicable(op, state)] == expected
-        for op in expected:
-            after = state & op.keep | op.put
-            if after not in seen:
-                seen.add(after)
-                pending.append(after)

@@ -16,7 +16,7 @@ from search.modes.goals import Candidate
 from serendipity.model import Certificate, Condition, Deadline, InputError, Options, Result, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle.goals import best_expected, robots_sets
-from tests.cli.conftest import Run, run  # noqa: F401 - a fixture
+from tests.cli.conftest import Runs
 from tests.search.modes.goals.strategies import literals, rivals
 from tests.search.modes.goals.test_expected_equals_brute_force import _MOST_PLANS, _OPTIONS
 from tests.search.modes.goals.test_worked_cases import helped, workshop
@@ -78,7 +78,6 @@ def test_what_is_played_is_what_brute_force_finds(
     best = best_expected(task, options, candidates, horizon)
     assert everything.floor() <= best
     found = everything.better(_FAR)
-    assert found is not None
     assert found.rank == best
     assert everything.better(best) is None
 
@@ -202,7 +201,6 @@ def test_doctored_answers_are_refuted(way: str) -> None:
     doctor, claim, words = DOCTORED[way]
     doctor(answer)
     refuted = serendipity.verify(task, Result.from_dict(answer)).refuted
-    assert refuted is not None
     assert (refuted.claim, words in refuted.reason) == (claim, True), refuted
 
 
@@ -219,7 +217,6 @@ def test_a_plan_that_is_broken() -> None:
     ]
     answer["statistics"]["recognition"]["goals"][1]["plan"] = ["prepare h", "keep h"]
     refuted = serendipity.verify(task, Result.from_dict(answer)).refuted
-    assert refuted is not None
     assert refuted.claim == "replay"
     assert refuted.reason == (
         "goal 'z': precondition (semantics 2): epoch 2: 'keep h': precondition: 'q' is true"
@@ -237,7 +234,6 @@ def test_dearer_help_is_not_the_best() -> None:
     dear = helped(build(goal="p", actions=actions), 3, 1)
     task = build(goal="p", actions=actions | {"lift r": "-> q @ 1"})
     refuted = serendipity.verify(task, dear).refuted
-    assert refuted is not None
     assert (refuted.claim, refuted.reason) == (
         "optimal",
         "better for all goals: expected cost 3, objective 1003",
@@ -266,13 +262,13 @@ def test_one_goal_is_section_3() -> None:
     doctored = deepcopy(answer.to_dict())
     doctored["statistics"]["goals"][0]["cost"] = 1.0
     refuted = serendipity.verify(task, Result.from_dict(doctored)).refuted
-    assert refuted is not None
     assert refuted.reason == "goal 'p': the entry is not the answer"
 
 
 def test_nobody_reaches_anything() -> None:
     task = workshop("nothing -> z")
     answer = serendipity.plan(task, goals=[{"goal": ["z"]}, {"goal": ["nothing"]}])
+    assert (answer.status, answer.reason) == ("infeasible", "no-human-plan")
     assert _verdicts(serendipity.verify(task, answer))["infeasible"][0] == "proved"
     possible = deepcopy(answer.to_dict())
     for name in ("recognition", "goals"):
@@ -308,17 +304,20 @@ def test_another_human_is_bad_input() -> None:
         serendipity.verify(task, Result.from_dict(answer))
 
 
-def test_command_line(run: Callable[[str], Run]) -> None:  # noqa: F811
+def test_command_line(run: Runs) -> None:
     Path("goals.txt").write_text("9: conducted_triage commx room1\n1: conducted_triage commx hall1\n")
     call = "plan --example room2 --discount 0.9 --goals goals.txt"
-    assert "checker: proves replay" in run(f"{call} --verify").out
-    assert run(f"{call} --verify -o answer.json").code == 0
-    assert json.loads(Path("answer.json").read_text())["certificate"]["verdict"] == "proved"
+    text = run(f"{call} --verify").out
+    assert "checker: proves replay" in text
+    assert "expected cost 11.3, 1.6 less than 12.9 (proved)" in text
+    saved = run(f"{call} --verify -o answer.json")
+    assert (saved.code, saved.out) == (0, "")
+    answer = json.loads(Path("answer.json").read_text())
+    assert answer["certificate"]["verdict"] == "proved"
+    assert Result.from_dict(answer).cost == 11.3
     done = run("verify --example room2 answer.json --format json")
     assert (done.code, done.err) == (0, "")
-    certificate = json.loads(done.out)
-    assert certificate["verdict"] == "proved"
-    answer = json.loads(Path("answer.json").read_text())
+    assert json.loads(done.out)["verdict"] == "proved"
     answer["saving"] += 1
     Path("answer.json").write_text(json.dumps(answer))
     assert run("verify --example room2 answer.json").code == 1

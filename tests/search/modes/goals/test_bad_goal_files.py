@@ -1,11 +1,10 @@
 """Files of goals and observations that are wrong: one line, with file and line."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Run, assert_one_line, run  # noqa: F401 - a fixture
+from tests.cli.conftest import Runs, assert_one_line
 
 TRIAGE = "conducted_triage commx room1"
 
@@ -38,7 +37,7 @@ TRIAGE = "conducted_triage commx room1"
         ("\x00", ["goals.txt", "not text"]),
     ],
 )
-def test_goals(text: str, words: list[str], run: Callable[[str], Run]) -> None:  # noqa: F811
+def test_goals(text: str, words: list[str], run: Runs) -> None:
     Path("goals.txt").write_text(text)
     assert_one_line(run("recognise --example room2 --goals goals.txt"), *words)
     assert_one_line(run("plan --example room2 --goals goals.txt"), *words)
@@ -55,7 +54,7 @@ def test_goals(text: str, words: list[str], run: Callable[[str], Run]) -> None: 
         (f"[{'1' * 5000}]", ["seen.txt", "4300 digits"]),
     ],
 )
-def test_observations(text: str, words: list[str], run: Callable[[str], Run]) -> None:  # noqa: F811
+def test_observations(text: str, words: list[str], run: Runs) -> None:
     Path("goals.txt").write_text(f"1: {TRIAGE}")
     Path("seen.txt").write_text(text)
     assert_one_line(run("recognise --example room2 --goals goals.txt --observed seen.txt"), *words)
@@ -77,7 +76,7 @@ def test_observations(text: str, words: list[str], run: Callable[[str], Run]) ->
         ("--goals two.txt --horizon 3", ["horizon", "at least"]),
     ],
 )
-def test_options(options: str, words: list[str], run: Callable[[str], Run]) -> None:  # noqa: F811
+def test_options(options: str, words: list[str], run: Runs) -> None:
     Path("goals.txt").write_text(f"1: {TRIAGE}")
     Path("two.txt").write_text(f"1: {TRIAGE}\n1: conducted_triage commx room7")
     assert_one_line(run(f"plan --example room2 {options}"), *words)
@@ -102,7 +101,7 @@ PROBLEM = """
 
 
 @pytest.mark.parametrize("command", ["recognise", "plan"])
-def test_what_no_goal_explains_is_said(command: str, run: Callable[[str], Run]) -> None:  # noqa: F811
+def test_what_no_goal_explains_is_said(command: str, run: Runs) -> None:
     Path("domain.pddl").write_text(DOMAIN)
     Path("problem.pddl").write_text(PROBLEM)
     Path("goals.txt").write_text("3: at h c\n1: at h b, !waved r")

@@ -14,10 +14,10 @@ from search.modes.goals import Candidate, solve_expected
 from search.modes.goals.planner import _SequenceSearch
 from serendipity.model import Condition, GroundAction, Options, PlanStep, Result, Task
 from serendipity.model.answers.answer import Answer, ServedGoal
-from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import optimal_human_plan
 from serendipity.testing.oracle.goals import best_expected, robots_sets
 from serendipity.testing.strategies import Call, calls
+from tests.model.test_parts_of_results import rivals as rivals_at_work
 from tests.search.modes.goals.strategies import literals, rivals
 from verify.base.individual import IndividualOptimum
 from verify.goals.timelines import GoalTimeline, rule_fault
@@ -101,29 +101,14 @@ def _assert_needed(
         Fraction(1),
         Case(task, _as_result(task, options, candidate, alone, answer), IndividualOptimum(task)),
     )
-    assert served.window is not None
     length = options.window_weight * (len(served.window) - 1)
     assert rule_fault("replay", [line]) or cost >= served.cost + length
 
 
 def test_a_goal_served_at_no_gain() -> None:
     """Lifting saves 8 if the human wants p; for z they can't ``keep`` beside it but have to ``mend``."""
-    task = build(
-        goal="p",
-        actions={
-            "do1 h": "-> p @ 9",
-            "do2 h": "q -> p @ 1",
-            "lift r": "-> q @ 0",
-            "keep h": "!q -> z @ 5",
-            "mend h": "q -> z @ 5",
-        },
-    )
-    answer = serendipity.plan(
-        task,
-        goals=[{"name": "p", "goal": ["p"]}, {"name": "z", "goal": ["z"]}],
-        horizon=3,
-        interference="strict",
-    )
+    goals = [{"name": "p", "goal": ["p"]}, {"name": "z", "goal": ["z"]}]
+    answer = serendipity.plan(rivals_at_work(), goals=goals, horizon=3, interference="strict")
     p, z = answer.goals or ()
     assert (answer.opportunity, p.cost, z.cost) == (True, 1.0, 5.0)
     assert z.window is not None

@@ -11,8 +11,13 @@ from search.kernel.library import library
 from serendipity import UsageError
 from serendipity.testing.builders import task
 from serendipity.testing.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8
+from tests.search.exact_answers import proved
 
 MODELS = ["observant", "local"]
+
+
+def _everything(agent: int, fact: int, state: Set[int]) -> bool:
+    return True
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -38,7 +43,6 @@ def test_given_plan_that_he_would_drop(model: str) -> None:
     result = serendipity.plan(built, human_model=model, human_plan=["do1 h", "do2 h"])
     assert result.saving_alone == 2.0
     assert not result.opportunity
-    assert result.plan is not None
     assert [step.action for step in result.plan] == ["do1 h", "do2 h"]
     assert serendipity.verify(built, result).verdict != "refuted"
 
@@ -96,28 +100,22 @@ def test_answers_get_better_and_bounds_rise() -> None:
     assert bounds[-1] == costs[-1] == 8.4
 
 
-def test_other_modes_refuse_a_human_model() -> None:
-    with pytest.raises(UsageError, match="human_model: 'local' is for serendipity mode only"):
-        serendipity.plan(case_1(), mode="composite", human_model="local")
-
-
-def test_horizon_shorter_than_his_plan() -> None:
-    with pytest.raises(UsageError, match="horizon: expected at least 10"):
-        serendipity.plan(case_1(), human_model="observant", horizon=9)
-
-
-def _everything(agent: int, fact: int, state: Set[int]) -> bool:
-    return True
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"mode": "composite", "human_model": "local"}, "human_model: 'local' is for serendipity mode only"),
+        ({"human_model": "observant", "horizon": 9}, "horizon: expected at least 10"),
+        ({"human_model": "observant", "visible": _everything}, "visible: is for human_model 'local' only"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(UsageError, match=message):
+        serendipity.plan(case_1(), **options)
 
 
 def test_a_local_human_who_sees_everything_is_observant() -> None:
     result = serendipity.plan(case_4(), discount=0.9, human_model="local", visible=_everything)
     assert (result.cost, result.realised) == (8.0, {"observant": True, "local": True})
-
-
-def test_visible_is_for_local_humans() -> None:
-    with pytest.raises(UsageError, match="visible: is for human_model 'local' only"):
-        serendipity.plan(case_4(), human_model="observant", visible=_everything)
 
 
 def test_answers_at_the_time_limit_have_verdicts_too() -> None:
@@ -135,9 +133,8 @@ def test_what_keeps_him_busy_for_nothing_is_a_help(model: str, chat: str) -> Non
         goal="done",
         actions={"do h": "-> done @ 5", "chat h r": f"{chat} @ 0", "do q": "-> done @ 2"},
     )
-    result = serendipity.plan(built, human_model=model)
+    result = proved(built, human_model=model)
     assert (result.cost, result.opportunity) == (2.0, True)
-    assert serendipity.verify(built, result).verdict == "proved"
 
 
 @pytest.mark.skipif(library() is None, reason="there is no kernel here")

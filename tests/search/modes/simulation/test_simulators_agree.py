@@ -7,7 +7,7 @@ from search.modes.simulation import simulate
 from tests.search.modes.simulation.strategies import Played, played
 from verify.certificate.simulator import play
 
-EXAMPLES = 10_000 if settings().max_examples >= 1000 else 300
+EXAMPLES = 10_000 if settings().max_examples >= 1000 else 3 * settings().max_examples
 """More than other tests take: the stories differ in many ways, and each is quick to tell."""
 
 

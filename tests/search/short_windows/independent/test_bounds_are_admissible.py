@@ -12,11 +12,9 @@ from hypothesis import strategies as st
 
 import serendipity
 from search.call.context import SearchContext
-from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent
 from search.short_windows.independent import timeline
 from search.short_windows.independent.short_windows import ShortWindows, short_windows
-from search.short_windows.question import ShortWindowQuestion
 from search.spaces.windowed import Windowed
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
@@ -25,20 +23,16 @@ from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies import Call, calls, family_tasks
 from tests.search.exact_answers import exact_and_planned
-
-ONE_EPOCH = Options(mode="serendipity", max_window=1)
+from tests.search.small_tasks import ONE_EPOCH, beside_the_plan, of_a_family
 
 
 def _asked(task: Task, options: Options) -> tuple[SearchContext, ShortWindows, Incumbent] | None:
     """Short windows of a task, with ``pi_H`` as the incumbent; None where there are none."""
-    context = SearchContext(PreparedTask(task), options, Deadline())
-    optimal = context.canonical_plan()
-    if optimal is None or not optimal.actions or task.robot_goal:
+    found = None if task.robot_goal else beside_the_plan(task, options)
+    if found is None:
         return None
-    keys, plan = context.keys, optimal.actions
-    idle = sum(option.weight for _, option in context.followed(plan)) + keys.epoch_weight
-    incumbent = Incumbent(idle + keys.of_start(len(plan), len(plan)))
-    windows = short_windows(ShortWindowQuestion(context, plan, len(plan), incumbent))
+    context, incumbent, question = found
+    windows = short_windows(question)
     return None if windows is None else (context, windows, incumbent)
 
 
@@ -69,9 +63,7 @@ def test_no_bound_is_above_the_optimum() -> None:
     exact = asked = 0
     for seed in range(150):
         dice = Random(seed)
-        family = dice.choice(sorted(FAMILIES))
-        size, agents = dice.choice(SMALL[family])
-        task = FAMILIES[family](dice, size, AGENTS[:agents])
+        task = of_a_family(dice)
         options = ONE_EPOCH.but(
             discount=dice.choice(["0", "1/2", "9/10", "1"]), interference=dice.choice(["paper", "strict"])
         )
@@ -141,7 +133,6 @@ def _errands(robots: int, places: int) -> Task:
 def test_robots_who_do_not_need_one_another(robots: int, places: int, cost: str) -> None:
     """Then the bound is what the best answer costs; brute force says the same of the first three."""
     found = bound_and_cost(_errands(robots, places), ONE_EPOCH.but(discount="9/10"))
-    assert found is not None
     assert found[0] == found[1] == Fraction(cost)
 
 
@@ -181,7 +172,6 @@ def test_what_another_robot_has_to_do_first() -> None:
     """It may be asked for as soon as it can have been done, for nothing."""
     task = build(
         agents="h r s",
-        init="",
         goal="end",
         actions={
             "one h": "-> a @ 3",
@@ -194,7 +184,6 @@ def test_what_another_robot_has_to_do_first() -> None:
     options = ONE_EPOCH.but(discount="9/10")
     assert best(task, options).cost == Fraction("3.2")
     found = bound_and_cost(task, options)
-    assert found is not None
     assert found[0] == Fraction("3.1")
 
 

@@ -2,18 +2,11 @@
 
 import pytest
 
-from search.call.context import SearchContext
-from search.call.prepared_task import PreparedTask
 from search.packed.operators import asked_by
-from search.packed.packed_task import PackedTask
 from search.short_windows.independent.conditions import are_apart, lost_values
-from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
-
-
-def _packed(task: Task) -> PackedTask:
-    return SearchContext(PreparedTask(task), Options(), Deadline()).packed
+from tests.search.small_tasks import packed_of
 
 
 def test_who_drives_is_not_told_by_one_variable() -> None:
@@ -25,7 +18,7 @@ def test_who_drives_is_not_told_by_one_variable() -> None:
         for here, there in (("a", "b"), ("b", "a")):
             actions[f"go_{agent}_{there} {agent}"] = f"drives_{agent} van_{here} -> van_{there} !van_{here}"
         actions[f"load_{agent} {agent}"] = f"drives_{agent} van_b -> loaded"
-    packed = _packed(build(agents="h r", init="empty van_a", goal="loaded van_a", actions=actions))
+    packed = packed_of(build(init="empty van_a", goal="loaded van_a", actions=actions))
     assert are_apart(packed, Deadline(), strict=False)
 
 
@@ -33,8 +26,8 @@ def test_two_values_of_a_field_that_must_not_be() -> None:
     """The field is asked for once: a sum of its masks is another field."""
     places = "abcd"
     actions = {f"go_{a}{b} r": f"at_{a} -> at_{b} !at_{a}" for a in places for b in places if a != b}
-    task = build(agents="h r", init="at_a", goal="done", actions=actions | {"watch h": "!at_a !at_b -> done"})
-    packed = _packed(task)
+    task = build(init="at_a", goal="done", actions=actions | {"watch h": "!at_a !at_b -> done"})
+    packed = packed_of(task)
     (watch,) = packed.own
     assert len(watch.forbidden) == 2
     assert asked_by(watch) == packed.outside
@@ -50,14 +43,13 @@ def test_a_robot_that_takes_away_what_is_in_use(strict: bool, apart: bool) -> No
         "shut r": "door -> !door warm @ 1",
         "heat h": "end -> warm @ 3",
     }
-    packed = _packed(build(agents="h r", init="door", goal="end warm", actions=actions))
+    packed = packed_of(build(init="door", goal="end warm", actions=actions))
     assert are_apart(packed, Deadline(), strict=strict) == apart
 
 
 def test_values_from_which_there_is_no_way_back() -> None:
     """The human does not unload what a robot has loaded."""
     task = build(
-        agents="h r",
         init="at_a",
         goal="at_c",
         actions={
@@ -67,6 +59,6 @@ def test_values_from_which_there_is_no_way_back() -> None:
             "unload r": "in_r -> at_c !in_r",
         },
     )
-    packed = _packed(task)
+    packed = packed_of(task)
     (lost,) = lost_values(packed).values()
     assert lost == {packed.fact_bits[task.facts.index("in_r")][1]}  # type: ignore[index]

@@ -8,21 +8,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search.call.prepared_task import PreparedTask
 from search.packed.cost_vector import FAR
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
 from search.short_windows.independent.landmarks import Landmarks, left_to_pay
 from search.short_windows.independent.provision import Value
 from search.short_windows.independent.rows import codes, column
-from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
-from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
-
-
-def _packed(task: Task) -> PackedTask:
-    return PreparedTask(task).plain(Deadline()).packed
+from tests.search.small_tasks import of_a_family, packed_of
 
 
 def _cost(packed: PackedTask, state: int) -> int:
@@ -58,9 +52,7 @@ def _bound(packed: PackedTask, of: int, at: int, given: set[Value]) -> int:
 def test_no_bound_is_above_the_cost(seed: int) -> None:
     """Of any state, by landmarks of any other one."""
     dice = Random(seed)
-    family = dice.choice(sorted(FAMILIES))
-    size, agents = dice.choice(SMALL[family])
-    packed = _packed(FAMILIES[family](dice, size, AGENTS[:agents]))
+    packed = packed_of(of_a_family(dice))
     of, at = _random_state(packed, dice), _random_state(packed, dice)
     assert _bound(packed, of, at, _every_value(packed)) <= _cost(packed, at)
     assert _bound(packed, at, at, set()) <= _cost(packed, at)
@@ -70,7 +62,7 @@ def _errands(count: int) -> PackedTask:
     actions = {f"do_{i} h": f"-> done_{i} @ 1" for i in range(count)}
     helps = {f"help_{i} r": f"-> done_{i} @ 1" for i in range(count)}
     goal = " ".join(f"done_{i}" for i in range(count))
-    return _packed(build(agents="h r", init="", goal=goal, actions=actions | helps))
+    return packed_of(build(goal=goal, actions=actions | helps))
 
 
 @pytest.mark.parametrize("count", [1, 7, 8, 9, 70])
@@ -86,7 +78,7 @@ def test_every_errand_is_a_landmark(count: int) -> None:
 def test_what_only_a_gift_can_bring() -> None:
     """There is no way without it, and with it there may be one."""
     actions = {"first h": "gift -> half @ 1", "second h": "half -> end @ 1", "bring r": "-> gift @ 1"}
-    packed = _packed(build(agents="h r", init="", goal="end", actions=actions))
+    packed = packed_of(build(goal="end", actions=actions))
     given = packed.init
     for op in packed.others:
         given = given & op.keep | op.put

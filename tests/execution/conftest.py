@@ -1,3 +1,0 @@
-from tests.execution.living import room2_fixture
-
-__all__ = ["room2_fixture"]
