@@ -7,6 +7,7 @@ whose integers have 64 bits, counts in.
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import repeat
 from math import gcd
 from typing import Final
 
@@ -61,7 +62,11 @@ class ClassicalProblem:
 
 
 def classical_problem(
-    fields: Iterable[tuple[int, int]], operators: Sequence[Operator], costs: Sequence[int], goal: PackedGoal
+    fields: Iterable[tuple[int, int]],
+    operators: Sequence[Operator],
+    costs: Sequence[int],
+    goal: PackedGoal,
+    sizes: Iterable[int] = repeat(1),
 ) -> ClassicalProblem | None:
     """A problem, or None where its costs are too far apart for the kernel's integers, or no state is a goal.
 
@@ -70,9 +75,10 @@ def classical_problem(
         operators: what may be done; their fields are among them.
         costs: of each operator, as an integer, at least 0.
         goal: what has to hold at the end.
+        sizes: of each operator the number of its actions.
     """
     unit = gcd(*costs) or 1
-    weights = tuple((cost // unit << ACTIONS_BITS) + 1 for cost in costs)
+    weights = tuple((cost // unit << ACTIONS_BITS) + size for cost, size in zip(costs, sizes, strict=False))
     if goal.need < 0 or sum(weights) >= MOST_WEIGHT:
         return None
     return ClassicalProblem(tuple(fields), tuple(operators), weights, goal, unit)

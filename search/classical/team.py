@@ -119,7 +119,7 @@ def team_planner(
     actions += [tuple(op.action for op in circle) for circle in together]
     operators += [reduce(_both, circle) for circle in together]
     fields = [(field, len(packed.values(field))) for field in packed.fields]
-    problem = classical_problem(fields, operators, costs, goal)
+    problem = classical_problem(fields, operators, costs, goal, map(len, actions))
     return None if problem is None else Team(ClassicalPlanner(kernel, problem, deadline), actions)
 
 
