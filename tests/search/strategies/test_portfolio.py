@@ -106,6 +106,9 @@ def test_each_says_what_it_does() -> None:
     assert len({turn.name for turn in TURNS}) == len(TURNS)
     assert {turn.strategy for turn in TURNS} == {*STRATEGIES}
     assert all(turn.does and 0 < turn.share <= 1 for turn in TURNS)
+    assert not [
+        turn.name for turn in TURNS if turn.does.startswith("The same")
+    ]  # as another row of the table?
 
 
 def test_none_is_left_without_saying_so() -> None:
