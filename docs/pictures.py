@@ -23,7 +23,7 @@ EPOCHS = (1, 6, 11)
 WALK = ("hall8", "hall7", "hall6", "hall5", "hall4")
 """Until the robot is met, in III-C."""
 SIZE = {"width": 1300, "height": 900}
-COLOURS = 128
+COLOURS = 256
 
 
 def main() -> int:
@@ -61,7 +61,9 @@ def photograph(page: Any, name: str, *, whole: bool = True) -> None:
     """A page, or what of it is in sight, as an image of the documentation."""
     shot = Image.open(io.BytesIO(page.screenshot(full_page=whole))).convert("RGB")
     image = IMAGES / name
-    shot.quantize(COLOURS, dither=Image.Dither.NONE).save(image, optimize=True)
+    # The default method has no colour for what is small: a green flag came out blue.
+    few = shot.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
+    few.save(image, optimize=True)
     sys.stdout.write(f"{image.relative_to(Path.cwd())}\n")
 
 

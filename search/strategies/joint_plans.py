@@ -65,7 +65,7 @@ def joint_optimum(call: Call, part: Allowance) -> Iterator[None]:
 
 
 def open_joint_optimum(call: Call, part: Allowance) -> Iterator[None]:
-    """The same, from where a limit came."""
+    """The joint optimum without a horizon, from where a limit came."""
     plans = _team(call).go_on(call.context.packed.init, part.deadline, partial(_raise, call))
     yield from _take_all(call, plans)
 

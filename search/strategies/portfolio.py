@@ -199,7 +199,9 @@ def chosen(names: Sequence[str], turns: Sequence[Turn] = TURNS) -> list[Turn]:
     for name in names:
         if name.removeprefix("-") not in known:
             few = ", ".join(dict.fromkeys(turn.strategy for turn in turns))
-            raise UsageError(f"strategies: there is no '{name}'; expected some of {few}, or -NAME")
+            raise UsageError(
+                f"strategies: there is no '{name}'; expected some of {few}, a turn of one, or -NAME"
+            )
     wanted = {name for name in names if not name.startswith("-")} or known
     unwanted = {name.removeprefix("-") for name in names if name.startswith("-")}
     return [t for t in turns if {t.strategy, t.name} & wanted and not {t.strategy, t.name} & unwanted]

@@ -16,13 +16,13 @@ def all_plans(call: Call, part: Allowance) -> Iterator[None]:
 
 
 def few_nodes(call: Call, part: Allowance) -> Iterator[None]:
-    """The same for a number of nodes: many calls need no more."""
+    """All plans, for a number of nodes: many calls need no more."""
     left = iter(range(part.limit))
     return _search(call, part, _ties(call), lambda: next(left, None) is None)
 
 
 def while_bounds_are_exact(call: Call, part: Allowance) -> Iterator[None]:
-    """The same for as long as no plan costs more than seemed possible at the start."""
+    """All plans, for as long as none costs more than seemed possible at the start."""
     return _search(call, part, None, _bound_has_risen(call))
 
 

@@ -230,13 +230,11 @@ def _results(call: Request, answers: Iterator[Answer]) -> Iterator[Result]:
 
 
 def _with_strategies_recorded(result: Result) -> Result:
-    """The result, once the log has a line for each strategy that was tried."""
+    """The result, once the log has a line for each turn that was taken."""
     for row in result.statistics.get("strategies", ()):
         bound = "" if row["bound"] is None else f", bound {row['bound']:g}"
         settled = ", settled" if row["settled"] else ""
-        record(
-            "INFO", f"strategy {row['name']}: better {row['better']} times{bound}{settled}", row["seconds"]
-        )
+        record("INFO", f"turn {row['name']}: better {row['better']} times{bound}{settled}", row["seconds"])
     return result
 
 

@@ -120,8 +120,9 @@ class Options:
         for name, unit in _LIMITS.items():
             if getattr(self, name) is not None:
                 self._set(name, limit_of(name, getattr(self, name), unit))
-        if self.strategies is not None and not isinstance(self.strategies, str):
-            raise UsageError(f"strategies: expected names apart by commas, got {self.strategies!r:.50}")
+        names = self.strategies
+        if names is not None and not (isinstance(names, str) and self.strategy_names):
+            raise UsageError(f"strategies: expected names apart by commas, got {names!r:.50}")
         if self.keep_prefix and self.mode != "communication":
             raise UsageError("keep_prefix: is for communication mode only")
         if self.human_model != "omniscient" and self.mode != "serendipity":

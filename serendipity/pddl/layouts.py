@@ -48,8 +48,9 @@ def read_folder(
     except OSError as error:  # a name that is too long
         raise InputError(f"can't be read: {error.strerror}", root) from None
     if not is_folder:
-        what = "there is no such folder" if not root.exists() else "this is a file"
-        raise InputError(f"{what}: expected a folder with a folder for each agent", root)
+        if not root.exists():
+            raise InputError("there is no such folder: expected one with a folder for each agent", root)
+        raise InputError("this is a file: expected a folder with one for each agent, or two files", root)
     pairs: dict[str, Pair] = {}
     for folder in sorted(root.iterdir()):
         domain, problem = folder / "domain.pddl", folder / "problem.pddl"

@@ -21,8 +21,8 @@ def test_calls_say_how_they_ended_and_in_how_many_seconds(caplog: pytest.LogCapt
     levels = {record.levelname for record in caplog.records if record.name == "serendipity"}
     said = [record.getMessage().rpartition(" in ")[0] for record in caplog.records if record.levelno > 10]
     assert levels == {"DEBUG", "INFO"}
-    assert "strategy all: better 1 times, bound 1012.6, settled" in said
-    assert [words for words in said if not words.startswith("strategy ")] == [
+    assert "turn all: better 1 times, bound 1012.6, settled" in said
+    assert [words for words in said if not words.startswith("turn ")] == [
         "plan: serendipity: optimal, cost 12.6",
         "plan: composite: optimal, cost 13",
         "verify: proved",

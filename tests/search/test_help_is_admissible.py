@@ -27,6 +27,10 @@ def relays() -> list[Task]:
     ]
 
 
+ASKED_OTHERWISE = {"steps", "untouched", "touches"}
+"""Attributes of ``Bounds`` that are not a bound on the key increment from any packed state."""
+
+
 class Graph:
     """States that one action after another leads to, and the exact keys to and from them."""
 
@@ -83,8 +87,11 @@ def assert_admissible(task: Task, options: Options, over: int | None) -> int:
         bound = bounds.untouched(0, state, spent)
         assert bound <= rest or spent + rest >= limit
         told += bounds.private(state) < bound < INFINITE_KEY
+    always = {name: bound for name, bound in bounds._asdict().items() if name not in ASKED_OTHERWISE}
+    assert {"private", "team"} <= always.keys()
     for state, rest in graph.rest.items():  # what holds whether anybody has helped or not
-        assert bounds.private(state) <= rest
+        for name, bound in always.items():
+            assert bound(state) <= rest, f"Bounds.{name} exceeds an exact distance"
     return told
 
 

@@ -114,11 +114,13 @@ class TaskName(Group):
             return self._read(deadline)
 
     def _read(self, deadline: Deadline | None) -> Task:
-        ways = [bool(self.files), bool(self.agent), self.example is not None]
-        if sum(ways) != 1:
+        named = [f"'{file}'" for file in (self.files or ())[:1]]
+        ways = named + ["--agent"] * bool(self.agent) + ["--example"] * (self.example is not None)
+        if len(ways) != 1:
+            got = f"more than one: {' and '.join(ways)}" if ways else "none"
             raise UsageError(
                 "task: expected one of DOMAIN PROBLEM --human H --robot R, --agent A=DOMAIN,PROBLEM ..., "
-                f"a folder, or --example NAME; got {'none' if not any(ways) else 'more than one'}"
+                f"a folder, or --example NAME; got {got}"
             )
         if self.team is not None and not self.agent:
             raise UsageError("--team: goes with --agent only")

@@ -90,7 +90,8 @@ def json_value(text: str, path: object) -> Any:
     try:
         return json.loads(text, parse_constant=refuse)
     except json.JSONDecodeError as error:
-        raise InputError(f"expected JSON: {error.msg} at column {error.colno}", path, error.lineno) from None
+        what = f"{error.msg} at column {error.colno}" if text.strip() else "the file is empty"
+        raise InputError(f"expected JSON: {what}", path, error.lineno) from None
     except RecursionError:
         raise InputError("expected JSON: it is nested too deeply", path) from None
     except ValueError:  # Python converts so many digits only

@@ -223,7 +223,7 @@ def _labels(scene: Scene, layout: MapLayout) -> Iterator[Shape]:
         yield Rect(x - width / 2, y - size / 2, width, size, floor, round=4)
         yield Group((Text(x, y, label, size, FAINT_INK),), title="" if label == place else place)
         if goal:
-            yield _flag(x - width / 2 - 18, y)
+            yield flag(x - width / 2 - 18, y)
 
 
 def _outline(box: Box, *, in_plan: bool) -> Rect:
@@ -248,7 +248,8 @@ def _door(a: Box, b: Box) -> Polyline:
     return Polyline(((narrow.x - _DOOR / 2, y), (narrow.x + _DOOR / 2, y)), floor)
 
 
-def _flag(x: float, y: float) -> Group:
+def flag(x: float, y: float) -> Group:
+    """The mark of a place that the goal is about, its pole at ``x``."""
     pole = Polyline(((x, y - 10), (x, y + 10)), Style(stroke=INK, width=2))
     cloth = Polyline(((x, y - 10), (x + 14, y - 5), (x, y)), Style(GOAL, INK, 1), closed=True)
     return Group((pole, cloth), title="the human's goal")

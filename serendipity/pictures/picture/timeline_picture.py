@@ -28,7 +28,7 @@ from serendipity.pictures.picture.drawing import (
     tint,
     wrapped,
 )
-from serendipity.pictures.picture.map_picture import map_picture
+from serendipity.pictures.picture.map_picture import flag, map_picture
 from serendipity.pictures.scene.scene import Act, Change, Scene, headline, subtitle
 
 COLUMN: Final = 98.0
@@ -276,6 +276,8 @@ def _legend(scene: Scene) -> Iterator[Shape]:
         "together": Rect(1, 3, 20, 18, Style(PAPER, INK, 2), round=5),
     }
     entries += [(samples[kind], text) for kind, text in scene.legend.items()]
+    if scene.goals:
+        entries.append((flag(8, 12), "goal"))
     x = 0.0
     for sample, text in entries:
         yield Group((sample, Text(32, 12, text, 16, INK, "start")), x, 0)
