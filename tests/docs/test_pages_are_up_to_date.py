@@ -8,7 +8,7 @@ import pytest
 from tests.docs.blocks import OTHERS, PAGES, ROOT, prose
 
 WIDTH = 120
-FILE = re.compile(r"`([\w.-]+/[\w/.-]+\.(?:py|c|h|md))`")
+FILE = re.compile(r"`([\w.-]+(?:/[\w.-]+)*\.(?:py|c|h|md))`")
 PACKAGES = ("serendipity", "search", "verify")
 READ = [*PAGES, *OTHERS]
 
@@ -21,7 +21,8 @@ def name(page: Path) -> str:
 def files() -> list[str]:
     """Every file that a page may name."""
     folders = (*PACKAGES, "tests", "benchmarks", "docs")
-    return [f"/{path.relative_to(ROOT)}" for folder in folders for path in (ROOT / folder).rglob("*.*")]
+    paths = [*ROOT.glob("*.*"), *(path for folder in folders for path in (ROOT / folder).rglob("*.*"))]
+    return [f"/{path.relative_to(ROOT)}" for path in paths]
 
 
 @pytest.mark.parametrize("page", READ, ids=name)
