@@ -20,7 +20,6 @@ PARTS: Final = (
     "relevance-pruning",  # of programs: moves of the agents that are on no plan within the limits
     "few-facts",  # of relevance pruning: automata over few facts first
     "arc-pruning",  # of programs: the same by epoch
-    "joint-paths",  # of programs: all joint paths through what pruning leaves
     "solver",  # of programs
     "cost-fixing",  # without epochs: operators that landmarks show to be too dear
 )
@@ -42,7 +41,6 @@ class VerifierLimits:
         automaton_moves: of an automaton that is large enough: once a fact does not fit, no other is tried.
         many_actions: actions from which on small automata go before the large ones.
         many_moves: moves from which on it pays to bound them whatever the epoch.
-        joint_paths: joint states of pruned networks that are kept at most.
         alone_states: of the human alone, in a program.
         own_states: of the human alone that are looked at.
         many_own_states: the same, before they are packed.
@@ -65,7 +63,6 @@ class VerifierLimits:
         several_plans: the human's optimal plans for which one search beside all of them pays.
         solved_here: coefficients of a program up to which HiGHS overruns its limit by some 20 ms at most.
         solver_seconds: for which HiGHS may work in this process, and about what it takes to start one.
-        joint_share: of the time left, for joint paths before a program is written.
         quick_seconds: for bounds over packed states, as long as few states may be enough.
         quick_share: of the time left, for the same.
         careful_seconds: for bounds that are to spare many states.
@@ -83,7 +80,6 @@ class VerifierLimits:
     automaton_moves: int = 100_000
     many_actions: int = 5_000
     many_moves: int = 4_000
-    joint_paths: int = 100_000
     alone_states: int = 50_000
     own_states: int = 200_000
     many_own_states: int = 1_000
@@ -105,7 +101,6 @@ class VerifierLimits:
     several_plans: int = 3
     solved_here: int = 15_000
     solver_seconds: float = 0.25
-    joint_share: float = 0.5
     quick_seconds: float = 0.5
     quick_share: float = 0.1
     careful_seconds: float = 5.0

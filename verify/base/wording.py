@@ -174,11 +174,6 @@ def solved(solver: str, calls: int, columns: int, rows: int) -> str:
     return f"; {solver} solved {programs} of {columns:,} columns and {rows:,} rows: "
 
 
-def walked(states: int) -> str:
-    """What a search through pruned networks looked at."""
-    return f"; {states:,} joint states of what reachability and shortest paths leave searched"
-
-
 def apart(states: int) -> str:
     """Robots were looked at one by one."""
     return f"; robots looked at one by one, {states:,} states that they leave behind or lead to"

@@ -14,7 +14,7 @@ from verify.base.subproblem import FREE, PricedPlan, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.exhaustive.beside_plans import answers_all
 from verify.exhaustive.decoupled.short_windows import is_short, no_short_window
-from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers, cheapest_by_epochs
+from verify.exhaustive.epoch_by_epoch import OtherMethodError, cheapest_by_epochs
 from verify.exhaustive.uniform_cost import cheapest
 from verify.limits import PARTS, limits, uses
 from verify.programs.effort import Attempt, Effort, Minimum
@@ -54,9 +54,8 @@ def _is_without_windows(question: Subproblem) -> bool:
 
 
 def _has_few_actions(question: Subproblem) -> bool:
-    """Whether all joint actions can be compared with each other, under rules that the search knows."""
-    few = len(question.task.actions) <= limits().compared_actions
-    return few and _is_packed(question) and answers(question)
+    """Whether all joint actions can be compared with each other."""
+    return len(question.task.actions) <= limits().compared_actions and _is_packed(question)
 
 
 # -- what a method does
@@ -252,7 +251,7 @@ def _begins_long(question: Subproblem) -> bool:
 def _note(effort: Effort, name: str, found: Minimum, seconds: float) -> None:
     """Keep what a method has made of a question, and tell of it where anybody logs (``verify -v``)."""
     decided = found.status != "undecided"
-    effort.attempts.append(Attempt(name, decided, found.states, found.paths, seconds))
+    effort.attempts.append(Attempt(name, decided, found.states, seconds))
     if "logging" in sys.modules:  # it takes longer to load than many a certificate
         import logging
 

@@ -71,10 +71,8 @@ class Examiner:
         """What decided the questions of a claim."""
         decided = [attempt for attempt in made if attempt.decided]
         states = max((attempt.states for attempt in decided if attempt.name != "decoupled"), default=0)
-        paths = max((attempt.paths for attempt in decided), default=0)
         words = "".join(wording.apart(attempt.states) for attempt in decided if attempt.name == "decoupled")
         words += wording.searched(states) if states else ""
-        words += wording.walked(paths) if paths else ""
         return words or (self._solved(called) if called else wording.CLOSED)
 
     def _solved(self, calls: list[SolverCall]) -> str:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from serendipity.model import Deadline
 from verify.exhaustive.team import NOBODY, Steps
 from verify.packed.layout import Words
 from verify.packed.operators import Ints
+from verify.packed.pattern import FAR
 from verify.packed.state_table import StateTable
 
 
@@ -46,9 +48,13 @@ def first(states: Words, agents: int) -> EpochLayer:
     return EpochLayer(states, zero, zero - 1, np.full((len(states), agents), NOBODY), zero - 1)
 
 
+def unknown(count: int, like: Ints) -> Ints:
+    """More than anything costs, so many times: Python's integers where such are to follow, else words."""
+    return np.full(count, inf, object) if like.dtype == object else np.full(count, FAR)
+
+
 def advance(
     steps: Iterable[tuple[int, EpochLayer, Iterable[Steps]]],
-    extra: int,
     hopeful: Callable[[Words, Ints], Ints],
     words: int,
     agents: int,
@@ -58,25 +64,24 @@ def advance(
 
     Args:
         steps: layers to come from, with their numbers and steps.
-        extra: units that the epoch adds.
         hopeful: the rows of states, with what was paid, that are worth keeping.
         words: of a state.
         agents: how many there are.
         deadline: polled.
     """
     table = StateTable(words, deadline)
-    paid = np.zeros(0, np.int64)
+    paid: Ints = np.zeros(0, np.int64)
     where = np.zeros((0, 2), np.int64)
     sets = np.zeros((0, agents), np.int64)
     for source, layer, pieces in steps:
         for piece in pieces:
-            cost = layer.paid[piece.before] + piece.cost + extra
+            cost = layer.paid[piece.before] + piece.cost
             order = np.argsort(-cost, kind="stable")  # the cheapest last: it stays
             known = table.count
             numbers, _ = table.numbers(piece.after[order])
             grown = table.count - known
             if grown:
-                paid = np.concatenate((paid, np.full(grown, np.iinfo(np.int64).max)))
+                paid = np.concatenate((paid, unknown(grown, cost)))
                 where = np.concatenate((where, np.zeros((grown, 2), np.int64)))
                 sets = np.concatenate((sets, np.zeros((grown, agents), np.int64)))
             better = cost[order] < paid[numbers]

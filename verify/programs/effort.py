@@ -72,14 +72,12 @@ class Attempt:
         name: of the method (``verify.calls.methods``).
         decided: whether that was the answer.
         states: how many an exhaustive search looked at.
-        paths: joint states in the search of what pruning leaves of a program, where that decided.
         seconds: what it took.
     """
 
     name: str
     decided: bool
     states: int = 0
-    paths: int = 0
     seconds: float = 0.0
 
     @property
@@ -185,7 +183,6 @@ class Minimum:
         bound: proved lower bound on the objective in units, or None.
         reason: why it is undecided.
         states: how many an exhaustive search looked at.
-        paths: as :class:`Attempt` has them.
     """
 
     status: str
@@ -193,7 +190,6 @@ class Minimum:
     bound: int | None = None
     reason: str = ""
     states: int = 0
-    paths: int = 0
 
     def settled(self) -> PricedPlan | None:
         """Some plan, best or not; None: there is provably none.

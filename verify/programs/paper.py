@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import Final
 
 from serendipity.model import Step, Window
+from verify.base.control import expected_states
 from verify.base.subproblem import EXACT, WINDOW, Subproblem, in_plan
 from verify.base.undecided import during
-from verify.programs.automata.control import expected_states
 from verify.solvers.mip import BYTES_A_TERM, Model
 
 _Sum = dict[int, int]

@@ -5,12 +5,12 @@ from functools import cached_property
 from typing import Final
 
 from serendipity.model import Deadline, GroundAction, Step, Task, Window
+from verify.base.control import HumanControl, expected_states
 from verify.base.relevance import Relevant, relevant_part, whole_task
 from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
 from verify.limits import limits, uses
 from verify.programs.agents.product import Automaton, SmallAutomata, automata, private_facts
-from verify.programs.automata.control import HumanControl, expected_states
 from verify.programs.automata.network import (
     HumanNetwork,
     Network,

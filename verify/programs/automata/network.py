@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from serendipity.model import Deadline
+from verify.base.control import ALL, OWN, SUFFIX, Control, HumanControl
 from verify.base.relevance import Relevant
 from verify.base.shortest_paths import dijkstra
 from verify.base.subproblem import Subproblem
 from verify.programs.agents.product import Automaton
-from verify.programs.automata.control import ALL, OWN, SUFFIX, Control, HumanControl
 
 WAIT: Final = -1
 NOTHING: Final[frozenset[int]] = frozenset()

@@ -5,8 +5,8 @@ from collections.abc import Iterable
 from typing import Final
 
 from serendipity.model import Condition, Step, Window
+from verify.base.control import INSIDE
 from verify.base.subproblem import Subproblem
-from verify.programs.automata.control import INSIDE
 from verify.programs.automata.flows import Flows
 from verify.programs.automata.linear import Linear, Sum, plus
 from verify.programs.automata.network import WAIT
