@@ -48,12 +48,11 @@ class VerifierLimits:
         compared_actions: that are compared with each other, all with all, by the exhaustive method.
         misfits: ends of windows whose cheapest completion takes too many epochs, after which others are
             not looked at.
-        few_joint_states: states without a horizon, before they are packed.
-        joint_states: states without a horizon where they can't be packed.
         packed_facts: of a task whose states are packed.
         packed_actions: the same.
         few_states: packed states after which better bounds are worth their time.
         packed_states: of any search.
+        exact_states: the same, where costs are too large for machine words.
         states_at_once: packed states whose actions are looked for at once.
         robot_states: of one robot beside the human's timetable, after an epoch.
         left_behind: what robots may leave behind together.
@@ -86,12 +85,11 @@ class VerifierLimits:
     projected_states: int = 20_000
     compared_actions: int = 3_000
     misfits: int = 500
-    few_joint_states: int = 5_000
-    joint_states: int = 500_000
     packed_facts: int = 1_500
     packed_actions: int = 30_000
     few_states: int = 20_000
     packed_states: int = 50_000_000
+    exact_states: int = 500_000
     states_at_once: int = 8_192
     robot_states: int = 400_000
     left_behind: int = 1_000_000

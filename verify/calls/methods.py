@@ -13,9 +13,10 @@ from verify.base.small_numbers import with_small_numbers
 from verify.base.subproblem import FREE, PricedPlan, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.exhaustive.beside_plans import answers_all
+from verify.exhaustive.by_epochs import cheapest_by_epochs
 from verify.exhaustive.decoupled.short_windows import is_short, no_short_window
-from verify.exhaustive.epoch_by_epoch import OtherMethodError, cheapest_by_epochs
-from verify.exhaustive.uniform_cost import cheapest
+from verify.exhaustive.epoch_by_epoch import OtherMethodError
+from verify.exhaustive.without_epochs import cheapest
 from verify.limits import PARTS, limits, uses
 from verify.programs.effort import Attempt, Effort, Minimum
 from verify.programs.minimise import minimise

@@ -28,8 +28,7 @@ from verify.exhaustive.team import TeamEpochs
 from verify.exhaustive.team_problem import team_problem
 from verify.limits import limits
 from verify.packed.layout import Words
-from verify.packed.operators import Ints, OperatorTable
-from verify.packed.pattern import FAR
+from verify.packed.operators import FAR, Ints, OperatorTable
 from verify.packed.problem import TooLargeError
 from verify.packed.state_table import StateTable
 

@@ -13,7 +13,7 @@ those of ``verify.packed``: everybody's actions one after the other, with action
 as one.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Final, NamedTuple
 
@@ -21,21 +21,20 @@ import numpy as np
 
 from serendipity.model import LimitReachedError, Step, Window
 from serendipity.model.errors import LIMITS, limit_reason
-from verify.base.control import ALL, INSIDE, OWN, PREFIX, SUFFIX, Control, HumanControl, Leg, expected_states
+from verify.base.control import ALL, INSIDE, OWN, PREFIX, SUFFIX, Control, HumanControl, Leg
 from verify.base.execution import State, by_epoch, states_along
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.relevance import Relevant, relevant_part
+from verify.base.relevance import Relevant
 from verify.base.subproblem import EXACT, FREE, WINDOW, PricedPlan, Subproblem
-from verify.base.undecided import UndecidedError, during
-from verify.exhaustive.layers import EpochLayer, advance, first, unknown
+from verify.base.undecided import UndecidedError
+from verify.exhaustive.layers import EpochLayer, advance, first
 from verify.exhaustive.team import NOBODY, Steps, TeamEpochs
 from verify.exhaustive.team_problem import as_operator, team_problem
 from verify.limits import limits
-from verify.packed.cheapest_path import TooManyPackedStatesError
+from verify.packed.cheapest_path import SumTooLargeError, TooManyPackedStatesError
 from verify.packed.layout import Words
-from verify.packed.operators import Ints, OperatorTable
-from verify.packed.pattern import FAR
-from verify.packed.problem import PackedProblem, TooLargeError
+from verify.packed.operators import FAR, Ints, OperatorTable, PackedOperator
+from verify.packed.problem import PackedProblem
 from verify.packed.state_table import StateTable
 from verify.programs.effort import Minimum
 from verify.programs.mending import best_suffix, replay
@@ -59,42 +58,7 @@ class Stage(NamedTuple):
     extra: int = 0
 
 
-def cheapest_by_epochs(question: Subproblem, plans: OptimalPlans, *, bounded: bool) -> Minimum:
-    """The plan of least objective.
-
-    Args:
-        question: with a horizon of at least 1.
-        plans: the human's optimal plans.
-        bounded: whether lower bounds spare the search states; else only what was paid does.
-
-    Raises:
-        OtherMethodError: the question is too large for this method.
-        LimitReachedError: the deadline came before the search began.
-    """
-    with during("preparing an exhaustive search"):
-        literal = question.rule == WINDOW and question.options.preservation == "state"
-        expected = expected_states(question) if literal else ()
-        part = relevant_part(question, frozenset().union(*expected))
-        if part is None:
-            return Minimum("none")
-        if len(part.actions) > limits().compared_actions:
-            raise OtherMethodError(f"the exhaustive method takes {limits().compared_actions} actions at most")
-        control = HumanControl(question, expected)
-        try:
-            search = _Search(question, part, control, plans, bounded=bounded, words=_in_words(question))
-        except TooLargeError:
-            raise OtherMethodError("the task is too large for the exhaustive method") from None
-    return replace(search.run(), states=search.states)
-
-
-def _in_words(question: Subproblem) -> bool:
-    """Whether machine words hold all sums of costs; a unit of cost weighs more than all epochs."""
-    largest = (question.largest + question.an_epoch + 1) * (question.horizon + 1)
-    every = sum(question.prices.team) + sum(question.prices.talk)
-    return max(largest, every * (question.horizon + len(question.task.agents))) <= limits().weight
-
-
-class _Search:
+class EpochSearch:
     """One question.
 
     Attributes:
@@ -109,27 +73,22 @@ class _Search:
         plans: OptimalPlans,
         *,
         bounded: bool,
-        words: bool,
+        exact: bool,
     ) -> None:
         task, deadline, actions, prices = question.task, question.deadline, part.actions, question.prices
         self._question, self._plans, self._deadline = question, plans, deadline
         self._control, self._facts, self._actions = control, part.facts, actions
         self.states = 0
-        free = replace(prices, team=(0,) * len(task.actions), talk=(0,) * len(task.actions))
-        team = team_problem(question if words else question.but(prices=free), part, bounded=bounded)
-        self._problem, self._layout = team.problem, team.problem.layout
-        self._table = OperatorTable(self._layout, team.singles)
-        if not words:  # bounds only say what is out of reach
-            self._table.weight = np.array([prices.team[i] + prices.talk[i] for i in actions], object)
+        self._whole = team_problem(question, part, bounded=bounded, exact=exact)
+        self._problem, self._layout = self._whole.problem, self._whole.problem.layout
+        self._table = OperatorTable(self._layout, self._whole.singles, exact=exact)
         self._team = TeamEpochs(task, actions, self._table, deadline, strict=question.options.strict)
         self._own = [i for i in actions if task.actions[i].participants == (task.human,)]
-        self._alone: PackedProblem | None = None
         self._unit = question.horizon + 1  # weighs more than all actions that there is time for
-        if words and question.replans:
-            own = [as_operator((task.actions[i],), prices.team[i] * self._unit + 1) for i in self._own]
-            goal = list(task.goal.positive), list(task.goal.negative)
-            self._alone = PackedProblem(team.space, part.facts, own, goal, deadline, bounded=bounded)
-            assert not self._layout.differs(self._alone.layout), "the same facts"
+        own = [as_operator((task.actions[i],), prices.team[i] * self._unit + 1) for i in self._own]
+        goal = task.goal.positive, task.goal.negative
+        self._alone = self._alike(own, goal) if question.replans else None
+        self._most = question.largest
         self._epoch = prices.epoch if question.rule == WINDOW else 0
         self._talk = prices.talk if any(prices.talk) else None
         self._told_apart = question.most_cost is not None and bool(self._epoch or self._talk)
@@ -142,9 +101,18 @@ class _Search:
     # -- the whole
 
     def run(self) -> Minimum:
-        """Answer the question."""
+        """The plan of least objective."""
+        return self._answered(self._run)
+
+    def run_on(self) -> Minimum:
+        """The cheapest plan if robots go on after the last epoch, for as long as they like."""
+        return self._answered(self._run_on)
+
+    def _answered(self, ask: Callable[[], Minimum]) -> Minimum:
         try:
-            return self._run()
+            return ask()
+        except SumTooLargeError:
+            raise
         except LIMITS as limit:
             doing = f"searching exhaustively, {self.states:,} states so far"
             reason = str(LimitReachedError(limit_reason(limit), doing))
@@ -160,13 +128,46 @@ class _Search:
         if least_left >= FAR:
             return Minimum("none")
         self._known = least_left + self._epoch
-        words = self._table.weight.dtype != object
-        if words and self._question.rule == FREE and self._none_without_epochs(start):
+        if self._question.rule == FREE and self._none_without_epochs(start):
             return Minimum("none")
         ends = self._all_epochs(first(start, len(self._team.order)))
         for extra, places in ends.items():
             self._complete(places, extra)
         return Minimum("none") if self._best is None else Minimum("found", self._best, self._best.objective)
+
+    def _run_on(self) -> Minimum:
+        self._most, task = self._table.far, self._question.task
+        start = self._problem.pack([task.init])
+        assert start is not None, "the initial state is reached"
+        self._all_epochs(first(start, len(self._team.order)))
+        last = len(self._layers) - 1
+        if last < self._question.horizon:
+            return Minimum("none")
+        layer, every = self._layers[last], zip(self._whole.sets, self._problem.table.operators, strict=True)
+        left = [
+            (i, one) for i, one in every if not any(task.human in task.actions[k].participants for k in i)
+        ]
+        problem = self._alike([one for _, one in left], self._whole.goal)
+        search, found = problem.search(layer.states, layer.paid)
+        if found is None:
+            return Minimum("none")
+        begin, path = search.path(found)
+        row = int(np.flatnonzero((layer.states == search.row(begin)).all(axis=1))[0])
+        after = enumerate((left[k][0] for k in path), start=last + 1)
+        steps = self._steps(last, row) + tuple(Step(epoch, i) for epoch, chosen in after for i in chosen)
+        cost = search.paid(found)
+        return Minimum("found", PricedPlan(steps, None, cost, cost), cost)
+
+    def _alike(
+        self, operators: Sequence[PackedOperator], goal: tuple[Sequence[int], Sequence[int]]
+    ) -> PackedProblem:
+        """A problem over the same states: what some of the agents may do, one action after the other."""
+        whole = self._problem
+        bounded, exact = whole.bounded, whole.exact
+        space, deadline = self._whole.space, self._deadline
+        found = PackedProblem(space, self._facts, operators, goal, deadline, bounded=bounded, exact=exact)
+        assert not self._layout.differs(found.layout), "the same facts"
+        return found
 
     def _none_without_epochs(self, start: Words) -> bool:
         """Whether there is no plan even if epochs did not count: one action after the other."""
@@ -179,8 +180,7 @@ class _Search:
 
     def _limit(self) -> int:
         """The greatest objective that is still asked for."""
-        most = self._question.largest
-        return most if self._best is None else min(most, self._best.objective - 1)
+        return self._most if self._best is None else min(self._most, self._best.objective - 1)
 
     def _limit_with(self, extra: int) -> int:
         """The same for plans of whose objective so much is no cost."""
@@ -260,7 +260,7 @@ class _Search:
             cost = total if self._talk is None else paid  # with talk the bound is none on cost alone
             return np.flatnonzero((total + window <= self._limit()) & (cost <= self._limit_with(stage.extra)))
 
-        layer = advance(sources, hopeful, self._layout.words, len(self._team.order), self._deadline)
+        layer = advance(sources, hopeful, self._table, len(self._team.order), self._deadline)
         return self._improved(stage, layer) if self._may_rest(stage.control) else layer
 
     def _may_rest(self, control: Control) -> bool:
@@ -271,10 +271,10 @@ class _Search:
     def _improved(self, stage: Stage, layer: EpochLayer) -> EpochLayer:
         """The states of a layer that no earlier epoch had in this stage at no higher cost."""
         if stage not in self._earlier:
-            self._earlier[stage] = StateTable(self._layout.words, self._deadline), unknown(0, layer.paid)
+            self._earlier[stage] = StateTable(self._layout.words, self._deadline), self._table.unknown(0)
         known, paid = self._earlier[stage]
         numbers, new = known.numbers(layer.states)
-        paid = np.concatenate((paid, unknown(len(new), layer.paid)))
+        paid = np.concatenate((paid, self._table.unknown(len(new))))
         better = np.flatnonzero(layer.paid < paid[numbers])
         paid[numbers[better]] = layer.paid[better]
         self._earlier[stage] = known, paid
@@ -296,6 +296,7 @@ class _Search:
 
     def _complete(self, places: list[tuple[int, int]], extra: int) -> None:
         """The cheapest of all ends with what the human pays from there on, alone."""
+        assert self._alone is not None, "the human replans"
         layers = [(self._layers[number], number, epoch) for number, epoch in places]
         states = np.concatenate([layer.states for layer, _, _ in layers])
         paid = np.concatenate([layer.paid for layer, _, _ in layers])
@@ -306,10 +307,18 @@ class _Search:
             ]
         )
         still = where[:, 2] < self._question.horizon
-        for _ in range(len(still) + 1 if self._alone is None else limits().misfits):
-            row = self._cheapest_end(np.flatnonzero(still), states, paid, extra)
-            if row is None:
+        for _ in range(limits().misfits):
+            rows = np.flatnonzero(still)
+            if not len(rows):
                 return
+            below = (self._limit_with(extra) + 1) * self._unit
+            search, found = self._alone.search(states[rows], paid[rows] * self._unit, below)
+            self.states += search.states
+            if found is None:
+                return
+            begin, _ = search.path(found)
+            same = rows[(states[rows] == search.row(begin)).all(axis=1)]
+            row = int(same[np.argmin(paid[same])])
             still[row] = False
             number, place, epoch = where[row].tolist()
             state = self._whole_state(number, place)
@@ -317,22 +326,6 @@ class _Search:
             if suffix is not None:
                 self._offer(number, place, epoch, suffix)
         raise UndecidedError("too many ends of windows from which the human's plan takes too long")
-
-    def _cheapest_end(self, rows: Ints, states: Words, paid: Ints, extra: int) -> int | None:
-        """The row of some states that costs least with what is left; None: none is within the limit."""
-        below = self._limit_with(extra) + 1
-        if self._alone is None:
-            rows = rows[paid[rows] < below]
-            return int(rows[np.argmin(paid[rows])]) if len(rows) else None
-        if not len(rows):
-            return None
-        search, found = self._alone.search(states[rows], paid[rows] * self._unit, below * self._unit)
-        self.states += search.states
-        if found is None:
-            return None
-        begin, _ = search.path(found)
-        same = rows[(states[rows] == search.row(begin)).all(axis=1)]
-        return int(same[np.argmin(paid[same])])
 
     def _whole_state(self, number: int, row: int) -> State:
         """All facts that are true in a state of a layer."""

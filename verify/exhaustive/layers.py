@@ -2,15 +2,13 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from math import inf
 
 import numpy as np
 
 from serendipity.model import Deadline
 from verify.exhaustive.team import NOBODY, Steps
 from verify.packed.layout import Words
-from verify.packed.operators import Ints
-from verify.packed.pattern import FAR
+from verify.packed.operators import Ints, OperatorTable
 from verify.packed.state_table import StateTable
 
 
@@ -48,15 +46,10 @@ def first(states: Words, agents: int) -> EpochLayer:
     return EpochLayer(states, zero, zero - 1, np.full((len(states), agents), NOBODY), zero - 1)
 
 
-def unknown(count: int, like: Ints) -> Ints:
-    """More than anything costs, so many times: Python's integers where such are to follow, else words."""
-    return np.full(count, inf, object) if like.dtype == object else np.full(count, FAR)
-
-
 def advance(
     steps: Iterable[tuple[int, EpochLayer, Iterable[Steps]]],
     hopeful: Callable[[Words, Ints], Ints],
-    words: int,
+    operators: OperatorTable,
     agents: int,
     deadline: Deadline,
 ) -> EpochLayer:
@@ -65,12 +58,11 @@ def advance(
     Args:
         steps: layers to come from, with their numbers and steps.
         hopeful: the rows of states, with what was paid, that are worth keeping.
-        words: of a state.
+        operators: the team's.
         agents: how many there are.
         deadline: polled.
     """
-    table = StateTable(words, deadline)
-    paid: Ints = np.zeros(0, np.int64)
+    table, paid = StateTable(operators.layout.words, deadline), operators.unknown(0)
     where = np.zeros((0, 2), np.int64)
     sets = np.zeros((0, agents), np.int64)
     for source, layer, pieces in steps:
@@ -81,7 +73,7 @@ def advance(
             numbers, _ = table.numbers(piece.after[order])
             grown = table.count - known
             if grown:
-                paid = np.concatenate((paid, unknown(grown, cost)))
+                paid = np.concatenate((paid, operators.unknown(grown)))
                 where = np.concatenate((where, np.zeros((grown, 2), np.int64)))
                 sets = np.concatenate((sets, np.zeros((grown, agents), np.int64)))
             better = cost[order] < paid[numbers]

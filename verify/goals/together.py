@@ -18,7 +18,7 @@ from verify.base.subproblem import FREE, least
 from verify.base.undecided import UndecidedError
 from verify.calls.answer import best_plan
 from verify.calls.call import ExaminedCall, Score
-from verify.exhaustive.uniform_cost import LeastLeft
+from verify.exhaustive.without_epochs import LeastLeft
 from verify.limits import limits
 from verify.programs.effort import Attempt
 

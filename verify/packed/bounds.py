@@ -14,8 +14,8 @@ import numpy as np
 from serendipity.model import Deadline
 from verify.limits import limits
 from verify.packed.layout import Words
-from verify.packed.operators import Ints, OperatorTable
-from verify.packed.pattern import FAR, Pattern, TooManyMovesError
+from verify.packed.operators import FAR, Ints, OperatorTable
+from verify.packed.pattern import Pattern, TooManyMovesError
 
 _A_SECOND: Final = 20_000
 """States of a pattern for each second that is left: a large table is not made when there is little time."""

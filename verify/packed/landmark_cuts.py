@@ -18,8 +18,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from verify.packed.operators import Ints, PackedOperator
-from verify.packed.pattern import FAR
+from verify.packed.operators import FAR, Ints, PackedOperator
 
 _NEVER: Final = int(FAR)
 

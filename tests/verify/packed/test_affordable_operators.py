@@ -12,10 +12,10 @@ from tests.verify.packed.test_packed_search_equals_brute_force import FAMILY, di
 from verify.base.execution import State, after, applicable
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE, Subproblem, prices
-from verify.exhaustive.team_problem import cheapest_without_epochs, team_problem
+from verify.exhaustive.team_problem import team_problem
+from verify.exhaustive.without_epochs import cheapest_of_team
 from verify.packed.affordable import affordable
-from verify.packed.operators import PackedOperator
-from verify.packed.pattern import FAR
+from verify.packed.operators import FAR, PackedOperator
 
 
 def paid(task: Task, states: list[State]) -> dict[State, int]:
@@ -88,12 +88,12 @@ def the_same_optimum(task: Task) -> None:
     part = relevant_part(question)
     if part is None:
         return
-    whole = cheapest_without_epochs(question, team_problem(question, part, bounded=False), bounded=False)
+    whole = cheapest_of_team(question, team_problem(question, part, bounded=False), bounded=False)
     if whole.bound is None:
         return
     for most in (whole.bound - 1, whole.bound, whole.bound + question.prices.scale):
         asked = question.below(most)
-        found = cheapest_without_epochs(asked, team_problem(asked, part, bounded=True), bounded=True)
+        found = cheapest_of_team(asked, team_problem(asked, part, bounded=True), bounded=True)
         assert found.status == ("none" if most < whole.bound else "found")
         assert most < whole.bound or found.bound == whole.bound
 
@@ -116,7 +116,7 @@ def test_facts_that_are_as_at_first_are_not_packed() -> None:
     part = relevant_part(question)
     assert part is not None
     team = team_problem(question, part, bounded=True)
-    least = cheapest_without_epochs(question, team, bounded=False).bound
+    least = cheapest_of_team(question, team, bounded=False).bound
     assert least is not None
     within = team.below(least + 1, task.init, Deadline())
     assert within is not None

@@ -18,8 +18,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.calls.solve import solve
 from verify.limits import limited
 from verify.packed.landmark_cuts import LandmarkCuts
-from verify.packed.operators import PackedOperator
-from verify.packed.pattern import FAR
+from verify.packed.operators import FAR, PackedOperator
 
 
 def operators(task: Task) -> list[PackedOperator]:
@@ -77,7 +76,7 @@ def test_whole_answers_with_better_bounds() -> None:
             optimum = best(call.task, call.options, call.human_plan)
         except UsageError:
             return
-        with limited(few_states=1, few_joint_states=0, methods=("-programs",)):
+        with limited(few_states=1, methods=("-programs",)):
             result = solve(call.task, call.options, human_plan=call.human_plan_names, method="auto")
         assert result.status in (optimum.status, "unknown")
         if result.status == "optimal" and call.options.ties == "fixed":

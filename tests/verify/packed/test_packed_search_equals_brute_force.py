@@ -19,8 +19,7 @@ from verify.limits import limited
 from verify.packed import operators as packed
 from verify.packed.bounds import little
 from verify.packed.mutexes import ReachablePairs
-from verify.packed.operators import PackedOperator
-from verify.packed.pattern import FAR
+from verify.packed.operators import FAR, PackedOperator
 from verify.packed.problem import PackedProblem, StateSpace
 
 FAMILY = [
