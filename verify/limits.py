@@ -21,7 +21,6 @@ PARTS: Final = (
     "few-facts",  # of relevance pruning: automata over few facts first
     "arc-pruning",  # of programs: the same by epoch
     "solver",  # of programs
-    "cost-fixing",  # without epochs: operators that landmarks show to be too dear
 )
 """Parts of methods that can be left out, too."""
 

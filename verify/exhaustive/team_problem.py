@@ -1,13 +1,12 @@
 """The whole team as a problem over packed states: one action after the other, circles of actions as one."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from serendipity.model import Deadline, GroundAction
+from serendipity.model import GroundAction
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Subproblem
 from verify.exhaustive.circles import circles
-from verify.packed.affordable import affordable
 from verify.packed.operators import PackedOperator
 from verify.packed.problem import PackedProblem, StateSpace
 
@@ -29,28 +28,6 @@ class TeamProblem:
     singles: list[PackedOperator]
     sets: list[tuple[int, ...]]
     goal: tuple[tuple[int, ...], tuple[int, ...]]
-
-    def below(self, most: int, start: frozenset[int], deadline: Deadline) -> "TeamProblem | None":
-        """The same with what a plan for less than ``most`` may have; None: there is no such plan.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
-        facts, operators = frozenset(self.problem.layout.place), self.problem.table.operators
-        left = affordable(operators, facts, self.goal[0], start, most, deadline)
-        if left is None:
-            return None
-        if len(left) == len(operators):
-            return self
-        kept = [operators[i] for i in left]
-        turned = {
-            fact for each in kept for fact in (*set(each.add) - start, *start.intersection(each.delete))
-        }
-        constant = start - turned
-        possible = [k for k, each in enumerate(kept) if constant.isdisjoint(each.neg)]
-        asked = facts & turned.union(*self.goal)
-        problem = PackedProblem(self.space, asked, [kept[k] for k in possible], self.goal, deadline)
-        return replace(self, problem=problem, sets=[self.sets[left[k]] for k in possible])
 
 
 def team_problem(question: Subproblem, part: Relevant, *, bounded: bool, exact: bool = False) -> TeamProblem:

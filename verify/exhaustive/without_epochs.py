@@ -14,7 +14,6 @@ from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import PricedPlan, Subproblem, least
 from verify.base.undecided import during
 from verify.exhaustive.team_problem import TeamProblem, team_problem
-from verify.limits import uses
 from verify.packed.cheapest_path import SumTooLargeError, TooManyPackedStatesError
 from verify.packed.problem import TooLargeError
 from verify.programs.agents.product import automata
@@ -41,14 +40,14 @@ def cheapest(question: Subproblem, effort: Effort) -> Minimum:
         try:
             with during("preparing the search for joint plans"):
                 team = team_problem(question, part, bounded=bounded, exact=exact)
-            return cheapest_of_team(question, team, bounded=bounded)
+            return _cheapest(question, team)
         except (TooLargeError, SumTooLargeError):
             continue  # sums may be: then once more with Python's integers
     return Minimum("undecided", reason="the task is too large for the exhaustive method")
 
 
-def cheapest_of_team(question: Subproblem, team: TeamProblem, *, bounded: bool) -> Minimum:
-    """The same over the states of a team; ``bounded``: operators that are too dear are left out.
+def _cheapest(question: Subproblem, team: TeamProblem) -> Minimum:
+    """The same over the states of a team.
 
     Raises:
         SumTooLargeError: machine words may not hold what it costs.
@@ -58,11 +57,6 @@ def cheapest_of_team(question: Subproblem, team: TeamProblem, *, bounded: bool) 
     below = None if most is None else most + 1
     known: int | None = None
     try:
-        if bounded and below is not None and not team.problem.exact and uses("cost-fixing"):
-            within = team.below(below, question.task.init, question.deadline)
-            if within is None:
-                return Minimum("none", states=1)
-            team = within
         problem = team.problem
         start = problem.pack([question.task.init])
         assert start is not None, "the initial state is reached"
