@@ -33,9 +33,9 @@ from verify.exhaustive.team_problem import as_operator, team_problem
 from verify.limits import limits
 from verify.packed.cheapest_path import SumTooLargeError, TooManyPackedStatesError
 from verify.packed.layout import Words
+from verify.packed.least_paid import LeastPaid
 from verify.packed.operators import FAR, Ints, OperatorTable, PackedOperator
 from verify.packed.problem import PackedProblem
-from verify.packed.state_table import StateTable
 from verify.programs.effort import Minimum
 from verify.programs.mending import best_suffix, replay
 
@@ -94,7 +94,7 @@ class EpochSearch:
         self._told_apart = question.most_cost is not None and bool(self._epoch or self._talk)
         self._layers: list[EpochLayer] = []
         self._stages: list[Stage] = []
-        self._earlier: dict[Stage, tuple[StateTable, Ints]] = {}
+        self._earlier: dict[Stage, LeastPaid] = {}
         self._known: int | None = None
         self._best: PricedPlan | None = None
 
@@ -271,14 +271,10 @@ class EpochSearch:
     def _improved(self, stage: Stage, layer: EpochLayer) -> EpochLayer:
         """The states of a layer that no earlier epoch had in this stage at no higher cost."""
         if stage not in self._earlier:
-            self._earlier[stage] = StateTable(self._layout.words, self._deadline), self._table.unknown(0)
-        known, paid = self._earlier[stage]
-        numbers, new = known.numbers(layer.states)
-        paid = np.concatenate((paid, self._table.unknown(len(new))))
-        better = np.flatnonzero(layer.paid < paid[numbers])
-        paid[numbers[better]] = layer.paid[better]
-        self._earlier[stage] = known, paid
-        return layer.only(better)
+            dtype = self._table.weight.dtype
+            self._earlier[stage] = LeastPaid(self._layout.words, self._deadline, dtype=dtype)
+        _, better = self._earlier[stage].offer(layer.states, layer.paid)
+        return layer.only(np.sort(better))
 
     # -- ends
 

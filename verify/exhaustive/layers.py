@@ -8,8 +8,8 @@ import numpy as np
 from serendipity.model import Deadline
 from verify.exhaustive.team import NOBODY, Steps
 from verify.packed.layout import Words
+from verify.packed.least_paid import LeastPaid
 from verify.packed.operators import Ints, OperatorTable
-from verify.packed.state_table import StateTable
 
 
 @dataclass(slots=True)
@@ -62,24 +62,17 @@ def advance(
         agents: how many there are.
         deadline: polled.
     """
-    table, paid = StateTable(operators.layout.words, deadline), operators.unknown(0)
+    known = LeastPaid(operators.layout.words, deadline, dtype=operators.weight.dtype)
     where = np.zeros((0, 2), np.int64)
     sets = np.zeros((0, agents), np.int64)
     for source, layer, pieces in steps:
         for piece in pieces:
-            cost = layer.paid[piece.before] + piece.cost
-            order = np.argsort(-cost, kind="stable")  # the cheapest last: it stays
-            known = table.count
-            numbers, _ = table.numbers(piece.after[order])
-            grown = table.count - known
+            chosen, rows = known.offer(piece.after, layer.paid[piece.before] + piece.cost)
+            grown = len(known.paid) - len(where)
             if grown:
-                paid = np.concatenate((paid, operators.unknown(grown)))
                 where = np.concatenate((where, np.zeros((grown, 2), np.int64)))
                 sets = np.concatenate((sets, np.zeros((grown, agents), np.int64)))
-            better = cost[order] < paid[numbers]
-            chosen, kept = numbers[better], order[better]
-            paid[chosen] = cost[kept]
-            where[chosen, 0], where[chosen, 1] = piece.before[kept], source
-            sets[chosen] = piece.sets[kept]
-    layer = EpochLayer(table.rows, paid, where[:, 0], sets, where[:, 1])
+            where[chosen, 0], where[chosen, 1] = piece.before[rows], source
+            sets[chosen] = piece.sets[rows]
+    layer = EpochLayer(known.states, known.paid, where[:, 0], sets, where[:, 1])
     return layer.only(hopeful(layer.states, layer.paid))
