@@ -1,4 +1,4 @@
-"""What certificates say: the reasons that claims are given, all in one place.
+"""Words of certificates: the reasons that claims are given, all in one place.
 
 What a broken rule says is with the rule (``verify.rules``), what is wrong with a recognition or a
 policy with those who read them.  Braces stand for figures and words that whoever makes the claim fills in, in

@@ -34,28 +34,28 @@ def _always(question: Subproblem) -> bool:
 
 
 def _is_packed(question: Subproblem) -> bool:
-    """Whether states of the task can be packed."""
+    """True if states of the task can be packed."""
     task = question.task
     return len(task.facts) <= limits().packed_facts and len(task.actions) <= limits().packed_actions
 
 
 def _has_short_windows(question: Subproblem) -> bool:
-    """Whether windows have one epoch, nothing is joint, and the human replans after it."""
+    """True if windows have one epoch, nothing is joint, and the human replans after it."""
     return _is_packed(question) and is_short(question)
 
 
 def _has_many_plans(question: Subproblem) -> bool:
-    """Whether windows open beside any optimal plan, and the human replans after them."""
+    """True if windows open beside any optimal plan, and the human replans after them."""
     return question.has_plain_windows and not question.is_free
 
 
 def _is_without_windows(question: Subproblem) -> bool:
-    """Whether anybody may do anything at any time, for a limited cost."""
+    """True if anybody may do anything at any time, for a limited cost."""
     return question.most is not None and question.rule == FREE and _is_packed(question)
 
 
 def _has_few_actions(question: Subproblem) -> bool:
-    """Whether all joint actions can be compared with each other."""
+    """True if all joint actions can be compared with each other."""
     return len(question.task.actions) <= limits().compared_actions and _is_packed(question)
 
 
@@ -67,13 +67,13 @@ def _by_programs(question: Subproblem, effort: Effort, plans: OptimalPlans) -> M
 
 
 def _decoupled(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
-    """Whether robots one by one, and then the human alone, leave no plan."""
+    """A proof that robots one by one, and then the human alone, leave no plan."""
     del effort, plans
     return no_short_window(question)
 
 
 def _without_epochs(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
-    """Whether there is no plan even if epochs did not count."""
+    """A proof that there is no plan even if epochs did not count."""
     del plans
     try:
         found = cheapest(question, effort)

@@ -1,4 +1,4 @@
-"""What a result saves, by what doing nothing costs, what the human pays alone at best, and its own cost."""
+"""Savings of a result, by the cost of doing nothing, of the human alone at best, and its own."""
 
 from fractions import Fraction
 

@@ -1,4 +1,4 @@
-"""Whether an answer over all optimal plans of the human has the right answers in it (semantics 1)."""
+"""Claims of an answer over all optimal plans of the human: the answers in it are right (semantics 1)."""
 
 from collections import Counter
 from collections.abc import Callable

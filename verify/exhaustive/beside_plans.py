@@ -40,7 +40,7 @@ _NONE: Final = np.zeros(0, np.int64)
 
 
 def answers_all(question: Subproblem) -> bool:
-    """Whether the method knows a question's rules."""
+    """True if the method knows a question's rules."""
     longest = question.options.max_window
     whole = longest is None or longest >= question.horizon
     unlimited = question.most_cost is None and not any(question.prices.talk)
@@ -72,7 +72,7 @@ class _Strand:
 
 
 class HelpBesidePlans:
-    """What windows allow beside every optimal plan of the human.
+    """The best help in a window beside every optimal plan of the human.
 
     Args:
         question: of one of the plans; which one does not matter.
@@ -165,7 +165,7 @@ class HelpBesidePlans:
         return following
 
     def _beside(self, front: Front, action: int) -> Front:
-        """What robots can have brought about when the human has done one more step, in order."""
+        """The states, in order, that robots can have brought about when the human has done one more step."""
         self._deadline.check()
         if not len(front.states):
             return front
@@ -198,7 +198,7 @@ class HelpBesidePlans:
         return Front(known.states.copy(), known.paid)
 
     def _worths(self, states: Words, worth: Ints) -> LeastPaid:
-        """What different states are worth, to be looked up by state."""
+        """The worth of different states, to be looked up by state."""
         known = LeastPaid(self._layout.words, self._deadline)
         known.offer(states, worth)
         return known
@@ -212,7 +212,7 @@ class HelpBesidePlans:
         return Front(front.states[kept], front.paid[kept])
 
     def _value(self) -> None:
-        """What each state in which a window may open is worth, from the last epoch backwards."""
+        """The worth of each state in which a window may open, from the last epoch backwards."""
         horizon, nobody = self._question.horizon, Front(np.zeros((0, self._layout.words), np.uint64), _NONE)
         inside = [nobody]
         for epoch in range(1, horizon + 1):
@@ -252,7 +252,7 @@ class HelpBesidePlans:
         return found
 
     def _open(self, strands: list[_Strand], opening: Front, worth: Ints) -> None:
-        """What windows that open now are worth beside each strand."""
+        """The worth of windows that open now, beside each strand."""
         known = self._worths(opening.states, worth)
         for strand in strands:
             if len(strand.front.states):

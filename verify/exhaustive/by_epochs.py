@@ -70,7 +70,7 @@ def cheapest_following(question: Subproblem, plans: OptimalPlans) -> Minimum:
 
 
 def _in_words(question: Subproblem) -> bool:
-    """Whether machine words hold all sums of costs; a unit of cost weighs more than all epochs."""
+    """True if machine words hold all sums of costs; a unit of cost weighs more than all epochs."""
     largest = (question.largest + question.an_epoch + 1) * (question.horizon + 1)
     every = sum(question.prices.team) + sum(question.prices.talk)
     return max(largest, every * (question.horizon + len(question.task.agents))) <= limits().weight

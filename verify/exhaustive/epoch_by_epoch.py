@@ -47,7 +47,7 @@ class OtherMethodError(UndecidedError):
 
 
 class Stage(NamedTuple):
-    """What the states of a layer share.
+    """A part of the plan that the states of a layer share.
 
     Attributes:
         control: the human's control state.
@@ -170,7 +170,7 @@ class EpochSearch:
         return found
 
     def _none_without_epochs(self, start: Words) -> bool:
-        """Whether there is no plan even if epochs did not count: one action after the other."""
+        """True if there is no plan even if epochs did not count: one action after the other."""
         below = (self._limit_with(0) if self._talk is None else self._limit()) + 1
         search, found = self._problem.search(start, np.zeros(1, np.int64), below)
         self.states += search.states
@@ -214,7 +214,7 @@ class EpochSearch:
         return completed
 
     def _onward(self, number: int, epoch: int) -> Iterator[tuple[Stage, Iterator[Steps]]]:
-        """What may follow a layer: the stages, each with the epochs that lead to it."""
+        """The stages that may follow a layer, each with the epochs that lead to it."""
         stage = self._stages[number]
         for leg in self._control.legs(stage.control, epoch):
             if leg.after[0] == SUFFIX and self._question.replans:
@@ -225,14 +225,14 @@ class EpochSearch:
                 yield Stage(leg.after, extra), self._steps_of(number, leg, of_human, wait=wait)
 
     def _numbers(self, leg: Leg) -> Ints | None:
-        """What the human may do, as the table numbers it; None: anything."""
+        """The actions that the human may take part in, as the table numbers them; None: any."""
         if leg.actions == ALL:
             return None
         allowed = self._own if leg.actions == OWN else leg.actions
         return np.array([k for k, i in enumerate(self._actions) if i in allowed], np.int64)
 
     def _said(self, of_human: Ints | None) -> Iterator[tuple[int, Ints | None]]:
-        """What the human may do, by what has to be said about it, where that is told apart."""
+        """The same by the cost of communication, where that is told apart."""
         if self._talk is None or not self._told_apart:
             yield 0, of_human
             return
@@ -264,7 +264,7 @@ class EpochSearch:
         return self._improved(stage, layer) if self._may_rest(stage.control) else layer
 
     def _may_rest(self, control: Control) -> bool:
-        """Whether all that is left of a plan may be waiting, for nothing."""
+        """True if all that is left of a plan may be waiting, for nothing."""
         rule = self._question.rule
         return rule != EXACT if rule != WINDOW else control[0] != PREFIX
 
@@ -342,7 +342,7 @@ class EpochSearch:
         return found[::-1]
 
     def _steps(self, number: int, row: int) -> tuple[Step, ...]:
-        """What leads to a state of a layer."""
+        """The steps that lead to a state of a layer."""
         steps: list[Step] = []
         for epoch, (n, r) in enumerate(self._way(number, row), start=1):
             chosen = sorted(self._actions[k] for k in self._layers[n].sets[r].tolist() if k != NOBODY)

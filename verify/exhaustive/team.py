@@ -18,7 +18,7 @@ _AT_ONCE: Final = 100_000
 """Sets of actions that are looked at before the deadline is, again."""
 
 NOBODY: Final = -1
-"""Who waits."""
+"""In the place of an action: the agent waits."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from verify.packed.problem import PackedProblem, StateSpace
 
 @dataclass(frozen=True, slots=True)
 class TeamProblem:
-    """What the team may do, over packed states.
+    """The team's planning problem over packed states.
 
     Attributes:
         space: what may be true.

@@ -1,4 +1,4 @@
-"""Whether robots could do better for several goals than an answer says (semantics 8)."""
+"""Proofs that robots can do no better for several goals than an answer says (semantics 8)."""
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction

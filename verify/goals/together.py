@@ -1,4 +1,4 @@
-"""Whether there is a better robots' plan for all goals at once (semantics 8), independent of ``search``.
+"""Search for a better robots' plan for all goals at once (semantics 8), independent of ``search``.
 
 Two ways to a proof.  What each goal by itself would allow adds up to a bound: where the
 answer reaches it, nothing is better.  Otherwise the robots' sequences are played, epoch by epoch;

@@ -111,7 +111,7 @@ class PatternBounds:
         return best
 
     def _best(self, states: Words) -> Ints:
-        """What each way adds up to in each state."""
+        """The sum of each way in each state."""
         found = np.zeros((len(self._ways), len(states)), np.int64)
         index: dict[int, Ints] = {}
         for total, way in zip(found, self._ways, strict=True):
@@ -177,7 +177,7 @@ class PatternBounds:
 
 
 class _View:
-    """What a layout's fields have to do with a goal and with each other."""
+    """A layout as patterns are grown in it: its goals, and the fields that change together."""
 
     def __init__(self, table: OperatorTable, goal: Sequence[int]) -> None:
         self.table = table

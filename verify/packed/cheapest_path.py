@@ -17,7 +17,7 @@ class TooManyPackedStatesError(Exception):
 
 
 class SumTooLargeError(TooManyPackedStatesError):
-    """What is asked may depend on sums of weights that a machine word does not hold."""
+    """Sums of weights that a machine word does not hold may decide what is asked."""
 
 
 class PackedSearch:
@@ -103,7 +103,7 @@ class PackedSearch:
         return None
 
     def paid(self, number: int) -> int:
-        """What the path to a state weighs, with what was paid where it starts."""
+        """The weight of the path to a state, with what was paid where it starts."""
         return int(self._paid[number])
 
     def row(self, number: int) -> Words:

@@ -60,7 +60,7 @@ class LeastPaid:
         return chosen, rows
 
     def of(self, states: Words) -> Ints:
-        """What was paid for some states; more than anything costs where that is not known."""
+        """The prices of some states; more than anything costs where one is not known."""
         numbers = self._numbers(states)
         return self.paid[numbers]
 

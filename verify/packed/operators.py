@@ -20,7 +20,7 @@ _AT_ONCE: Final = 1 << 16
 
 
 class PackedOperator(NamedTuple):
-    """What is done at once: facts that it needs, forbids, adds and deletes, and its weight."""
+    """An operator: facts that it needs, forbids, adds and deletes, and its weight."""
 
     pre: tuple[int, ...]
     neg: tuple[int, ...]
@@ -174,7 +174,7 @@ class OperatorTable:
         return fits
 
     def after(self, states: Words, chosen: Ints) -> Words:
-        """What comes of an operator in each of some states."""
+        """The results of operators in some states, one in each."""
         return (states & ~self.clear[chosen]) | self.put[chosen]
 
     def unknown(self, count: int) -> Ints:
@@ -187,7 +187,7 @@ class OperatorTable:
 
 
 class Test:
-    """Whether some facts are true and others false, in each of many states."""
+    """A test of many states: some facts are true in them and others false."""
 
     def __init__(self, layout: PackedLayout, positive: Sequence[int], negative: Sequence[int]) -> None:
         self._table = OperatorTable(layout, [PackedOperator(tuple(positive), tuple(negative), (), (), 0)])

@@ -18,7 +18,7 @@ class TooLargeError(Exception):
 
 
 class StateSpace:
-    """What is true together, and where facts stand.
+    """The facts that may be true together, and layouts for them.
 
     Args:
         facts: the number of facts.
@@ -137,7 +137,7 @@ class PackedProblem:
         return search, found
 
     def _may_pass(self, most: int, search: PackedSearch) -> bool:
-        """Whether anything may have been left out because it weighs more than a word should hold.
+        """True if anything may have been left out because it weighs more than a word should hold.
 
         A cheapest path goes through no state twice, neither here nor in the pattern of a bound.
         """

@@ -15,7 +15,7 @@ from verify.solvers.mip import SOLVERS, Model, SolverOutcome, optimise
 
 
 class ProgramEncoding(Protocol):
-    """What an encoding offers; ``model`` is None where there is provably no plan."""
+    """An encoding of a question; ``model`` is None where there is provably no plan."""
 
     @property
     def model(self) -> Model | None:
@@ -66,7 +66,7 @@ class SolverCall:
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """What one method made of a question.
+    """The outcome of one method for a question.
 
     Attributes:
         name: of the method (``verify.calls.methods``).
@@ -94,7 +94,7 @@ class NoProgramError(UsageError):
 
 
 class Spent(NamedTuple):
-    """What a claim took: who decided it, how large that was, and how often a solver was called.
+    """The effort of a claim: the method that decided it, its size, and the calls of a solver.
 
     Attributes:
         method: ``program`` or ``exhaustive``; None where rules and shortest paths were enough.
@@ -149,7 +149,7 @@ class Effort:
         return len(self.attempts), len(self.calls)
 
     def since(self, mark: tuple[int, int]) -> Spent:
-        """What has been spent since then."""
+        """The effort since then."""
         made, called = self.attempts[mark[0] :], self.calls[mark[1] :]
         if not made and not called:
             return Spent()

@@ -1,4 +1,4 @@
-"""What robots leave behind for the human: differences from what is there without any robot.
+"""Differences that robots leave behind for the human, against the world without any robot.
 
 A fact is as the robot left it that changed it last.  So what robots leave behind together differs from what
 is there without them just where the last robot that changed a fact left it different.  Of each robot's
@@ -21,7 +21,7 @@ _AT_ONCE: Final = 250_000
 def differences(
     rows: Words, paid: Ints, base: Words, changed: Words, undone: Sequence[Words], deadline: Deadline
 ) -> tuple[Words, Ints]:
-    """What a robot leaves behind, each once at its least cost.
+    """The differences that a robot leaves behind, each once at its least cost.
 
     Args:
         rows: its states.
@@ -46,7 +46,7 @@ def differences(
 
 
 def together(apart: Sequence[tuple[Words, Ints]], most: int, deadline: Deadline) -> tuple[Words, Ints]:
-    """What several robots leave behind, for no more than ``most``.
+    """The differences that several robots leave behind, for no more than ``most``.
 
     Raises:
         TooManyPackedStatesError: there are too many.

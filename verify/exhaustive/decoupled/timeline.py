@@ -27,7 +27,7 @@ _AT_ONCE: Final = 4_096
 
 @dataclass(frozen=True, slots=True)
 class RobotPart:
-    """What a robot has to do with the world.
+    """A robot's part of the world: its actions, and the facts that they look at and change.
 
     Attributes:
         actions: ids of what it may do.
@@ -159,7 +159,7 @@ class RobotTimeline:
         return allowed
 
     def _beside(self, human: GroundAction) -> tuple[Bools, bool]:
-        """What can't be done beside an action of the human's; and whether nothing has to do with it.
+        """Actions that can't be done beside one of the human's; and if none has to do with it.
 
         Then it makes no difference which of the two comes first, so that what could be done before it
         brings about nothing new after it.
@@ -194,5 +194,5 @@ class RobotTimeline:
 
 
 def _looks_at(one: GroundAction, other: GroundAction) -> bool:
-    """Whether an action asks about a fact that another changes."""
+    """True if an action asks about a fact that another changes."""
     return not {*one.pre, *one.neg}.isdisjoint((*other.add, *other.delete))

@@ -1,4 +1,4 @@
-"""What a program is taught about a suffix that is not the human's optimal plan."""
+"""Rows that teach a program about a suffix that is not the human's optimal plan."""
 
 from verify.base.control import INSIDE, SUFFIX
 from verify.programs.automata.linear import plus
