@@ -62,10 +62,6 @@ def _has_few_actions(question: Subproblem) -> bool:
 # -- what a method does
 
 
-def _by_programs(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
-    return minimise(question, effort, plans)
-
-
 def _decoupled(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
     """A proof that robots one by one, and then the human alone, leave no plan."""
     del effort, plans
@@ -129,7 +125,7 @@ class Method:
 
 TURNS: Final = (
     #      name, what it proves of a question, whether it applies, share, seconds, longer, what it does
-    Method("programs", "optimum", _always, 0.4, 0.4, 10, _by_programs),
+    Method("programs", "optimum", _always, 0.4, 0.4, 10, minimise),
     Method("decoupled", "no plan", _has_short_windows, 0.4, 60, 0, _decoupled),
     Method("without-epochs", "no plan", _is_without_windows, 0.4, 60, 0, _without_epochs),
     Method("exhaustive", "optimum", _has_few_actions, 0.4, 4, 10, _exhaustively),

@@ -30,6 +30,21 @@ class TeamProblem:
     goal: tuple[tuple[int, ...], tuple[int, ...]]
 
 
+def team_space(question: Subproblem, part: Relevant) -> tuple[StateSpace, list[tuple[int, ...]]]:
+    """The facts that may be true together, and the sets of actions that only work together.
+
+    Raises:
+        TooLargeError: it is not one for packed states.
+        LimitReachedError: the deadline came first.
+    """
+    task, deadline = question.task, question.deadline
+    actions = [(i, task.actions[i]) for i in part.actions]
+    together = [] if question.options.strict else circles(actions, task, deadline)
+    as_one = [as_operator((task.actions[i] for i in circle), 0) for circle in together]
+    groups = [frozenset(variable.facts) for variable in task.variables]
+    return StateSpace(len(task.facts), task.init, [*task.actions, *as_one], groups, deadline), together
+
+
 def team_problem(question: Subproblem, part: Relevant, *, bounded: bool, exact: bool = False) -> TeamProblem:
     """The team's problem of a question.
 
@@ -44,21 +59,13 @@ def team_problem(question: Subproblem, part: Relevant, *, bounded: bool, exact: 
         LimitReachedError: the deadline came first.
     """
     task, deadline, prices = question.task, question.deadline, question.prices
-    actions = [(i, task.actions[i]) for i in part.actions]
-    together = [] if question.options.strict else circles(actions, task, deadline)
-    groups = [frozenset(variable.facts) for variable in task.variables]
-    as_one = [as_operator((task.actions[i] for i in circle), 0) for circle in together]
-    space = StateSpace(len(task.facts), task.init, [*task.actions, *as_one], groups, deadline)
+    space, together = team_space(question, part)
     sets = [*((i,) for i in part.actions), *together]
     operators = [
         as_operator((task.actions[i] for i in each), sum(prices.team[i] + prices.talk[i] for i in each))
         for each in deadline.each(sets)
     ]
-    conditions = [task.goal, task.robot_goal] if question.robots_goal else [task.goal]
-    goal = (
-        tuple(f for c in conditions for f in c.positive),
-        tuple(f for c in conditions for f in c.negative),
-    )
+    goal = question.goal.positive, question.goal.negative
     problem = PackedProblem(space, part.facts, operators, goal, deadline, bounded=bounded, exact=exact)
     kept = [one for one, operator in zip(sets, operators, strict=True) if space.pairs.possible(operator.pre)]
     return TeamProblem(space, problem, operators[: len(part.actions)], kept, goal)

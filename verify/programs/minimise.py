@@ -13,7 +13,7 @@ from verify.base.undecided import UNDECIDED, UndecidedError, during, why
 from verify.limits import uses
 from verify.programs import recorded
 from verify.programs.effort import Effort, Minimum, ProgramEncoding
-from verify.programs.mending import goals_hold, mended, replay, suffix_least
+from verify.programs.mending import mended, replay, suffix_least
 from verify.proofs.book import ProofReader, ProofWriter
 from verify.solvers.mip import SolverOutcome
 
@@ -153,7 +153,11 @@ def _better(a: PricedPlan | None, b: PricedPlan | None) -> PricedPlan | None:
 
 def _nothing_to_do(question: Subproblem) -> Minimum:
     """No epoch at all: the empty plan or none; it has no window."""
-    goals = goals_hold(question, question.task.init)
-    if not goals or question.rule == WINDOW or (question.most or 0) < 0 or (question.most_cost or 0) < 0:
+    if (
+        not question.goal.holds(question.task.init)
+        or question.rule == WINDOW
+        or (question.most or 0) < 0
+        or (question.most_cost or 0) < 0
+    ):
         return Minimum("none")
     return Minimum("found", PricedPlan((), None, 0, 0), 0)

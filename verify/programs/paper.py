@@ -81,14 +81,10 @@ class PaperEncoding:
     def equation_3(self) -> None:
         """The goals hold in the last state."""
         self.model.family = "eq. 3"
-        conditions = [self.task.goal]
-        if self.question.robots_goal:
-            conditions.append(self.task.robot_goal)
-        for condition in conditions:
-            for f in condition.positive:
-                self.model.add({self.y[f, self.last]: 1}, "==", 1)
-            for f in condition.negative:
-                self.model.add({self.y[f, self.last]: 1}, "==", 0)
+        for f in self.question.goal.positive:
+            self.model.add({self.y[f, self.last]: 1}, "==", 1)
+        for f in self.question.goal.negative:
+            self.model.add({self.y[f, self.last]: 1}, "==", 0)
 
     def equation_4(self) -> None:
         """Preconditions, negative ones too."""

@@ -174,13 +174,8 @@ class AutomataEncoding:
         self, part: Relevant, expected: tuple[frozenset[int], ...]
     ) -> tuple[frozenset[int], frozenset[int]]:
         """Facts that a goal, or a state to be preserved, wants true, and those that a goal wants false."""
-        task = self.question.task
-        wanted_true = frozenset(task.goal.positive).union(*expected) & part.facts
-        wanted_false = frozenset(task.goal.negative) & part.facts
-        if self.question.robots_goal:
-            wanted_true |= part.facts.intersection(task.robot_goal.positive)
-            wanted_false |= part.facts.intersection(task.robot_goal.negative)
-        return wanted_true, wanted_false
+        goal = self.question.goal
+        return frozenset(goal.positive).union(*expected) & part.facts, part.facts.intersection(goal.negative)
 
     def _keep_promising(
         self, part: Relevant, machines: tuple[Automaton, ...], expected: tuple[frozenset[int], ...]

@@ -174,11 +174,6 @@ def distances(
 
 def goal_states(question: Subproblem, automaton: Automaton) -> set[int]:
     """Automaton states in which no literal of the goals is false."""
-    task = question.task
-    conditions = [task.goal, task.robot_goal] if question.robots_goal else [task.goal]
-    true: frozenset[int] = frozenset()
-    false: frozenset[int] = frozenset()
-    for condition in conditions:
-        true |= automaton.facts.intersection(condition.positive)
-        false |= automaton.facts.intersection(condition.negative)
+    true = automaton.facts.intersection(question.goal.positive)
+    false = automaton.facts.intersection(question.goal.negative)
     return {k for k, state in enumerate(automaton.states) if true <= state and false.isdisjoint(state)}
