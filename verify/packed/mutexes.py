@@ -6,10 +6,9 @@ be true beside its preconditions and is not deleted.  What is not found is true 
 from one in which all pairs are found ones.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from serendipity.model import Deadline
-from verify.base.fact_bits import each_bit
 from verify.packed.layout import Effects
 
 
@@ -67,7 +66,7 @@ class ReachablePairs:
                 self.beside[fact] |= new
                 self._stale.add(fact)
                 mine = 1 << fact
-                for bit in each_bit(new):
+                for bit in _each_bit(new):
                     other = bit.bit_length() - 1
                     self.beside[other] |= mine
                     self._stale.add(other)
@@ -90,7 +89,7 @@ def exclusive_groups(pairs: ReachablePairs, facts: Iterable[int], deadline: Dead
         best = max(cliques, key=lambda bits: (bits.bit_count(), bits))
         if best.bit_count() < 2:
             break
-        chosen.append(frozenset(bit.bit_length() - 1 for bit in each_bit(best)))
+        chosen.append(frozenset(bit.bit_length() - 1 for bit in _each_bit(best)))
         cliques = {clique & ~best for clique in cliques}
     return chosen
 
@@ -100,12 +99,19 @@ def _clique(seed: int, against: dict[int, int]) -> int:
     members, candidates = 1 << seed, against[seed]
     while candidates:
         best = max(
-            (bit.bit_length() - 1 for bit in each_bit(candidates)),
+            (bit.bit_length() - 1 for bit in _each_bit(candidates)),
             key=lambda fact: ((against[fact] & candidates).bit_count(), -fact),
         )
         members |= 1 << best
         candidates &= against[best]
     return members
+
+
+def _each_bit(bits: int) -> Iterator[int]:
+    while bits:
+        lowest = bits & -bits
+        yield lowest
+        bits ^= lowest
 
 
 def _bits(facts: Iterable[int]) -> int:
