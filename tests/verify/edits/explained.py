@@ -49,6 +49,9 @@ def explained(good: Good, data: dict[str, Any], result: Result, edits: tuple[Edi
     original = good.result.to_dict()
     if _meaning(data) == _meaning(original):
         return "it says the same"
+    rounded = {name: value for name, value in original.items() if name != "exact"}
+    if "exact" not in data and _meaning(data) == _meaning(rounded):
+        return "it says the same in figures that are rounded"
     if _without_options(data) == _without_options(original) and _same_answer(good, result):
         return "the options don't change the answer"
     if _claims_less(good, result):
