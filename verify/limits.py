@@ -20,9 +20,7 @@ PARTS: Final = (
     "relevance-pruning",  # of programs: moves of the agents that are on no plan within the limits
     "few-facts",  # of relevance pruning: automata over few facts first
     "arc-pruning",  # of programs: the same by epoch
-    "joint-paths",  # of programs: all joint paths through what pruning leaves
     "solver",  # of programs
-    "cost-fixing",  # without epochs: operators that landmarks show to be too dear
 )
 """Parts of methods that can be left out, too."""
 
@@ -42,7 +40,6 @@ class VerifierLimits:
         automaton_moves: of an automaton that is large enough: once a fact does not fit, no other is tried.
         many_actions: actions from which on small automata go before the large ones.
         many_moves: moves from which on it pays to bound them whatever the epoch.
-        joint_paths: joint states of pruned networks that are kept at most.
         alone_states: of the human alone, in a program.
         own_states: of the human alone that are looked at.
         many_own_states: the same, before they are packed.
@@ -50,12 +47,11 @@ class VerifierLimits:
         compared_actions: that are compared with each other, all with all, by the exhaustive method.
         misfits: ends of windows whose cheapest completion takes too many epochs, after which others are
             not looked at.
-        few_joint_states: states without a horizon, before they are packed.
-        joint_states: states without a horizon where they can't be packed.
         packed_facts: of a task whose states are packed.
         packed_actions: the same.
         few_states: packed states after which better bounds are worth their time.
         packed_states: of any search.
+        exact_states: the same, where costs are too large for machine words.
         states_at_once: packed states whose actions are looked for at once.
         robot_states: of one robot beside the human's timetable, after an epoch.
         left_behind: what robots may leave behind together.
@@ -65,7 +61,6 @@ class VerifierLimits:
         several_plans: the human's optimal plans for which one search beside all of them pays.
         solved_here: coefficients of a program up to which HiGHS overruns its limit by some 20 ms at most.
         solver_seconds: for which HiGHS may work in this process, and about what it takes to start one.
-        joint_share: of the time left, for joint paths before a program is written.
         quick_seconds: for bounds over packed states, as long as few states may be enough.
         quick_share: of the time left, for the same.
         careful_seconds: for bounds that are to spare many states.
@@ -83,19 +78,17 @@ class VerifierLimits:
     automaton_moves: int = 100_000
     many_actions: int = 5_000
     many_moves: int = 4_000
-    joint_paths: int = 100_000
     alone_states: int = 50_000
     own_states: int = 200_000
     many_own_states: int = 1_000
     projected_states: int = 20_000
     compared_actions: int = 3_000
     misfits: int = 500
-    few_joint_states: int = 5_000
-    joint_states: int = 500_000
     packed_facts: int = 1_500
     packed_actions: int = 30_000
     few_states: int = 20_000
     packed_states: int = 50_000_000
+    exact_states: int = 500_000
     states_at_once: int = 8_192
     robot_states: int = 400_000
     left_behind: int = 1_000_000
@@ -105,7 +98,6 @@ class VerifierLimits:
     several_plans: int = 3
     solved_here: int = 15_000
     solver_seconds: float = 0.25
-    joint_share: float = 0.5
     quick_seconds: float = 0.5
     quick_share: float = 0.1
     careful_seconds: float = 5.0

@@ -27,15 +27,19 @@ def _claim(certificate: Certificate, name: str) -> Claim:
 # -- true results
 
 
-@given(calls())
-def test_answers_are_proved(call: Call) -> None:
-    try:
-        answer = solve(call.task, call.options, human_plan=call.human_plan_names)
-    except UsageError:
-        return
-    assert answer.status != "unknown"
-    certificate = certify(call.task, answer)
-    assert certificate.verdict == "proved", certificate.to_dict()
+@pytest.mark.parametrize("method", METHODS)
+def test_answers_are_proved(method: str) -> None:
+    @given(calls())
+    def law(call: Call) -> None:
+        try:
+            answer = solve(call.task, call.options, human_plan=call.human_plan_names)
+        except UsageError:
+            return
+        assert answer.status != "unknown"
+        certificate = certify(call.task, answer, method=method)
+        assert certificate.verdict == "proved", certificate.to_dict()
+
+    law()
 
 
 @pytest.mark.parametrize("encoding", ["automata", "paper"])

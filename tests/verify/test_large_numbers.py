@@ -112,7 +112,7 @@ def test_a_limit_on_cost_is_none_on_communication(method: str) -> None:
     options = {"mode": "communication", "communication_weight": 2, "max_cost": 2, "horizon": 7}
     right = serendipity.plan(task, **options)
     assert (right.cost, right.objective, right.opportunity) == (2, 4, True)
-    with limited(few_joint_states=0, few_states=1, methods=("-programs",)):
+    with limited(few_states=1, methods=("-programs",)):
         assert serendipity.verify(task, right, method=method).verdict != "refuted"
         lie = false_denial(task, right, **options)
         assert serendipity.verify(task, lie, method=method).verdict == "refuted"

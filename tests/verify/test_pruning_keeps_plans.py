@@ -1,6 +1,5 @@
-"""Bounds on moves, and the search of what they leave, drop no plan that brute force finds."""
+"""Bounds on moves drop no plan that brute force finds."""
 
-from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -41,18 +40,6 @@ def test_automata_of_few_facts_first(call: Call) -> None:
 @given(calls())
 def test_automata_that_leave_most_facts_out(call: Call) -> None:
     with limited(automaton_states=4, states_a_value=0, many_moves=0):
-        _check(call)
-
-
-@settings(max_examples=30)
-@given(calls(modes=("composite",), ties=False))
-def test_joint_paths_alone(call: Call) -> None:
-    """Equal costs and no limit on cost: a cheapest joint path is an answer, and no solver is needed."""
-    options = call.options.but(max_cost=None, window_weight=Fraction(0))
-    call = Call(call.task, options, call.human_plan)
-    if _figures(call) is None or options.horizon == "inf":
-        return
-    with limited(methods=("programs", "-solver"), many_moves=0):
         _check(call)
 
 

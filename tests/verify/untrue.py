@@ -7,7 +7,7 @@ from typing import Any
 from serendipity.model import Condition, Options, Result, Task
 from serendipity.testing.by_hand import result
 from serendipity.testing.cases import CASE_3_PLAN, case_2, case_3, case_4, case_8, case_9, case_10
-from tests.verify.valid import CASE_2_FETCHED, CASE_2_PI_H, CASE_4_PI_H
+from tests.verify.valid import CASE_2_FETCHED, CASE_2_PI_H, CASE_4_HELP, CASE_4_PI_H
 from verify.calls.solve import solve
 
 
@@ -24,14 +24,7 @@ def dearer() -> tuple[Task, Result]:
 def _wasteful(**options: Any) -> tuple[Task, Result]:
     """A needless action of the robot before the best plan."""
     task = case_4()
-    plan = {
-        1: "move h a b; pick_up_medkit rob k2 r",
-        2: "move h b c; move rob r c",
-        3: "hand_over rob h k2 c",
-        4: "move h c d",
-        5: "move h d g",
-        6: "conduct_triage h g",
-    }
+    plan = dict(CASE_4_HELP)
     if options["mode"] == "communication":
         plan[4] += "; move rob c d"
         return task, result(task, plan, human_plan=CASE_4_PI_H, discount="0.9", **options)

@@ -42,11 +42,7 @@ def relevant_part(question: Subproblem, extra: Iterable[int] = ()) -> Relevant |
     """
     task, deadline = question.task, question.deadline
     true, false, usable = _reachable(task, question.allowed(), deadline)
-    positive = {*task.goal.positive}
-    negative = {*task.goal.negative}
-    if question.robots_goal:
-        positive |= set(task.robot_goal.positive)
-        negative |= set(task.robot_goal.negative)
+    positive, negative = set(question.goal.positive), set(question.goal.negative)
     if not positive <= true or not negative <= false:
         return None
     forced = [i for i in question.human_plan if i in usable]

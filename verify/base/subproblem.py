@@ -12,7 +12,7 @@ from functools import cached_property
 from math import lcm
 from typing import TypeVar
 
-from serendipity.model import Deadline, HumanPlan, Options, Step, Task, Window
+from serendipity.model import Condition, Deadline, HumanPlan, Options, Step, Task, Window
 from verify.base.execution import price
 from verify.base.plan_graph import OptimalPlanGraph
 
@@ -131,6 +131,12 @@ class Subproblem:
         whole = longest is None or longest >= self.horizon
         kernel = options.preservation == "kernel" and not options.keep_prefix
         return self.rule == WINDOW and not self.prices.epoch and whole and bool(self.human_plan) and kernel
+
+    @cached_property
+    def goal(self) -> Condition:
+        """All that has to hold in the end: ``G_H``, and ``G_R`` where it is asked for."""
+        his, theirs = self.task.goal, self.task.robot_goal if self.robots_goal else Condition()
+        return Condition(his.positive + theirs.positive, his.negative + theirs.negative)
 
     def allowed(self) -> list[int]:
         """Ids of the actions that may occur at all."""

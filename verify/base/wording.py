@@ -1,11 +1,11 @@
-"""What certificates say: the reasons that claims are given, all in one place.
+"""Words of certificates: the reasons that claims are given, all in one place.
 
 What a broken rule says is with the rule (``verify.rules``), what is wrong with a recognition or a
-policy with those who read them.  An amount comes as text, in the domain's unit.
+policy with those who read them.  Braces stand for figures and words that whoever makes the claim fills in, in
+this order; an amount comes as text, in the domain's unit.
 """
 
 from collections.abc import Mapping
-from fractions import Fraction
 from typing import Final
 
 from serendipity.model import Claim, Window
@@ -46,14 +46,12 @@ POLICY: Final = "a policy, not a plan"
 NO_WINDOW_FOR_HIM: Final = "a human who replans is not bound to a window"
 
 
+LIKE: Final = "as '{}': {}"
+
+
 def same_as(claim: Claim) -> str:
     """What holds for one claim holds for another."""
-    return like(claim.claim, claim.reason)
-
-
-def like(claim: str, reason: str) -> str:
-    """:func:`same_as`, by a claim's name and reason."""
-    return f"as '{claim}': {reason}"
+    return LIKE.format(claim.claim, claim.reason)
 
 
 # -- the human's own plan
@@ -65,12 +63,7 @@ NOT_ALONE: Final = "the goal can't be reached alone"
 NO_GOAL_ALONE: Final = "no goal that is possible can be reached alone"
 ALL_VISITED: Final = "all states that the human reaches alone were visited"
 HE_HAS_A_PLAN: Final = "the human has a plan alone"
-
-
-def least_alone(cost: float) -> str:
-    """Mode ``individual``."""
-    return f"the least cost alone is {cost:.12g}"
-
+LEAST_ALONE: Final = "the least cost alone is {:.12g}"
 
 # -- counter-examples, and what else refutes
 
@@ -92,60 +85,17 @@ def described(example: str, cost: str, objective: str, window: Window | None) ->
     return words if window is None else f"{words}, window [{window.start}, {window.end})"
 
 
-def example_breaks(rule: object) -> str:
-    """A counter-example that is none."""
-    return f"the counter-example breaks a rule: {rule}"
-
-
-def example_unchecked(why: str) -> str:
-    """A counter-example of which nobody could tell whether it is one."""
-    return f"a counter-example could not be checked: {why}"
-
-
-def optimum_is_cheaper(amount: str) -> str:
-    """The answer is an opportunity, against what it says."""
-    return f"the optimum costs less than {amount}, robots idle"
-
-
-def no_cheaper(amount: str) -> str:
-    """The answer is no opportunity, against what it says."""
-    return f"the plan costs no less than {amount}, robots idle"
-
-
-def nothing_costs(amount: str) -> str:
-    """What doing nothing costs, against what the answer says."""
-    return f"doing nothing costs {amount}"
-
-
-def nothing_has_objective(amount: str) -> str:
-    """Doing nothing is below the bound."""
-    return f"doing nothing has the objective {amount}"
-
-
-def without_robots(amount: str) -> str:
-    """Leaving the human alone is below the bound."""
-    return f"without robots it costs {amount}"
-
-
-def figure(name: str, right: float, said: float | None) -> str:
-    """A figure of the result that is wrong."""
-    return f"{name} is {right:g}, the result says {said}"
-
-
-def expected_saving_alone(right: Fraction, said: float | None) -> str:
-    """The same over several goals."""
-    return f"saving_alone is {float(right):.12g}, the answer says {said}"
-
-
-def better_for_all(cost: float, objective: float) -> str:
-    """Robots could do better for several goals."""
-    return f"better for all goals: expected cost {cost:.12g}, objective {objective:.12g}"
-
-
-def bound_expected(right: Fraction) -> str:
-    """A bound that is not what its own statement adds up to."""
-    return f"lower_bound: expected {float(right):g}"
-
+EXAMPLE_BREAKS: Final = "the counter-example breaks a rule: {}"
+EXAMPLE_UNCHECKED: Final = "a counter-example could not be checked: {}"
+OPTIMUM_IS_CHEAPER: Final = "the optimum costs less than {}, robots idle"
+NO_CHEAPER: Final = "the plan costs no less than {}, robots idle"
+NOTHING_COSTS: Final = "doing nothing costs {}"
+NOTHING_HAS_OBJECTIVE: Final = "doing nothing has the objective {}"
+WITHOUT_ROBOTS: Final = "without robots it costs {}"
+FIGURE: Final = "{} is {:g}, the result says {}"
+EXPECTED_SAVING_ALONE: Final = "saving_alone is {:.12g}, the answer says {}"
+BETTER_FOR_ALL: Final = "better for all goals: expected cost {:.12g}, objective {:.12g}"
+BOUND_EXPECTED: Final = "lower_bound: expected {:g}"
 
 # -- proofs
 
@@ -174,19 +124,8 @@ def solved(solver: str, calls: int, columns: int, rows: int) -> str:
     return f"; {solver} solved {programs} of {columns:,} columns and {rows:,} rows: "
 
 
-def walked(states: int) -> str:
-    """What a search through pruned networks looked at."""
-    return f"; {states:,} joint states of what reachability and shortest paths leave searched"
-
-
-def apart(states: int) -> str:
-    """Robots were looked at one by one."""
-    return f"; robots looked at one by one, {states:,} states that they leave behind or lead to"
-
-
-def searched(states: int) -> str:
-    """What an exhaustive search looked at."""
-    return f"; {states:,} states searched exhaustively"
+APART: Final = "; robots looked at one by one, {:,} states that they leave behind or lead to"
+SEARCHED: Final = "; {:,} states searched exhaustively"
 
 
 def optimum(objective: str, cost: str) -> str:
@@ -194,45 +133,14 @@ def optimum(objective: str, cost: str) -> str:
     return f"optimum {cost}" if objective == cost else f"objective {objective}, optimum cost {cost}"
 
 
-def none_below(bound: float) -> str:
-    """The bound holds."""
-    return f"no plan has an objective below {bound:.12g}"
-
-
-def known_bound(bound: float) -> str:
-    """What is known where the rest stays undecided."""
-    return f"; no answer has an objective below {bound:.12g}"
-
-
-def all_played(amount: str) -> str:
-    """Nothing that happens with a human who replans costs less."""
-    return f"everything that robots can do for less than {amount} was played"
-
-
-def whatever_happens(amount: str) -> str:
-    """No joint plan costs less, so nothing that happens with a human who replans does."""
-    return f"no joint plan costs less than {amount}, whatever the human does"
-
-
-def played_again(models: str) -> str:
-    """A plan turned out as promised."""
-    return f"played again, {models}: as the result says"
-
-
-def policy_values(value: str) -> str:
-    """A policy's values fit together."""
-    return f"each value is what a round and the values after it make: {value}"
-
-
-def policy_at_most(value: str) -> str:
-    """What doing nothing is worth is no more than what was known when a limit came."""
-    return f"doing nothing is worth {value} at most"
-
-
-def together_pay(value: str) -> str:
-    """A bound that needs no turns."""
-    return f"both together pay at least {value}"
-
+NONE_BELOW: Final = "no plan has an objective below {:.12g}"
+KNOWN_BOUND: Final = "; no answer has an objective below {:.12g}"
+ALL_CHEAPER_PLAYED: Final = "everything that robots can do for less than {} was played"
+WHATEVER_HAPPENS: Final = "no joint plan costs less than {}, whatever the human does"
+PLAYED_AGAIN: Final = "played again, {}: as the result says"
+POLICY_VALUES: Final = "each value is what a round and the values after it make: {}"
+POLICY_AT_MOST: Final = "doing nothing is worth {} at most"
+TOGETHER_PAY: Final = "both together pay at least {}"
 
 # -- all optimal plans of the human at once
 
@@ -241,6 +149,13 @@ TIE_WITHOUT_ITS_PLAN: Final = "statistics.ties lists an answer that is not the b
 TIES_MISSING: Final = "a mean that was not proved lists an answer for each optimal plan of the human"
 ONE_OF_SEVERAL: Final = "the answer beside one of several optimal plans is not the mean over all of them"
 TIE_WITHOUT_PLAN: Final = "with some optimal pi_H there is no plan"
+OVER_TIES: Final = "the {} cost over {} optimal plans of the human is {:.12g}"
+NO_TIE_IS_DEARER: Final = (
+    "robust over {} optimal plans of the human: none is dearer than leaving them alone, {:.12g}"
+)
+NO_TIE_IS_CHEAPER: Final = "whichever of {} optimal plans the human is on, nothing costs less than {:.12g}"
+TIES_BOUND: Final = "{}, and lower_bound is beyond what {} ties prove"
+TIES_SAVINGS: Final = "{}; expected saving and saving_alone to be {} and {}"
 
 
 def tie_costs(human_plan: tuple[str, ...], cost: float | None) -> str:
@@ -251,30 +166,3 @@ def tie_costs(human_plan: tuple[str, ...], cost: float | None) -> str:
 def tie_breaks(human_plan: tuple[str, ...], why: object) -> str:
     """An answer that is listed is none."""
     return f"statistics.ties: with pi_H = {', '.join(human_plan)}: {why}"
-
-
-def over_ties(ties: str, count: int, cost: Fraction) -> str:
-    """What the answers add up to."""
-    return f"the {ties} cost over {count} optimal plans of the human is {float(cost):.12g}"
-
-
-def no_tie_is_dearer(count: int, cost: float) -> str:
-    """With one plan robots are of no use, and no answer is dearer than that."""
-    return (
-        f"robust over {count} optimal plans of the human: none is dearer than leaving them alone, {cost:.12g}"
-    )
-
-
-def no_tie_is_cheaper(count: int, cost: float) -> str:
-    """Whichever plan the human is on, nothing undercuts the answer."""
-    return f"whichever of {count} optimal plans the human is on, nothing costs less than {cost:.12g}"
-
-
-def ties_bound(words: str, ties: str) -> str:
-    """The bound of an unproved answer is too high."""
-    return f"{words}, and lower_bound is beyond what {ties} ties prove"
-
-
-def ties_savings(words: str, saving: float | None, alone: float | None) -> str:
-    """The savings of a mean are wrong."""
-    return f"{words}; expected saving and saving_alone to be {saving} and {alone}"

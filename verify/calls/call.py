@@ -10,7 +10,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import EXACT, FREE, WINDOW, PricedPlan, Prices, Subproblem, prices
 from verify.base.undecided import UndecidedError
 from verify.calls.methods import decide
-from verify.exhaustive.baseline_without_horizon import cheapest_following
+from verify.exhaustive.by_epochs import cheapest_following
 from verify.programs.effort import Effort, Minimum
 
 Score = tuple[int, int]
@@ -118,7 +118,7 @@ class ExaminedCall:
     def idle_robots_plan(self) -> PricedPlan | None:
         """The cheapest plan in which the human executes ``pi_H`` and robots reach ``G_R`` by themselves."""
         if self.horizon == INFINITE:
-            return self.decided(cheapest_following(self._question(EXACT)))
+            return self.decided(cheapest_following(self._question(EXACT), self.plans))
         question = self._question(EXACT).but(horizon=int(self.horizon))
         return self.decided(decide(question, self.effort, self.plans))
 

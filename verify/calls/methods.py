@@ -13,9 +13,10 @@ from verify.base.small_numbers import with_small_numbers
 from verify.base.subproblem import FREE, PricedPlan, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.exhaustive.beside_plans import answers_all
+from verify.exhaustive.by_epochs import cheapest_by_epochs
 from verify.exhaustive.decoupled.short_windows import is_short, no_short_window
-from verify.exhaustive.epoch_by_epoch import OtherMethodError, answers, cheapest_by_epochs
-from verify.exhaustive.uniform_cost import cheapest
+from verify.exhaustive.epoch_by_epoch import OtherMethodError
+from verify.exhaustive.without_epochs import cheapest
 from verify.limits import PARTS, limits, uses
 from verify.programs.effort import Attempt, Effort, Minimum
 from verify.programs.minimise import minimise
@@ -33,47 +34,42 @@ def _always(question: Subproblem) -> bool:
 
 
 def _is_packed(question: Subproblem) -> bool:
-    """Whether states of the task can be packed."""
+    """True if states of the task can be packed."""
     task = question.task
     return len(task.facts) <= limits().packed_facts and len(task.actions) <= limits().packed_actions
 
 
 def _has_short_windows(question: Subproblem) -> bool:
-    """Whether windows have one epoch, nothing is joint, and the human replans after it."""
+    """True if windows have one epoch, nothing is joint, and the human replans after it."""
     return _is_packed(question) and is_short(question)
 
 
 def _has_many_plans(question: Subproblem) -> bool:
-    """Whether windows open beside any optimal plan, and the human replans after them."""
+    """True if windows open beside any optimal plan, and the human replans after them."""
     return question.has_plain_windows and not question.is_free
 
 
 def _is_without_windows(question: Subproblem) -> bool:
-    """Whether anybody may do anything at any time, for a limited cost."""
+    """True if anybody may do anything at any time, for a limited cost."""
     return question.most is not None and question.rule == FREE and _is_packed(question)
 
 
 def _has_few_actions(question: Subproblem) -> bool:
-    """Whether all joint actions can be compared with each other, under rules that the search knows."""
-    few = len(question.task.actions) <= limits().compared_actions
-    return few and _is_packed(question) and answers(question)
+    """True if all joint actions can be compared with each other."""
+    return len(question.task.actions) <= limits().compared_actions and _is_packed(question)
 
 
 # -- what a method does
 
 
-def _by_programs(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
-    return minimise(question, effort, plans)
-
-
 def _decoupled(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
-    """Whether robots one by one, and then the human alone, leave no plan."""
+    """A proof that robots one by one, and then the human alone, leave no plan."""
     del effort, plans
     return no_short_window(question)
 
 
 def _without_epochs(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
-    """Whether there is no plan even if epochs did not count."""
+    """A proof that there is no plan even if epochs did not count."""
     del plans
     try:
         found = cheapest(question, effort)
@@ -129,7 +125,7 @@ class Method:
 
 TURNS: Final = (
     #      name, what it proves of a question, whether it applies, share, seconds, longer, what it does
-    Method("programs", "optimum", _always, 0.4, 0.4, 10, _by_programs),
+    Method("programs", "optimum", _always, 0.4, 0.4, 10, minimise),
     Method("decoupled", "no plan", _has_short_windows, 0.4, 60, 0, _decoupled),
     Method("without-epochs", "no plan", _is_without_windows, 0.4, 60, 0, _without_epochs),
     Method("exhaustive", "optimum", _has_few_actions, 0.4, 4, 10, _exhaustively),
@@ -252,7 +248,7 @@ def _begins_long(question: Subproblem) -> bool:
 def _note(effort: Effort, name: str, found: Minimum, seconds: float) -> None:
     """Keep what a method has made of a question, and tell of it where anybody logs (``verify -v``)."""
     decided = found.status != "undecided"
-    effort.attempts.append(Attempt(name, decided, found.states, found.paths, seconds))
+    effort.attempts.append(Attempt(name, decided, found.states, seconds))
     if "logging" in sys.modules:  # it takes longer to load than many a certificate
         import logging
 

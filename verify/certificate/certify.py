@@ -287,7 +287,7 @@ class _Certifier:
             if result.human_plan is not None:
                 given = self.task.cost_of(replay_human(self.task, result.human_plan, self.effort.deadline))
                 right = right and agrees(result.saving_alone, given - cost)
-        return "proved" if right else "refuted", wording.least_alone(float(cost)), None
+        return "proved" if right else "refuted", wording.LEAST_ALONE.format(float(cost)), None
 
     def _least_alone(self) -> Fraction | None:
         if self.effort.method == "program":
@@ -308,7 +308,7 @@ class _Certifier:
             verdict, reason = "refuted", str(error)
         seconds, spent = perf_counter() - started, self.effort.since(mark)
         if verdict == "proved" and spent.method == "exhaustive":
-            reason += wording.searched(spent.size["states"])
+            reason += wording.SEARCHED.format(spent.size["states"])
         if is_mean(self.result):
             wanted = ["cost", *wanted]
         for name in wanted:

@@ -60,7 +60,7 @@ class Examiner:
             verdict, reason = "undecided", why(error)
             bound = self._known(error.bound if isinstance(error, UndecidedError) else None)
             if bound is not None:
-                reason += wording.known_bound(bound)
+                reason += wording.KNOWN_BOUND.format(bound)
         seconds = perf_counter() - started
         made, called = effort.attempts[attempts:], effort.calls[calls:]
         if verdict == "proved" and (made or called):
@@ -71,10 +71,10 @@ class Examiner:
         """What decided the questions of a claim."""
         decided = [attempt for attempt in made if attempt.decided]
         states = max((attempt.states for attempt in decided if attempt.name != "decoupled"), default=0)
-        paths = max((attempt.paths for attempt in decided), default=0)
-        words = "".join(wording.apart(attempt.states) for attempt in decided if attempt.name == "decoupled")
-        words += wording.searched(states) if states else ""
-        words += wording.walked(paths) if paths else ""
+        words = "".join(
+            wording.APART.format(attempt.states) for attempt in decided if attempt.name == "decoupled"
+        )
+        words += wording.SEARCHED.format(states) if states else ""
         return words or (self._solved(called) if called else wording.CLOSED)
 
     def _solved(self, calls: list[SolverCall]) -> str:
@@ -106,7 +106,7 @@ class Examiner:
         """A proved optimum costs no less than the answer without robots."""
         idle = idle_cost(self.call)
         if idle is not None and is_help(self.call, self._score()):
-            return "refuted", wording.optimum_is_cheaper(self._amount(idle)), None
+            return "refuted", wording.OPTIMUM_IS_CHEAPER.format(self._amount(idle)), None
         return "proved", wording.NO_LESS_THAN_ALONE, None
 
     def no_opportunity(self) -> Verdict:
@@ -128,7 +128,7 @@ class Examiner:
         """Refutes an opportunity that costs no less than doing without robots."""
         idle, score = idle_cost(self.call), self._score()
         if idle is not None and score[1] >= idle:
-            return "refuted", wording.no_cheaper(self._amount(idle)), None
+            return "refuted", wording.NO_CHEAPER.format(self._amount(idle)), None
         if not is_help(self.call, score):
             return "refuted", wording.AS_WELL_ALONE, None
         return None
@@ -144,7 +144,7 @@ class Examiner:
         assert idle is not None
         fault = self._wrong_savings(call.baseline, idle)
         if fault is None and not result.opportunity and call.options.windowed and cost != call.baseline:
-            return "refuted", wording.nothing_costs(self._amount(call.baseline)), None
+            return "refuted", wording.NOTHING_COSTS.format(self._amount(call.baseline)), None
         return fault
 
     def _wrong_savings(self, baseline: int, idle: int) -> Verdict | None:
@@ -166,15 +166,15 @@ class Examiner:
         least = shift + self._units_at_least(bound)
         nothing = call.do_nothing
         if nothing is not None and nothing[0] < least:
-            return "refuted", wording.nothing_has_objective(self._amount(nothing[0] - shift)), None
+            return "refuted", wording.NOTHING_HAS_OBJECTIVE.format(self._amount(nothing[0] - shift)), None
         if self._robots_alone_undercut(least - shift):
-            return "refuted", wording.nothing_has_objective(self._amount(call.baseline or 0)), None
+            return "refuted", wording.NOTHING_HAS_OBJECTIVE.format(self._amount(call.baseline or 0)), None
         question = self._question().below(least - 1)
         minimum = self._decide(question)
         found = minimum.settled()
         if found is not None:
             return "refuted", wording.BELOW_BOUND, found
-        return "proved", wording.none_below(bound), None
+        return "proved", wording.NONE_BELOW.format(bound), None
 
     def _robots_alone_undercut(self, least: int) -> bool:
         """Whether robots seeing to their own goals beside ``pi_H`` is the answer, and its objective is lower.
@@ -276,6 +276,6 @@ class Examiner:
             opportunity = baseline is not None and found.cost < baseline
             report = self.checker.check(found_result(self.call, found, opportunity=opportunity))
         if not report.ok:
-            raise UndecidedError(wording.example_breaks(report.first))
+            raise UndecidedError(wording.EXAMPLE_BREAKS.format(report.first))
         if report.undecided:
-            raise UndecidedError(wording.example_unchecked(report.stopped or "too hard"))
+            raise UndecidedError(wording.EXAMPLE_UNCHECKED.format(report.stopped or "too hard"))

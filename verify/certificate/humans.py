@@ -45,7 +45,7 @@ class HumanExaminer(Examiner):
     def opportunity_is_cheaper(self) -> Verdict | None:
         """Refutes an opportunity that costs no less than doing without robots."""
         if self._alone is not None and self._score()[1] >= self._alone:
-            return "refuted", wording.no_cheaper(self._amount(self._alone)), None
+            return "refuted", wording.NO_CHEAPER.format(self._amount(self._alone)), None
         return None
 
     def savings(self) -> Verdict | None:
@@ -65,7 +65,7 @@ class HumanExaminer(Examiner):
         assert bound is not None
         least = self._units_at_least(bound)
         if not self.call.robots_goal and self._alone is not None and self._alone < least:
-            return "refuted", wording.without_robots(self._amount(self._alone)), None
+            return "refuted", wording.WITHOUT_ROBOTS.format(self._amount(self._alone)), None
         found = _cheaper(self.call, least)
         if found is not None:
             return "refuted", wording.BELOW_BOUND, found
@@ -94,7 +94,7 @@ class HumanExaminer(Examiner):
     def _played(self, cost: int) -> str:
         made = self.call.effort.attempts
         played = bool(made) and made[-1].method == "exhaustive"
-        return (wording.all_played if played else wording.whatever_happens)(self._amount(cost))
+        return (wording.ALL_CHEAPER_PLAYED if played else wording.WHATEVER_HAPPENS).format(self._amount(cost))
 
 
 def human_cost(call: ExaminedCall) -> Fraction | None:

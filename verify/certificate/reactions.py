@@ -17,7 +17,7 @@ from verify.base.subproblem import FREE, PricedPlan
 from verify.base.undecided import during
 from verify.calls.call import ExaminedCall
 from verify.certificate.simulator import MomentOfPlay, Play, ReplanningPerson
-from verify.exhaustive.uniform_cost import LeastLeft
+from verify.exhaustive.without_epochs import LeastLeft
 from verify.limits import limits
 from verify.programs.effort import Attempt, Minimum
 

@@ -1,4 +1,4 @@
-"""What a result saves, by what doing nothing costs, what the human pays alone at best, and its own cost."""
+"""Savings of a result, by the cost of doing nothing, of the human alone at best, and its own."""
 
 from fractions import Fraction
 
@@ -19,5 +19,7 @@ def savings_fault(result: Result, baseline: Fraction, idle: Fraction, cost: Frac
     alone, saving = baseline - idle, baseline - cost if result.opportunity else Fraction(0)
     is_open = result.saving_alone is None and result.status == "feasible"  # a limit came first
     if not is_open and not agrees(result.saving_alone, alone):
-        return wording.figure("saving_alone", float(alone), result.saving_alone)
-    return None if agrees(result.saving, saving) else wording.figure("saving", float(saving), result.saving)
+        return wording.FIGURE.format("saving_alone", float(alone), result.saving_alone)
+    if not agrees(result.saving, saving):
+        return wording.FIGURE.format("saving", float(saving), result.saving)
+    return None

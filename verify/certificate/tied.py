@@ -1,4 +1,4 @@
-"""Whether an answer over all optimal plans of the human has the right answers in it (semantics 1)."""
+"""Claims of an answer over all optimal plans of the human: the answers in it are right (semantics 1)."""
 
 from collections import Counter
 from collections.abc import Callable
@@ -48,9 +48,9 @@ def combined(task: Task, result: Result, effort: Effort, plans: OptimalPlans) ->
     if fault is not None:
         return "refuted", fault
     if worst:
-        return "proved", wording.no_tie_is_dearer(each.graph.count, result.cost or 0.0)
+        return "proved", wording.NO_TIE_IS_DEARER.format(each.graph.count, result.cost or 0.0)
     if best and result.objective == _objective(result, each):
-        return "proved", wording.no_tie_is_cheaper(each.graph.count, result.cost or 0.0)
+        return "proved", wording.NO_TIE_IS_CHEAPER.format(each.graph.count, result.cost or 0.0)
     fault = _unachieved(result, each, plans) if result.status == "feasible" else None
     if fault is not None:
         return "refuted", fault
@@ -148,12 +148,12 @@ def _unachieved(result: Result, each: EachPlan, plans: OptimalPlans) -> str | No
 def _mean_fault(result: Result, found: Counter[AchievedFigures]) -> str | None:
     cost, objective = (_mean(found, lambda each: each.cost), _mean(found, lambda each: each.objective))
     if not agrees(result.cost, cost) or not agrees(result.objective, objective):
-        return wording.over_ties("expected", found.total(), cost)
+        return wording.OVER_TIES.format("expected", found.total(), float(cost))
     saving = None if any(each.saving is None for each in found) else _mean(found, lambda each: each.saving)
     alone = None if saving is None or result.saving_alone is None else Fraction(0)
     if not agrees(result.saving, saving) or not agrees(result.saving_alone, alone):
-        words = wording.over_ties("expected", found.total(), cost)
-        return wording.ties_savings(words, rounded(saving), rounded(alone))
+        words = wording.OVER_TIES.format("expected", found.total(), float(cost))
+        return wording.TIES_SAVINGS.format(words, rounded(saving), rounded(alone))
     return None
 
 
@@ -172,11 +172,11 @@ def _compared(result: Result, known: Counter[SolvedPlan], each: EachPlan) -> Ver
     else:
         cost = (min if ties == "optimistic" else max)(solved.cost or Fraction(0) for solved in known)
         objective = min(_net(solved, result) for solved in known)
-    words, least = wording.over_ties(ties, count, cost), objective
+    words, least = wording.OVER_TIES.format(ties, count, float(cost)), objective
     if result.status != "optimal":
         assert result.lower_bound is not None, "a rule"
         if excess(result.lower_bound, least) > 0:
-            return "refuted", wording.ties_bound(words, ties)
+            return "refuted", wording.TIES_BOUND.format(words, ties)
         return "proved", words
     if result.plan is not None:  # one of the answers, which has an objective of its own
         least = _objective(result, each)
@@ -187,7 +187,7 @@ def _compared(result: Result, known: Counter[SolvedPlan], each: EachPlan) -> Ver
         if all(solved.saving is not None for solved in known):
             saving, alone = _mean(known, lambda solved: solved.saving), Fraction(0)
         if not agrees(result.saving, saving) or not agrees(result.saving_alone, alone):
-            return "refuted", wording.ties_savings(words, rounded(saving), rounded(alone))
+            return "refuted", wording.TIES_SAVINGS.format(words, rounded(saving), rounded(alone))
     return "proved", words
 
 

@@ -16,7 +16,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from serendipity.model import Deadline, HumanPlan
+from serendipity.model import HumanPlan
 from verify.base.execution import facts_of_his
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.plan_graph import OptimalPlanGraph
@@ -28,10 +28,9 @@ from verify.exhaustive.team import TeamEpochs
 from verify.exhaustive.team_problem import team_problem
 from verify.limits import limits
 from verify.packed.layout import Words
-from verify.packed.operators import Ints, OperatorTable
-from verify.packed.pattern import FAR
+from verify.packed.least_paid import LeastPaid
+from verify.packed.operators import FAR, Ints, OperatorTable
 from verify.packed.problem import TooLargeError
-from verify.packed.state_table import StateTable
 
 Score = tuple[int, int]
 """Objective and cost, in units."""
@@ -41,7 +40,7 @@ _NONE: Final = np.zeros(0, np.int64)
 
 
 def answers_all(question: Subproblem) -> bool:
-    """Whether the method knows a question's rules."""
+    """True if the method knows a question's rules."""
     longest = question.options.max_window
     whole = longest is None or longest >= question.horizon
     unlimited = question.most_cost is None and not any(question.prices.talk)
@@ -72,30 +71,8 @@ class _Strand:
     moves: dict[int, int] = field(default_factory=dict)
 
 
-class _Worths:
-    """What states are worth, looked up by state.
-
-    Args:
-        states: different ones.
-        worth: of each.
-        deadline: asked for memory.
-    """
-
-    def __init__(self, states: Words, worth: Ints, deadline: Deadline) -> None:
-        self._table = StateTable(states.shape[1], deadline)
-        numbers, _ = self._table.numbers(states)
-        self._worth = np.full(len(states), FAR)
-        self._worth[numbers] = worth
-
-    def of(self, states: Words) -> Ints:
-        """What some states are worth; ``FAR`` where that is not known."""
-        numbers, new = self._table.numbers(states)
-        self._worth = np.concatenate((self._worth, np.full(len(new), FAR)))
-        return self._worth[numbers]
-
-
 class HelpBesidePlans:
-    """What windows allow beside every optimal plan of the human.
+    """The best help in a window beside every optimal plan of the human.
 
     Args:
         question: of one of the plans; which one does not matter.
@@ -188,7 +165,7 @@ class HelpBesidePlans:
         return following
 
     def _beside(self, front: Front, action: int) -> Front:
-        """What robots can have brought about when the human has done one more step, in order."""
+        """The states, in order, that robots can have brought about when the human has done one more step."""
         self._deadline.check()
         if not len(front.states):
             return front
@@ -214,15 +191,17 @@ class HelpBesidePlans:
 
     def _merged(self, fronts: list[Front]) -> Front:
         """Each state once, at its least price."""
-        table = StateTable(self._layout.words, self._deadline)
-        least = np.zeros(0, np.int64)
+        known = LeastPaid(self._layout.words, self._deadline)
         for front in fronts:
-            self._deadline.check()
-            numbers, new = table.numbers(front.states)
-            least = np.concatenate((least, np.full(len(new), FAR)))
-            np.minimum.at(least, numbers, front.paid)
-        self.states += len(least)
-        return Front(table.rows.copy(), least)
+            known.offer(front.states, front.paid)
+        self.states += len(known.paid)
+        return Front(known.states.copy(), known.paid)
+
+    def _worths(self, states: Words, worth: Ints) -> LeastPaid:
+        """The worth of different states, to be looked up by state."""
+        known = LeastPaid(self._layout.words, self._deadline)
+        known.offer(states, worth)
+        return known
 
     def _hopeful(self, front: Front, rest: int) -> Front:
         """The states that may still lead to a score within the limit; ``rest`` has to be paid in any case."""
@@ -233,7 +212,7 @@ class HelpBesidePlans:
         return Front(front.states[kept], front.paid[kept])
 
     def _value(self) -> None:
-        """What each state in which a window may open is worth, from the last epoch backwards."""
+        """The worth of each state in which a window may open, from the last epoch backwards."""
         horizon, nobody = self._question.horizon, Front(np.zeros((0, self._layout.words), np.uint64), _NONE)
         inside = [nobody]
         for epoch in range(1, horizon + 1):
@@ -252,7 +231,7 @@ class HelpBesidePlans:
 
     def _onward(self, states: Words, following: Front, worth: Ints) -> Ints:
         """The least score of one more epoch of the window and what follows."""
-        known = _Worths(following.states, worth, self._deadline)
+        known = self._worths(following.states, worth)
         least = np.full(len(states), FAR)
         for piece in self._team.steps(states):
             rest = known.of(piece.after)
@@ -273,8 +252,8 @@ class HelpBesidePlans:
         return found
 
     def _open(self, strands: list[_Strand], opening: Front, worth: Ints) -> None:
-        """What windows that open now are worth beside each strand."""
-        known = _Worths(opening.states, worth, self._deadline)
+        """The worth of windows that open now, beside each strand."""
+        known = self._worths(opening.states, worth)
         for strand in strands:
             if len(strand.front.states):
                 rest = known.of(strand.front.states)

@@ -1,286 +1,298 @@
-"""All plans of a question, epoch by epoch: dynamic programming over states with what was paid.
+"""Exhaustive search of a question epoch by epoch: dynamic programming over states with what was paid.
 
-Every state that some plan leads to is kept once for each epoch and part of the plan (prefix, window), at
-its least cost.  Within a window a state that was there in an earlier epoch at no higher cost is left out:
-whoever can wait loses nothing by being early (semantics 1).  From the ends of windows on the human is
-alone: one search from all of them, each with what was paid there, finds the cheapest completion.
+A layer holds the states after an epoch that share a *stage*: what the human may do from there on, as their
+control automaton has it (:mod:`verify.base.control`).  Each state is kept once, at its least cost; where cost
+is limited beside the objective, stages also tell apart how much of the objective is no cost, so that the
+cheapest way is the best for both.  Wherever the rest of a plan may be waiting for nothing, a state that an
+earlier epoch had at no higher cost is left out: whoever can wait loses nothing by being early (semantics 1).
+Suffixes that are replanned are no stages: from the ends of windows on the human is alone, so one search from
+all of them, each with what was paid there, finds the cheapest completion.
 
 States are left out whose cost and a lower bound on what follows pass the question's limit.  The bounds are
 those of ``verify.packed``: everybody's actions one after the other, with actions that only work together
 as one.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from serendipity.model import LimitReachedError, Step, Window
 from serendipity.model.errors import LIMITS, limit_reason
-from verify.base.execution import State, states_along
+from verify.base.control import ALL, INSIDE, OWN, PREFIX, SUFFIX, Control, HumanControl, Leg
+from verify.base.execution import State, by_epoch, states_along
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.relevance import Relevant, relevant_part
-from verify.base.subproblem import EXACT, FREE, WINDOW, PricedPlan, Subproblem, in_plan
-from verify.base.undecided import UndecidedError, during
+from verify.base.relevance import Relevant
+from verify.base.subproblem import EXACT, FREE, WINDOW, PricedPlan, Subproblem
+from verify.base.undecided import UndecidedError
 from verify.exhaustive.layers import EpochLayer, advance, first
 from verify.exhaustive.team import NOBODY, Steps, TeamEpochs
 from verify.exhaustive.team_problem import as_operator, team_problem
 from verify.limits import limits
-from verify.packed.cheapest_path import TooManyPackedStatesError
+from verify.packed.cheapest_path import SumTooLargeError, TooManyPackedStatesError
 from verify.packed.layout import Words
-from verify.packed.operators import Ints, OperatorTable
-from verify.packed.pattern import FAR
-from verify.packed.problem import PackedProblem, TooLargeError
-from verify.packed.state_table import StateTable
+from verify.packed.least_paid import LeastPaid
+from verify.packed.operators import FAR, Ints, OperatorTable, PackedOperator
+from verify.packed.problem import PackedProblem
 from verify.programs.effort import Minimum
 from verify.programs.mending import best_suffix, replay
+
+_NO_REPLAY: Final = "a plan of the exhaustive search does not replay"
 
 
 class OtherMethodError(UndecidedError):
     """A question that this method does not answer."""
 
 
-def answers(question: Subproblem) -> bool:
-    """Whether the method knows the question's rules."""
-    return question.replans or question.rule in (FREE, EXACT)
+class Stage(NamedTuple):
+    """A part of the plan that the states of a layer share.
 
-
-def cheapest_by_epochs(question: Subproblem, plans: OptimalPlans, *, bounded: bool) -> Minimum:
-    """The plan of least objective.
-
-    Args:
-        question: with a horizon of at least 1.
-        plans: the human's optimal plans.
-        bounded: whether lower bounds spare the search states; else only what was paid does.
-
-    Raises:
-        OtherMethodError: the question is not one for this method.
-        LimitReachedError: the deadline came before the search began.
+    Attributes:
+        control: the human's control state.
+        extra: units of the objective that are no cost, where a limit on cost tells them apart; else 0.
     """
-    if not answers(question):
-        raise OtherMethodError("the exhaustive method replans suffixes, and preserves kernels")
-    with during("preparing an exhaustive search"):
-        part = relevant_part(question)
-        if part is None:
-            return Minimum("none")
-        if len(part.actions) > limits().compared_actions:
-            raise OtherMethodError(f"the exhaustive method takes {limits().compared_actions} actions at most")
-        try:
-            search = _Search(question, part, plans, bounded=bounded)
-        except TooLargeError:
-            raise OtherMethodError("the task is too large for the exhaustive method") from None
-    return replace(search.run(), states=search.states)
+
+    control: Control
+    extra: int = 0
 
 
-class _Search:
+class EpochSearch:
     """One question.
 
     Attributes:
         states: how many were looked at.
     """
 
-    def __init__(self, question: Subproblem, part: Relevant, plans: OptimalPlans, *, bounded: bool) -> None:
-        actions, facts = part.actions, part.facts
-        task, deadline = question.task, question.deadline
+    def __init__(
+        self,
+        question: Subproblem,
+        part: Relevant,
+        control: HumanControl,
+        plans: OptimalPlans,
+        *,
+        bounded: bool,
+        exact: bool,
+    ) -> None:
+        task, deadline, actions, prices = question.task, question.deadline, part.actions, question.prices
         self._question, self._plans, self._deadline = question, plans, deadline
+        self._control, self._facts, self._actions = control, part.facts, actions
         self.states = 0
-        self._actions = actions
-        self._numbers = {i: k for k, i in enumerate(actions)}
-        strict = question.options.strict
-        team = team_problem(question, part, bounded=bounded)
-        singles, space, self._team_problem = team.singles, team.space, team.problem
-        self._goal = self._team_problem.goal
-        self._layout = self._team_problem.layout
-        # a unit of cost weighs more than all actions that there is time for
-        self._unit = question.horizon + 1
-        if (question.largest + question.an_epoch + 1) * self._unit > limits().weight:
-            raise TooLargeError
-        table = OperatorTable(self._layout, singles)
-        self._team = TeamEpochs(task, actions, table, deadline, strict=strict)
-        self._table = table
-        his = [i for i in actions if task.actions[i].participants == (task.human,)]
-        own = [as_operator((task.actions[i],), question.prices.team[i] * self._unit + 1) for i in his]
-        alone = list(task.goal.positive), list(task.goal.negative)
-        self._alone = PackedProblem(space, facts, own, alone, deadline, bounded=bounded)
-        assert not self._layout.differs(self._alone.layout), "the same facts"
-        self._epoch = question.prices.epoch if question.rule == WINDOW else 0
-        self._free = question.rule == FREE or question.is_free
+        self._whole = team_problem(question, part, bounded=bounded, exact=exact)
+        self._problem, self._layout = self._whole.problem, self._whole.problem.layout
+        self._table = OperatorTable(self._layout, self._whole.singles, exact=exact)
+        self._team = TeamEpochs(task, actions, self._table, deadline, strict=question.options.strict)
+        self._own = [i for i in actions if task.actions[i].participants == (task.human,)]
+        self._unit = question.horizon + 1  # weighs more than all actions that there is time for
+        own = [as_operator((task.actions[i],), prices.team[i] * self._unit + 1) for i in self._own]
+        goal = task.goal.positive, task.goal.negative
+        self._alone = self._alike(own, goal) if question.replans else None
+        self._most = question.largest
+        self._epoch = prices.epoch if question.rule == WINDOW else 0
+        self._talk = prices.talk if any(prices.talk) else None
+        self._told_apart = question.most_cost is not None and bool(self._epoch or self._talk)
         self._layers: list[EpochLayer] = []
+        self._stages: list[Stage] = []
+        self._earlier: dict[Stage, LeastPaid] = {}
         self._known: int | None = None
-        self._prefixes = {0}
         self._best: PricedPlan | None = None
 
     # -- the whole
 
     def run(self) -> Minimum:
-        """Answer the question."""
+        """The plan of least objective."""
+        return self._answered(self._run)
+
+    def run_on(self) -> Minimum:
+        """The cheapest plan if robots go on after the last epoch, for as long as they like."""
+        return self._answered(self._run_on)
+
+    def _answered(self, ask: Callable[[], Minimum]) -> Minimum:
         try:
-            return self._run()
+            return ask()
+        except SumTooLargeError:
+            raise
         except LIMITS as limit:
             doing = f"searching exhaustively, {self.states:,} states so far"
             reason = str(LimitReachedError(limit_reason(limit), doing))
-            return Minimum("undecided", self._best, self._bound(), reason)
         except TooManyPackedStatesError as error:
             reason = str(error) or "there are too many states"
-            return Minimum("undecided", self._best, self._bound(), reason)
-
-    def _bound(self) -> int | None:
-        """What is known of the objective before all was looked at."""
-        return None if self._known is None else min(self._known, self._limit(self._question.horizon) + 1)
+        bound = None if self._known is None else min(self._known, self._limit() + 1)
+        return Minimum("undecided", self._best, bound, reason)
 
     def _run(self) -> Minimum:
-        question = self._question
-        start = self._team_problem.pack([question.task.init])
+        start = self._problem.pack([self._question.task.init])
         assert start is not None, "the initial state is reached"
-        least = int(self._team_problem.bounds(start)[0])
-        if least >= FAR:
+        least_left = int(self._problem.bounds(start)[0])
+        if least_left >= FAR:
             return Minimum("none")
-        self._known = least + self._epoch
-        begin = first(start, len(self._team.order))
-        if self._free:
-            if self._without_epochs(start):
-                return Minimum("none")
-            self._windows(begin)
-        elif question.rule == EXACT:
-            self._exactly(begin)
-        else:
-            self._windows(begin)
+        self._known = least_left + self._epoch
+        if self._question.rule == FREE and self._none_without_epochs(start):
+            return Minimum("none")
+        ends = self._all_epochs(first(start, len(self._team.order)))
+        for extra, places in ends.items():
+            self._complete(places, extra)
         return Minimum("none") if self._best is None else Minimum("found", self._best, self._best.objective)
 
-    def _without_epochs(self, start: Words) -> bool:
-        """Whether there is no plan even if epochs did not count: one action after the other."""
-        below = self._limit(0) + 1
-        search, found = self._team_problem.search(start, np.zeros(1, np.int64), below)
+    def _run_on(self) -> Minimum:
+        self._most, task = self._table.far, self._question.task
+        start = self._problem.pack([task.init])
+        assert start is not None, "the initial state is reached"
+        self._all_epochs(first(start, len(self._team.order)))
+        last = len(self._layers) - 1
+        if last < self._question.horizon:
+            return Minimum("none")
+        layer, every = self._layers[last], zip(self._whole.sets, self._problem.table.operators, strict=True)
+        left = [
+            (i, one) for i, one in every if not any(task.human in task.actions[k].participants for k in i)
+        ]
+        problem = self._alike([one for _, one in left], self._whole.goal)
+        search, found = problem.search(layer.states, layer.paid)
+        if found is None:
+            return Minimum("none")
+        begin, path = search.path(found)
+        row = int(np.flatnonzero((layer.states == search.row(begin)).all(axis=1))[0])
+        after = enumerate((left[k][0] for k in path), start=last + 1)
+        steps = self._steps(last, row) + tuple(Step(epoch, i) for epoch, chosen in after for i in chosen)
+        cost = search.paid(found)
+        return Minimum("found", PricedPlan(steps, None, cost, cost), cost)
+
+    def _alike(
+        self, operators: Sequence[PackedOperator], goal: tuple[Sequence[int], Sequence[int]]
+    ) -> PackedProblem:
+        """A problem over the same states: what some of the agents may do, one action after the other."""
+        whole = self._problem
+        bounded, exact = whole.bounded, whole.exact
+        space, deadline = self._whole.space, self._deadline
+        found = PackedProblem(space, self._facts, operators, goal, deadline, bounded=bounded, exact=exact)
+        assert not self._layout.differs(found.layout), "the same facts"
+        return found
+
+    def _none_without_epochs(self, start: Words) -> bool:
+        """True if there is no plan even if epochs did not count: one action after the other."""
+        below = (self._limit_with(0) if self._talk is None else self._limit()) + 1
+        search, found = self._problem.search(start, np.zeros(1, np.int64), below)
         self.states += search.states
         if found is not None:
             self._known = search.paid(found)
         return found is None
 
-    def _ages(self) -> int | None:
-        """The greatest length where windows of different lengths have to be told apart; else None."""
-        question = self._question
-        longest = question.options.max_window
-        counted = question.rule == WINDOW and longest is not None and longest < question.horizon
-        if counted or (question.most_cost is not None and self._epoch):
-            return min(longest or question.horizon, question.horizon)
-        return None
+    def _limit(self) -> int:
+        """The greatest objective that is still asked for."""
+        return self._most if self._best is None else min(self._most, self._best.objective - 1)
 
-    def _limit(self, length: int) -> int:
-        """The greatest objective that is still asked for, with a window of some length, or less."""
-        question = self._question
-        given = [question.largest]
-        if question.most_cost is not None and not any(question.prices.talk):
-            given.append(question.most_cost + self._epoch * length)
-        if self._best is not None:
-            given.append(self._best.objective - 1)
-        return min(given)
+    def _limit_with(self, extra: int) -> int:
+        """The same for plans of whose objective so much is no cost."""
+        most_cost = self._question.most_cost
+        return self._limit() if most_cost is None else min(self._limit(), most_cost + extra)
 
     # -- epochs
 
-    def _hopeful(self, states: Words, paid: Ints, rest: int, limit: int) -> Ints:
-        """The states that may lead to an objective within the limit."""
-        self.states += len(states)
-        total = paid + self._team_problem.bounds(states) + rest
-        return np.flatnonzero(total <= limit)
-
-    def _exactly(self, begin: EpochLayer) -> None:
-        """The human executes ``pi_H``; robots reach all goals."""
-        self._layers = [begin]
+    def _all_epochs(self, begin: EpochLayer) -> dict[int, list[tuple[int, int]]]:
+        """All layers; the ends of windows after which the human replans, as layers and epochs, by extra."""
+        self._layers, self._stages = [begin], [Stage(self._control.start)]
+        here = [0]
+        completed: dict[int, list[tuple[int, int]]] = {}
         for epoch in range(1, self._question.horizon + 1):
-            self._layers.append(self._prefix(epoch - 1, epoch))
-        self._close([(self._question.horizon, self._question.horizon)], 0)
-
-    def _windows(self, begin: EpochLayer) -> None:
-        """All windows; without rules the window is all there is.
-
-        Where lengths of windows are told apart, there is a layer for each; else all are in one.
-        """
-        question, oldest = self._question, self._ages()
-        self._layers = [begin]
-        prefix = 0
-        self._prefixes = {0}
-        inside: dict[int, int] = {}
-        ends: dict[int, list[tuple[int, int]]] = {}
-        known, least = StateTable(self._layout.words, self._deadline), np.zeros(0, np.int64)
-        for epoch in range(1, question.horizon + 1):
-            opens = epoch == 1 if self._free else epoch <= len(question.human_plan)
-            before, inside = inside, {}
-            for age in range(1, (oldest or 1) + 1):
-                sources = [before[age - (oldest is not None)]] if age - (oldest is not None) in before else []
-                if opens and age == 1:
-                    sources.append(prefix)
-                layer = self._inside([n for n in sources if len(self._layers[n])], age if oldest else None)
-                if oldest is None:
-                    layer, least = self._improved(layer, known, least)
+            following: dict[Stage, list[tuple[int, EpochLayer, Iterator[Steps]]]] = {}
+            for number in here:
+                for stage, steps in self._onward(number, epoch):
+                    following.setdefault(stage, []).append((number, self._layers[number], steps))
+            here = []
+            for stage, sources in following.items():
+                layer = self._advanced(stage, sources)
                 if len(layer):
-                    inside[age] = len(self._layers)
-                    ends.setdefault(age, []).append((len(self._layers), epoch))
+                    here.append(len(self._layers))
                     self._layers.append(layer)
-            if not self._free:
-                following = self._prefix(prefix, epoch)
-                prefix = len(self._layers)
-                self._prefixes.add(prefix)
-                self._layers.append(following)
-            if not inside and (self._free or not len(self._layers[prefix])):
+                    self._stages.append(stage)
+                    self._end(here[-1], epoch)
+                    if self._question.replans and stage.control[0] == INSIDE:
+                        completed.setdefault(stage.extra, []).append((here[-1], epoch))
+            if not here:
                 break
-        for age, places in ends.items():
-            self._close(places, age if oldest else question.horizon)
+        return completed
 
-    def _inside(self, sources: list[int], age: int | None) -> EpochLayer:
-        """The states after one more epoch of windows."""
-        limit = self._limit(self._question.horizon if age is None else age)
-        return self._advance(
-            [(n, self._layers[n], self._team.steps(self._layers[n].states)) for n in sources],
-            self._epoch,
-            lambda states, paid: self._hopeful(states, paid, 0, limit),
-        )
+    def _onward(self, number: int, epoch: int) -> Iterator[tuple[Stage, Iterator[Steps]]]:
+        """The stages that may follow a layer, each with the epochs that lead to it."""
+        stage = self._stages[number]
+        for leg in self._control.legs(stage.control, epoch):
+            if leg.after[0] == SUFFIX and self._question.replans:
+                continue
+            for talk, of_human in self._said(self._numbers(leg)):
+                extra = stage.extra + leg.weight + talk if self._told_apart else 0
+                wait = leg.wait and not talk
+                yield Stage(leg.after, extra), self._steps_of(number, leg, of_human, wait=wait)
 
-    def _prefix(self, number: int, epoch: int) -> EpochLayer:
-        """The states after an epoch of the prefix."""
-        question, layer = self._question, self._layers[number]
-        limit, rest = self._limit(question.horizon), self._epoch
-        own: frozenset[int] | set[int] = frozenset()
-        wait = True
-        if question.options.keep_prefix and question.rule == WINDOW:
-            own = in_plan(question.task, question.human_plan).intersection(question.task.human_actions)
-        elif epoch <= len(question.human_plan):
-            own, wait = {question.human_plan[epoch - 1]}, False
-        allowed = np.array(sorted(self._numbers[i] for i in own if i in self._numbers), np.int64)
-        return self._advance(
-            [(number, layer, self._team.steps(layer.states, allowed, wait=wait))],
-            0,
-            lambda states, paid: self._hopeful(states, paid, rest, limit),
-        )
+    def _numbers(self, leg: Leg) -> Ints | None:
+        """The actions that the human may take part in, as the table numbers them; None: any."""
+        if leg.actions == ALL:
+            return None
+        allowed = self._own if leg.actions == OWN else leg.actions
+        return np.array([k for k, i in enumerate(self._actions) if i in allowed], np.int64)
 
-    def _advance(
-        self,
-        steps: list[tuple[int, EpochLayer, Iterator[Steps]]],
-        extra: int,
-        hopeful: Callable[[Words, Ints], Ints],
-    ) -> EpochLayer:
-        agents = len(self._team.order)
-        return advance(steps, extra, hopeful, self._layout.words, agents, self._deadline)
+    def _said(self, of_human: Ints | None) -> Iterator[tuple[int, Ints | None]]:
+        """The same by the cost of communication, where that is told apart."""
+        if self._talk is None or not self._told_apart:
+            yield 0, of_human
+            return
+        talk = np.array([self._talk[i] for i in self._actions], self._table.weight.dtype)
+        numbers = self._team.of_human if of_human is None else of_human
+        for amount in sorted({0, *talk[numbers].tolist()}):
+            yield amount, numbers[talk[numbers] == amount]
 
-    def _improved(self, layer: EpochLayer, known: StateTable, least: Ints) -> tuple[EpochLayer, Ints]:
-        """The states of a layer that no earlier epoch had at no higher cost; and the least costs so far."""
-        numbers, new = known.numbers(layer.states)
-        least = np.concatenate((least, np.full(len(new), FAR)))
-        better = np.flatnonzero(layer.paid < least[numbers])
-        least[numbers[better]] = layer.paid[better]
-        return layer.only(better), least
+    def _steps_of(self, number: int, leg: Leg, of_human: Ints | None, *, wait: bool) -> Iterator[Steps]:
+        """The epochs from a layer that a leg allows."""
+        states = self._layers[number].states
+        rows = np.arange(len(states))
+        needs = leg.needs & self._facts
+        if needs:
+            rows = np.flatnonzero(self._table.test(sorted(needs), ())(states))
+        robots = leg.after[0] != SUFFIX
+        for steps in self._team.steps(states[rows], of_human, wait=wait, robots=robots):
+            yield replace(steps, before=rows[steps.before], cost=steps.cost + leg.weight)
+
+    def _advanced(self, stage: Stage, sources: list[tuple[int, EpochLayer, Iterator[Steps]]]) -> EpochLayer:
+        def hopeful(states: Words, paid: Ints) -> Ints:
+            self.states += len(states)
+            window = self._epoch if stage.control[0] == PREFIX else 0
+            total = paid + self._problem.bounds(states)
+            cost = total if self._talk is None else paid  # with talk the bound is none on cost alone
+            return np.flatnonzero((total + window <= self._limit()) & (cost <= self._limit_with(stage.extra)))
+
+        layer = advance(sources, hopeful, self._table, len(self._team.order), self._deadline)
+        return self._improved(stage, layer) if self._may_rest(stage.control) else layer
+
+    def _may_rest(self, control: Control) -> bool:
+        """True if all that is left of a plan may be waiting, for nothing."""
+        rule = self._question.rule
+        return rule != EXACT if rule != WINDOW else control[0] != PREFIX
+
+    def _improved(self, stage: Stage, layer: EpochLayer) -> EpochLayer:
+        """The states of a layer that no earlier epoch had in this stage at no higher cost."""
+        if stage not in self._earlier:
+            dtype = self._table.weight.dtype
+            self._earlier[stage] = LeastPaid(self._layout.words, self._deadline, dtype=dtype)
+        _, better = self._earlier[stage].offer(layer.states, layer.paid)
+        return layer.only(np.sort(better))
 
     # -- ends
 
-    def _close(self, places: list[tuple[int, int]], length: int) -> None:
-        """The best plan whose window, of this length at most, ends with one of some layers."""
-        for number, epoch in places:
-            layer = self._layers[number]
-            reached = np.flatnonzero(self._goal(layer.states))
-            if len(reached):
-                row = int(reached[np.argmin(layer.paid[reached])])
-                self._offer(number, row, epoch, ())
-        if self._free or self._question.rule != WINDOW:
+    def _end(self, number: int, epoch: int) -> None:
+        """The best plan of which all that is left after an epoch is waiting."""
+        control, layer = self._stages[number].control, self._layers[number]
+        if epoch < self._question.horizon and not self._may_rest(control):
             return
+        there = self._problem.goal(layer.states)
+        for needs in self._control.accepts(control):
+            test = self._table.test(sorted(needs & self._facts), ())
+            reached = np.flatnonzero(there & test(layer.states))
+            if len(reached):
+                self._offer(number, int(reached[np.argmin(layer.paid[reached])]), epoch, ())
+
+    def _complete(self, places: list[tuple[int, int]], extra: int) -> None:
+        """The cheapest of all ends with what the human pays from there on, alone."""
+        assert self._alone is not None, "the human replans"
         layers = [(self._layers[number], number, epoch) for number, epoch in places]
         states = np.concatenate([layer.states for layer, _, _ in layers])
         paid = np.concatenate([layer.paid for layer, _, _ in layers])
@@ -290,17 +302,12 @@ class _Search:
                 for la, n, e in layers
             ]
         )
-        self._complete(states, paid, where, length)
-
-    def _complete(self, states: Words, paid: Ints, where: Ints, length: int) -> None:
-        """The cheapest of all ends with what the human pays from there on, alone."""
         still = where[:, 2] < self._question.horizon
         for _ in range(limits().misfits):
-            limit = self._limit(length)
             rows = np.flatnonzero(still)
             if not len(rows):
                 return
-            below = (limit + 1) * self._unit
+            below = (self._limit_with(extra) + 1) * self._unit
             search, found = self._alone.search(states[rows], paid[rows] * self._unit, below)
             self.states += search.states
             if found is None:
@@ -318,53 +325,45 @@ class _Search:
 
     def _whole_state(self, number: int, row: int) -> State:
         """All facts that are true in a state of a layer."""
-        steps = self._steps(number, row)
-        epochs: dict[int, list[int]] = {}
-        for step in steps:
-            epochs.setdefault(step.epoch, []).append(step.action)
-        count = max(epochs, default=0)
-        strict = self._question.options.strict
-        states = states_along(
-            self._question.task, (epochs.get(t, ()) for t in range(1, count + 1)), strict=strict
-        )
+        sets = by_epoch(self._steps(number, row))
+        epochs = (sets.get(epoch, ()) for epoch in range(1, max(sets, default=0) + 1))
+        states = states_along(self._question.task, epochs, strict=self._question.options.strict)
         if states is None:
-            raise UndecidedError("a plan of the exhaustive search does not replay")
+            raise UndecidedError(_NO_REPLAY)
         return states[-1]
 
-    def _steps(self, number: int, row: int) -> tuple[Step, ...]:
-        """What leads to a state of a layer."""
-        sets: list[list[int]] = []
+    def _way(self, number: int, row: int) -> list[tuple[int, int]]:
+        """The layers, by number, that lead to a state of one of them, each with the row there, in order."""
+        found: list[tuple[int, int]] = []
         while number > 0:
+            found.append((number, row))
             layer = self._layers[number]
-            sets.append([self._actions[k] for k in layer.sets[row].tolist() if k != NOBODY])
             number, row = int(layer.source[row]), int(layer.before[row])
-        epochs = enumerate(reversed(sets), start=1)
-        return tuple(Step(epoch, i) for epoch, chosen in epochs for i in sorted(chosen))
+        return found[::-1]
+
+    def _steps(self, number: int, row: int) -> tuple[Step, ...]:
+        """The steps that lead to a state of a layer."""
+        steps: list[Step] = []
+        for epoch, (n, r) in enumerate(self._way(number, row), start=1):
+            chosen = sorted(self._actions[k] for k in self._layers[n].sets[r].tolist() if k != NOBODY)
+            steps += [Step(epoch, i) for i in chosen]
+        return tuple(steps)
 
     def _offer(self, number: int, row: int, epoch: int, suffix: tuple[int, ...]) -> None:
         """A plan, which may be better than the best so far; it is executed once more with sets of facts."""
         question = self._question
         steps = self._steps(number, row) + tuple(Step(epoch + 1 + k, i) for k, i in enumerate(suffix))
         if replay(question, steps) is None:
-            raise UndecidedError("a plan of the exhaustive search does not replay")
-        window = self._window(number, row, epoch) if question.rule == WINDOW else None
+            raise UndecidedError(_NO_REPLAY)
+        window = self._window(number, row)
         objective, cost = question.measure(steps, window)
-        limits = (question.most is None or objective <= question.most) and (
-            question.most_cost is None or cost <= question.most_cost
-        )
-        if not limits:
-            if question.most_cost is not None and any(question.prices.talk):
-                raise UndecidedError("a limit on cost, and communication that costs")
+        if question.most_cost is not None and cost > question.most_cost:
             return
-        if self._best is None or objective < self._best.objective:
+        if objective <= self._limit():
             self._best = PricedPlan(steps, window, objective, cost)
 
-    def _window(self, number: int, row: int, epoch: int) -> Window:
-        """The window of a plan: its prefix ends with the last layer of prefixes that it goes through."""
-        if self._free:
-            return Window(1, self._question.horizon + 1)
-        length = 0
-        while number not in self._prefixes:
-            layer = self._layers[number]
-            number, row, length = int(layer.source[row]), int(layer.before[row]), length + 1
-        return Window(epoch + 1 - length, epoch + 1)
+    def _window(self, number: int, row: int) -> Window | None:
+        """The window of a plan that leads to a state of a layer."""
+        way = enumerate(self._way(number, row), start=1)
+        inside = [epoch for epoch, (n, _) in way if self._stages[n].control[0] == INSIDE]
+        return Window(inside[0], inside[-1] + 1) if inside else None

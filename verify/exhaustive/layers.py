@@ -8,8 +8,8 @@ import numpy as np
 from serendipity.model import Deadline
 from verify.exhaustive.team import NOBODY, Steps
 from verify.packed.layout import Words
-from verify.packed.operators import Ints
-from verify.packed.state_table import StateTable
+from verify.packed.least_paid import LeastPaid
+from verify.packed.operators import Ints, OperatorTable
 
 
 @dataclass(slots=True)
@@ -48,9 +48,8 @@ def first(states: Words, agents: int) -> EpochLayer:
 
 def advance(
     steps: Iterable[tuple[int, EpochLayer, Iterable[Steps]]],
-    extra: int,
     hopeful: Callable[[Words, Ints], Ints],
-    words: int,
+    operators: OperatorTable,
     agents: int,
     deadline: Deadline,
 ) -> EpochLayer:
@@ -58,31 +57,22 @@ def advance(
 
     Args:
         steps: layers to come from, with their numbers and steps.
-        extra: units that the epoch adds.
         hopeful: the rows of states, with what was paid, that are worth keeping.
-        words: of a state.
+        operators: the team's.
         agents: how many there are.
         deadline: polled.
     """
-    table = StateTable(words, deadline)
-    paid = np.zeros(0, np.int64)
+    known = LeastPaid(operators.layout.words, deadline, dtype=operators.weight.dtype)
     where = np.zeros((0, 2), np.int64)
     sets = np.zeros((0, agents), np.int64)
     for source, layer, pieces in steps:
         for piece in pieces:
-            cost = layer.paid[piece.before] + piece.cost + extra
-            order = np.argsort(-cost, kind="stable")  # the cheapest last: it stays
-            known = table.count
-            numbers, _ = table.numbers(piece.after[order])
-            grown = table.count - known
+            chosen, rows = known.offer(piece.after, layer.paid[piece.before] + piece.cost)
+            grown = len(known.paid) - len(where)
             if grown:
-                paid = np.concatenate((paid, np.full(grown, np.iinfo(np.int64).max)))
                 where = np.concatenate((where, np.zeros((grown, 2), np.int64)))
                 sets = np.concatenate((sets, np.zeros((grown, agents), np.int64)))
-            better = cost[order] < paid[numbers]
-            chosen, kept = numbers[better], order[better]
-            paid[chosen] = cost[kept]
-            where[chosen, 0], where[chosen, 1] = piece.before[kept], source
-            sets[chosen] = piece.sets[kept]
-    layer = EpochLayer(table.rows, paid, where[:, 0], sets, where[:, 1])
+            where[chosen, 0], where[chosen, 1] = piece.before[rows], source
+            sets[chosen] = piece.sets[rows]
+    layer = EpochLayer(known.states, known.paid, where[:, 0], sets, where[:, 1])
     return layer.only(hopeful(layer.states, layer.paid))

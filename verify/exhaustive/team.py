@@ -18,7 +18,7 @@ _AT_ONCE: Final = 100_000
 """Sets of actions that are looked at before the deadline is, again."""
 
 NOBODY: Final = -1
-"""Who waits."""
+"""In the place of an action: the agent waits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +47,10 @@ class TeamEpochs:
         table: the same as operators, whose weights are what they add to the objective.
         strict: interference as in semantics 2.
         deadline: polled.
+
+    Attributes:
+        order: the human, then the robots.
+        of_human: the actions in which the human takes part, by the table's numbers.
     """
 
     def __init__(
@@ -57,17 +61,21 @@ class TeamEpochs:
         self.order = (task.human, *task.robots)
         chosen = [task.actions[i] for i in actions]
         self._with_human = np.array([task.human in action.participants for action in chosen], bool)
+        self.of_human = np.flatnonzero(self._with_human)
         rank = {agent: k for k, agent in enumerate(self.order)}
         self._first = np.array([min(rank[a] for a in action.participants) for action in chosen], np.int64)
         self._apart = excluding(chosen, len(task.facts), len(task.agents), strict=strict)
 
-    def steps(self, states: Words, of_human: Ints | None = None, *, wait: bool = True) -> Iterator[Steps]:
+    def steps(
+        self, states: Words, of_human: Ints | None = None, *, wait: bool = True, robots: bool = True
+    ) -> Iterator[Steps]:
         """All epochs from some states, in pieces.
 
         Args:
             states: rows.
-            of_human: what the human may do, by the table's numbers, nothing of it jointly; None: anything.
+            of_human: what the human may take part in, by the table's numbers; None: anything.
             wait: whether the human may do nothing.
+            robots: whether robots may act without the human.
 
         Raises:
             LimitReachedError: the deadline came first.
@@ -76,13 +84,14 @@ class TeamEpochs:
         for first in range(0, len(states), at_once):
             self._deadline.check()
             some = states[first : first + at_once]
-            for steps in self._steps(some, of_human, wait=wait):
+            for steps in self._steps(some, of_human, wait=wait, robots=robots):
                 yield replace(steps, before=steps.before + first)
 
-    def _steps(self, states: Words, of_human: Ints | None, *, wait: bool) -> Iterator[Steps]:
+    def _steps(self, states: Words, of_human: Ints | None, *, wait: bool, robots: bool) -> Iterator[Steps]:
         rows, operators = self._table.applicable(states)
-        if of_human is not None:
-            fits = ~self._with_human[operators] | np.isin(operators, of_human)
+        if of_human is not None or not robots:
+            his = self._with_human[operators] if of_human is None else np.isin(operators, of_human)
+            fits = his | ~self._with_human[operators] if robots else his
             rows, operators = rows[fits], operators[fits]
         lists = []
         product = np.ones(len(states), np.int64)
@@ -120,7 +129,7 @@ class TeamEpochs:
                 fits[both] &= ~self._apart[own[both], others[both]]
             before = before[fits]
             sets = np.concatenate((sets[which][fits], own[fits, None]), axis=1)
-        after, cost = states[before], np.zeros(len(before), np.int64)
+        after, cost = states[before], np.zeros(len(before), self._table.weight.dtype)
         for own in sets.T:
             acts = own != NOBODY
             after[acts] = self._table.after(after[acts], own[acts])

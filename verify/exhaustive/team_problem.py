@@ -1,26 +1,19 @@
 """The whole team as a problem over packed states: one action after the other, circles of actions as one."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-import numpy as np
-
-from serendipity.model import Deadline, GroundAction, LimitReachedError, Step
-from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model import GroundAction
 from verify.base.relevance import Relevant
-from verify.base.subproblem import PricedPlan, Subproblem, least
+from verify.base.subproblem import Subproblem
 from verify.exhaustive.circles import circles
-from verify.limits import uses
-from verify.packed.affordable import affordable
-from verify.packed.cheapest_path import TooManyPackedStatesError
 from verify.packed.operators import PackedOperator
 from verify.packed.problem import PackedProblem, StateSpace
-from verify.programs.effort import Minimum
 
 
 @dataclass(frozen=True, slots=True)
 class TeamProblem:
-    """What the team may do, over packed states.
+    """The team's planning problem over packed states.
 
     Attributes:
         space: what may be true.
@@ -36,53 +29,44 @@ class TeamProblem:
     sets: list[tuple[int, ...]]
     goal: tuple[tuple[int, ...], tuple[int, ...]]
 
-    def below(self, most: int, start: frozenset[int], deadline: Deadline) -> "TeamProblem | None":
-        """The same with what a plan for less than ``most`` may have; None: there is no such plan.
 
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
-        facts, operators = frozenset(self.problem.layout.place), self.problem.table.operators
-        left = affordable(operators, facts, self.goal[0], start, most, deadline)
-        if left is None:
-            return None
-        if len(left) == len(operators):
-            return self
-        kept = [operators[i] for i in left]
-        turned = {
-            fact for each in kept for fact in (*set(each.add) - start, *start.intersection(each.delete))
-        }
-        constant = start - turned
-        possible = [k for k, each in enumerate(kept) if constant.isdisjoint(each.neg)]
-        asked = facts & turned.union(*self.goal)
-        problem = PackedProblem(self.space, asked, [kept[k] for k in possible], self.goal, deadline)
-        return replace(self, problem=problem, sets=[self.sets[left[k]] for k in possible])
+def team_space(question: Subproblem, part: Relevant) -> tuple[StateSpace, list[tuple[int, ...]]]:
+    """The facts that may be true together, and the sets of actions that only work together.
+
+    Raises:
+        TooLargeError: it is not one for packed states.
+        LimitReachedError: the deadline came first.
+    """
+    task, deadline = question.task, question.deadline
+    actions = [(i, task.actions[i]) for i in part.actions]
+    together = [] if question.options.strict else circles(actions, task, deadline)
+    as_one = [as_operator((task.actions[i] for i in circle), 0) for circle in together]
+    groups = [frozenset(variable.facts) for variable in task.variables]
+    return StateSpace(len(task.facts), task.init, [*task.actions, *as_one], groups, deadline), together
 
 
-def team_problem(question: Subproblem, part: Relevant, *, bounded: bool) -> TeamProblem:
-    """The team's problem of a question; ``bounded`` as :class:`verify.packed.problem.PackedProblem` has it.
+def team_problem(question: Subproblem, part: Relevant, *, bounded: bool, exact: bool = False) -> TeamProblem:
+    """The team's problem of a question.
+
+    Args:
+        question: its task, goals and prices; its deadline is polled.
+        part: what of the task matters.
+        bounded: as :class:`verify.packed.problem.PackedProblem` has it.
+        exact: likewise.
 
     Raises:
         TooLargeError: it is not one for packed states.
         LimitReachedError: the deadline came first.
     """
     task, deadline, prices = question.task, question.deadline, question.prices
-    actions = [(i, task.actions[i]) for i in part.actions]
-    together = [] if question.options.strict else circles(actions, task, deadline)
-    groups = [frozenset(variable.facts) for variable in task.variables]
-    as_one = [as_operator((task.actions[i] for i in circle), 0) for circle in together]
-    space = StateSpace(len(task.facts), task.init, [*task.actions, *as_one], groups, deadline)
+    space, together = team_space(question, part)
     sets = [*((i,) for i in part.actions), *together]
     operators = [
         as_operator((task.actions[i] for i in each), sum(prices.team[i] + prices.talk[i] for i in each))
         for each in deadline.each(sets)
     ]
-    conditions = [task.goal, task.robot_goal] if question.robots_goal else [task.goal]
-    goal = (
-        tuple(f for c in conditions for f in c.positive),
-        tuple(f for c in conditions for f in c.negative),
-    )
-    problem = PackedProblem(space, part.facts, operators, goal, deadline, bounded=bounded)
+    goal = question.goal.positive, question.goal.negative
+    problem = PackedProblem(space, part.facts, operators, goal, deadline, bounded=bounded, exact=exact)
     kept = [one for one, operator in zip(sets, operators, strict=True) if space.pairs.possible(operator.pre)]
     return TeamProblem(space, problem, operators[: len(part.actions)], kept, goal)
 
@@ -101,41 +85,3 @@ def as_operator(together: Iterable[GroundAction], weight: int) -> PackedOperator
         union(a.delete for a in chosen),
         weight,
     )
-
-
-def cheapest_without_epochs(question: Subproblem, team: TeamProblem, *, bounded: bool) -> Minimum:
-    """The cheapest plan with any number of epochs, within the question's limits.
-
-    Args:
-        question: its deadline is polled.
-        team: what the team may do.
-        bounded: whether operators that are too dear are left out.
-    """
-    # operators weigh what they add to the objective: with communication that is no cost
-    most = question.most if any(question.prices.talk) else least(question.most, question.most_cost)
-    below = None if most is None else most + 1
-    known: int | None = None
-    try:
-        if bounded and below is not None and uses("cost-fixing"):
-            within = team.below(below, question.task.init, question.deadline)
-            if within is None:
-                return Minimum("none", states=1)
-            team = within
-        problem = team.problem
-        start = problem.pack([question.task.init])
-        assert start is not None, "the initial state is reached"
-        known = int(problem.bounds(start)[0])
-        search, found = problem.search(start, np.zeros(1, np.int64), below)
-    except LIMITS as limit:
-        reason = str(LimitReachedError(limit_reason(limit), "searching joint plans"))
-        return Minimum("undecided", bound=known, reason=reason)
-    except TooManyPackedStatesError as error:
-        reason = str(error) or "there are too many joint states"
-        return Minimum("undecided", bound=known, reason=reason)
-    if found is None:
-        return Minimum("none", states=search.states)
-    _, path = search.path(found)
-    sets = enumerate((team.sets[k] for k in path), start=1)
-    steps = tuple(Step(epoch, i) for epoch, chosen in sets for i in chosen)
-    cost = search.paid(found)
-    return Minimum("found", PricedPlan(steps, None, cost, cost), cost, states=search.states)

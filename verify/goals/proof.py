@@ -1,4 +1,4 @@
-"""Whether robots could do better for several goals than an answer says (semantics 8)."""
+"""Proofs that robots can do no better for several goals than an answer says (semantics 8)."""
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
@@ -55,7 +55,7 @@ class GoalsProof:
         spent = self.effort.since(mark)
         yield Claim(first, verdict, reason, example, perf_counter() - started, bound, *spent)
         for name in others:
-            yield Claim(name, verdict, wording.like(first, reason), example, 0.0, bound, *spent)
+            yield Claim(name, verdict, wording.LIKE.format(first, reason), example, 0.0, bound, *spent)
 
     def _best(self, together: AllGoals, idle: Rank) -> tuple[ClaimVerdict, str, Better | None]:
         """Whether robots could do better than the answer says they can."""
@@ -69,7 +69,7 @@ class GoalsProof:
         if better is None or (denied and better.rank[1] >= idle[1]):
             return "proved", wording.ALL_PLAYED_FOR_ALL, None
         objective, cost = map(float, better.rank)
-        return "refuted", wording.better_for_all(cost, objective), better
+        return "refuted", wording.BETTER_FOR_ALL.format(cost, objective), better
 
     def _limit(self, idle: Rank) -> Rank:
         """What no robots' plan ranks before, if the answer is right."""
@@ -95,7 +95,7 @@ class GoalsProof:
         """What the human gains alone, where observations make their plans dearer than need be."""
         said, alone = self.result.saving_alone, mean(self.lines, [line.alone for line in self.lines])
         if said is None or not close(said, alone - idle):
-            return wording.expected_saving_alone(alone - idle, said)
+            return wording.EXPECTED_SAVING_ALONE.format(float(alone - idle), said)
         if self.result.opportunity and mean(self.lines, [line.case.cost for line in self.lines]) >= idle:
-            return wording.no_cheaper(f"{float(idle):.12g}")
+            return wording.NO_CHEAPER.format(f"{float(idle):.12g}")
         return None

@@ -1,4 +1,4 @@
-"""Whether there is a better robots' plan for all goals at once (semantics 8), independent of ``search``.
+"""Search for a better robots' plan for all goals at once (semantics 8), independent of ``search``.
 
 Two ways to a proof.  What each goal by itself would allow adds up to a bound: where the
 answer reaches it, nothing is better.  Otherwise the robots' sequences are played, epoch by epoch;
@@ -18,7 +18,7 @@ from verify.base.subproblem import FREE, least
 from verify.base.undecided import UndecidedError
 from verify.calls.answer import best_plan
 from verify.calls.call import ExaminedCall, Score
-from verify.exhaustive.uniform_cost import LeastLeft
+from verify.exhaustive.without_epochs import LeastLeft
 from verify.limits import limits
 from verify.programs.effort import Attempt
 

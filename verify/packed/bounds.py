@@ -14,8 +14,8 @@ import numpy as np
 from serendipity.model import Deadline
 from verify.limits import limits
 from verify.packed.layout import Words
-from verify.packed.operators import Ints, OperatorTable
-from verify.packed.pattern import FAR, Pattern, TooManyMovesError
+from verify.packed.operators import FAR, Ints, OperatorTable
+from verify.packed.pattern import Pattern, TooManyMovesError
 
 _A_SECOND: Final = 20_000
 """States of a pattern for each second that is left: a large table is not made when there is little time."""
@@ -111,7 +111,7 @@ class PatternBounds:
         return best
 
     def _best(self, states: Words) -> Ints:
-        """What each way adds up to in each state."""
+        """The sum of each way in each state."""
         found = np.zeros((len(self._ways), len(states)), np.int64)
         index: dict[int, Ints] = {}
         for total, way in zip(found, self._ways, strict=True):
@@ -177,7 +177,7 @@ class PatternBounds:
 
 
 class _View:
-    """What a layout's fields have to do with a goal and with each other."""
+    """A layout as patterns are grown in it: its goals, and the fields that change together."""
 
     def __init__(self, table: OperatorTable, goal: Sequence[int]) -> None:
         self.table = table

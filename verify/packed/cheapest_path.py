@@ -9,7 +9,6 @@ from serendipity.model import Deadline
 from verify.limits import limits
 from verify.packed.layout import Words
 from verify.packed.operators import Ints, OperatorTable, Test
-from verify.packed.pattern import FAR
 from verify.packed.state_table import Numbers, StateTable
 
 
@@ -18,7 +17,7 @@ class TooManyPackedStatesError(Exception):
 
 
 class SumTooLargeError(TooManyPackedStatesError):
-    """What is asked may depend on sums of weights that a machine word does not hold."""
+    """Sums of weights that a machine word does not hold may decide what is asked."""
 
 
 class PackedSearch:
@@ -29,7 +28,8 @@ class PackedSearch:
         goal: what ends a path.
         bound: what is left from some states, never too much; ``FAR`` where no path leads on.
         deadline: polled.
-        below: paths of this weight or more are left out; with a path's last operator it fits into a word.
+        below: paths of this weight or more are left out; with a path's last operator it fits into a word,
+            unless weights are Python's integers.
         most_states: to be kept at most.
 
     Attributes:
@@ -53,8 +53,8 @@ class PackedSearch:
         self._most_states = most_states
         self._at_once = limits().states_at_once
         self._states = StateTable(table.layout.words, deadline)
-        self._paid = np.zeros(0, np.int64)
-        self._left = np.zeros(0, np.int64)
+        self._paid: Ints = table.unknown(0)
+        self._left: Ints = table.unknown(0)
         self._parent = np.zeros(0, np.int32)
         self._by = np.zeros(0, np.int32)
         self._queue: list[int] = []
@@ -103,7 +103,7 @@ class PackedSearch:
         return None
 
     def paid(self, number: int) -> int:
-        """What the path to a state weighs, with what was paid where it starts."""
+        """The weight of the path to a state, with what was paid where it starts."""
         return int(self._paid[number])
 
     def row(self, number: int) -> Words:
@@ -136,7 +136,7 @@ class PackedSearch:
             raise TooManyPackedStatesError
         self._grow()
         if len(new):
-            self._paid[new] = FAR
+            self._paid[new] = self._table.far
             self._left[new] = self._bound(self._states.rows[new])
         better = paid < self._paid[numbers]
         better &= paid + self._left[numbers] < self._below

@@ -42,12 +42,12 @@ class ReachablePairs:
                     self._happen(pre, add, kept)
 
     def possible(self, pre: Iterable[int]) -> bool:
-        """Whether some facts may be true together."""
+        """True if some facts may be true together."""
         wanted = _bits(pre)
         return all(not wanted & ~self.beside[fact] for fact in pre)
 
     def covers(self, state: Iterable[int]) -> bool:
-        """Whether nothing is true together in a state that is never found so."""
+        """True if all facts of a state may be true together."""
         return self.possible(tuple(state))
 
     def _happen(self, pre: tuple[int, ...], add: tuple[int, ...], kept: int) -> None:

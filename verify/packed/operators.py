@@ -2,7 +2,8 @@
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from typing import Final, NamedTuple
+from math import inf
+from typing import Final, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,12 +12,15 @@ from verify.packed.layout import PackedLayout, Words
 
 Ints = NDArray[np.int64]
 
+FAR: Final = np.int64(2**61)
+"""No way there, or none that anybody asks about: sums of weights that count are below ``limits().weight``."""
+
 _AT_ONCE: Final = 1 << 16
 """Operators that are looked at in one go, for several states together: each takes some hundred bytes."""
 
 
 class PackedOperator(NamedTuple):
-    """What is done at once: facts that it needs, forbids, adds and deletes, and its weight."""
+    """An operator: facts that it needs, forbids, adds and deletes, and its weight."""
 
     pre: tuple[int, ...]
     neg: tuple[int, ...]
@@ -31,18 +35,23 @@ class OperatorTable:
     Args:
         layout: where facts stand; those it does not keep are not looked at.
         operators: each heeds the layout's fields (:func:`verify.packed.layout.exclusive`).
+        exact: weights are Python's integers, since machine words do not hold their sums.
 
     Attributes:
         weight: of each operator.
+        far: more than any sum of weights, as good as no way.
     """
 
-    def __init__(self, layout: PackedLayout, operators: Sequence[PackedOperator]) -> None:
+    def __init__(
+        self, layout: PackedLayout, operators: Sequence[PackedOperator], *, exact: bool = False
+    ) -> None:
         self.layout = layout
         self.operators = operators
         shape = len(operators), layout.words
         self.mask, self.value = np.zeros(shape, np.uint64), np.zeros(shape, np.uint64)
         self.clear, self.put = np.zeros(shape, np.uint64), np.zeros(shape, np.uint64)
-        self.weight = np.array([operator.weight for operator in operators], np.int64)
+        self.weight = np.array([operator.weight for operator in operators], object if exact else np.int64)
+        self.far: int = cast(int, inf) if exact else int(FAR)
         self.conditions: list[dict[int, int]] = []
         """By operator: fields that have to have a value."""
         self.effects: list[dict[int, int]] = []
@@ -165,8 +174,12 @@ class OperatorTable:
         return fits
 
     def after(self, states: Words, chosen: Ints) -> Words:
-        """What comes of an operator in each of some states."""
+        """The results of operators in some states, one in each."""
         return (states & ~self.clear[chosen]) | self.put[chosen]
+
+    def unknown(self, count: int) -> Ints:
+        """So many sums of weights of which nothing is known yet."""
+        return np.full(count, self.far, self.weight.dtype)
 
     def test(self, positive: Sequence[int], negative: Sequence[int]) -> "Test":
         """A test for facts that have to be true and false."""
@@ -174,7 +187,7 @@ class OperatorTable:
 
 
 class Test:
-    """Whether some facts are true and others false, in each of many states."""
+    """A test of many states: some facts are true in them and others false."""
 
     def __init__(self, layout: PackedLayout, positive: Sequence[int], negative: Sequence[int]) -> None:
         self._table = OperatorTable(layout, [PackedOperator(tuple(positive), tuple(negative), (), (), 0)])

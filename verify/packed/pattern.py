@@ -7,10 +7,7 @@ import numpy as np
 
 from serendipity.model import Deadline
 from verify.packed.layout import PackedLayout, WordField, Words
-from verify.packed.operators import Ints, OperatorTable, Test
-
-FAR: Final = np.int64(2**61)
-"""No way there, or none that anybody asks about: sums of weights that count are below ``limits().weight``."""
+from verify.packed.operators import FAR, Ints, OperatorTable, Test
 
 _BYTES_A_MOVE: Final = 80
 

@@ -18,7 +18,7 @@ class TooLargeError(Exception):
 
 
 class StateSpace:
-    """What is true together, and where facts stand.
+    """The facts that may be true together, and layouts for them.
 
     Args:
         facts: the number of facts.
@@ -72,6 +72,7 @@ class PackedProblem:
         goal: facts that have to be true, and false.
         deadline: polled.
         bounded: whether lower bounds spare the search states; else it looks at all that cost little enough.
+        exact: weights may add up to any sum: they are Python's integers, and there are no bounds.
 
     Raises:
         TooLargeError: weights may add up to more than a word holds.
@@ -86,18 +87,20 @@ class PackedProblem:
         deadline: Deadline,
         *,
         bounded: bool = True,
+        exact: bool = False,
     ) -> None:
         operators = [each for each in operators if space.pairs.possible(each.pre)]
-        if sum(operator.weight for operator in operators) > limits().weight:
+        if not exact and sum(operator.weight for operator in operators) > limits().weight:
             raise TooLargeError
         facts = frozenset(facts)
         self._space, self._facts, self._deadline = space, facts, deadline
         self.layout = space.layout(facts)
-        self.table = OperatorTable(self.layout, operators)
+        self.table = OperatorTable(self.layout, operators, exact=exact)
         self._wanted = tuple(goal[0])
         self.goal = self.table.test(*goal)
         self._bounds: PatternBounds | None = None
-        self._bounded, self._careful = bounded, not bounded
+        self.exact, self.bounded = exact, bounded and not exact
+        self._careful = not self.bounded
 
     def pack(self, states: Sequence[frozenset[int]]) -> Words | None:
         """States as rows; None if one of them can't be reached."""
@@ -125,6 +128,8 @@ class PackedProblem:
             TooManyPackedStatesError: there are more than memory should hold, or weights too large to tell.
             LimitReachedError: the deadline came first.
         """
+        if self.exact:
+            return self._searched(starts, paid, self.table.far if below is None else below)
         most = limits().weight
         search, found = self._searched(starts, paid, most if below is None else min(below, most))
         if found is None and (below is None or below > most) and self._may_pass(most, search):
@@ -132,7 +137,7 @@ class PackedProblem:
         return search, found
 
     def _may_pass(self, most: int, search: PackedSearch) -> bool:
-        """Whether anything may have been left out because it weighs more than a word should hold.
+        """True if anything may have been left out because it weighs more than a word should hold.
 
         A cheapest path goes through no state twice, neither here nor in the pattern of a bound.
         """
@@ -140,7 +145,7 @@ class PackedProblem:
         return int(self.table.weight.max(initial=0)) * states > most
 
     def _searched(self, starts: Words, paid: Ints, below: int) -> tuple[PackedSearch, int | None]:
-        if self._bounds is None and self._bounded:
+        if self._bounds is None and self.bounded:
             self._bounds = self._made(starts, little())
         if not self._careful:
             search = self._search(below, limits().few_states)
@@ -149,7 +154,7 @@ class PackedProblem:
                 return search, search.run()
             except TooManyPackedStatesError:
                 self._bounds, self._careful = self._made(starts, much()), True
-        search = self._search(below, limits().packed_states)
+        search = self._search(below, limits().exact_states if self.exact else limits().packed_states)
         search.add(starts, paid)
         return search, search.run()
 
@@ -160,7 +165,7 @@ class PackedProblem:
 
     def bounds(self, states: Words) -> Ints:
         """Lower bounds on what is left; 0 where there are to be none."""
-        if not self._bounded:
+        if not self.bounded:
             return np.zeros(len(states), np.int64)
         if self._bounds is None:
             self._bounds = self._made(states, little())

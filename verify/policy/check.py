@@ -119,8 +119,8 @@ class _Checker:
             yield Claim(fault[0], "refuted", fault[1])
             return
         yield Claim("replay", "proved", wording.FOLLOWED_BY_POLICY)
-        worth = wording.policy_at_most if may_be_less(self._result) else wording.policy_values
-        yield Claim("cost", "proved", worth(show(value)))
+        worth = wording.POLICY_AT_MOST if may_be_less(self._result) else wording.POLICY_VALUES
+        yield Claim("cost", "proved", worth.format(show(value)))
         if self._result.status == "optimal":
             best = self._unless_replay_only("optimal") or self._optimal(board, value)
             yield best
@@ -133,13 +133,15 @@ class _Checker:
         try:
             bounds = stated_bounds(self._result)
             if not agrees(self._result.lower_bound, least_sum(bounds)):
-                return Claim("lower_bound", "refuted", wording.bound_expected(least_sum(bounds)))
+                return Claim(
+                    "lower_bound", "refuted", wording.BOUND_EXPECTED.format(float(least_sum(bounds)))
+                )
             if (
                 bounds.lower == NOTHING
                 or board.goal.holds(board.start)
                 or board.at_least(board.start, bounds.lower)
             ):
-                return Claim("lower_bound", "proved", wording.together_pay(show(bounds.lower)))
+                return Claim("lower_bound", "proved", wording.TOGETHER_PAY.format(show(bounds.lower)))
         except UNDECIDED as error:
             return Claim("lower_bound", "undecided", why(error))
         return Claim("lower_bound", "undecided", wording.TOGETHER_MIGHT)

@@ -15,7 +15,7 @@ from verify.solvers.mip import SOLVERS, Model, SolverOutcome, optimise
 
 
 class ProgramEncoding(Protocol):
-    """What an encoding offers; ``model`` is None where there is provably no plan."""
+    """An encoding of a question; ``model`` is None where there is provably no plan."""
 
     @property
     def model(self) -> Model | None:
@@ -66,20 +66,18 @@ class SolverCall:
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """What one method made of a question.
+    """The outcome of one method for a question.
 
     Attributes:
         name: of the method (``verify.calls.methods``).
         decided: whether that was the answer.
         states: how many an exhaustive search looked at.
-        paths: joint states in the search of what pruning leaves of a program, where that decided.
         seconds: what it took.
     """
 
     name: str
     decided: bool
     states: int = 0
-    paths: int = 0
     seconds: float = 0.0
 
     @property
@@ -96,7 +94,7 @@ class NoProgramError(UsageError):
 
 
 class Spent(NamedTuple):
-    """What a claim took: who decided it, how large that was, and how often a solver was called.
+    """The effort of a claim: the method that decided it, its size, and the calls of a solver.
 
     Attributes:
         method: ``program`` or ``exhaustive``; None where rules and shortest paths were enough.
@@ -151,7 +149,7 @@ class Effort:
         return len(self.attempts), len(self.calls)
 
     def since(self, mark: tuple[int, int]) -> Spent:
-        """What has been spent since then."""
+        """The effort since then."""
         made, called = self.attempts[mark[0] :], self.calls[mark[1] :]
         if not made and not called:
             return Spent()
@@ -185,7 +183,6 @@ class Minimum:
         bound: proved lower bound on the objective in units, or None.
         reason: why it is undecided.
         states: how many an exhaustive search looked at.
-        paths: as :class:`Attempt` has them.
     """
 
     status: str
@@ -193,7 +190,6 @@ class Minimum:
     bound: int | None = None
     reason: str = ""
     states: int = 0
-    paths: int = 0
 
     def settled(self) -> PricedPlan | None:
         """Some plan, best or not; None: there is provably none.

@@ -11,13 +11,7 @@ def replay(question: Subproblem, steps: tuple[Step, ...]) -> list[State] | None:
     task, sets = question.task, by_epoch(steps)
     epochs = (sets.get(epoch, ()) for epoch in range(1, question.horizon + 1))
     states = states_along(task, epochs, strict=question.options.strict)
-    return states if states is not None and goals_hold(question, states[-1]) else None
-
-
-def goals_hold(question: Subproblem, state: State) -> bool:
-    """Whether a state satisfies all goals that are asked for."""
-    task = question.task
-    return task.goal.holds(state) and (not question.robots_goal or task.robot_goal.holds(state))
+    return states if states is not None and question.goal.holds(states[-1]) else None
 
 
 def mended(
@@ -66,8 +60,7 @@ def best_suffix(question: Subproblem, state: State, xi2: int, plans: OptimalPlan
             known[here] = None
             here_worth = plans.worth(here)
             if here_worth is not None and here_worth[1] == 0:
-                reached = not question.robots_goal or question.task.robot_goal.holds(here)
-                known[here] = (0, ()) if reached else None
+                known[here] = (0, ()) if question.goal.holds(here) else None
             for i, after in plans.steps(here):
                 rest = best_from(after)
                 if rest is not None:

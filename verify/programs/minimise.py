@@ -7,16 +7,13 @@ learns what suffixes from that state cost (or that there is none) and is solved 
 
 from dataclasses import replace
 
-from serendipity.model import LimitReachedError
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import WINDOW, PricedPlan, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
-from verify.limits import limits, uses
+from verify.limits import uses
 from verify.programs import recorded
-from verify.programs.automata import AutomataEncoding
 from verify.programs.effort import Effort, Minimum, ProgramEncoding
-from verify.programs.joint import JointLayers, JointPathsError
-from verify.programs.mending import goals_hold, mended, replay, suffix_least
+from verify.programs.mending import mended, replay, suffix_least
 from verify.proofs.book import ProofReader, ProofWriter
 from verify.solvers.mip import SolverOutcome
 
@@ -41,7 +38,7 @@ def minimise(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minim
             rounds.write(effort.proof, question, minimum)
     except UNDECIDED as error:
         minimum = _within(question.most, Minimum("undecided", rounds.best, rounds.bound, why(error)))
-    return replace(minimum, paths=0 if minimum.status == "undecided" else rounds.paths)
+    return minimum
 
 
 def _without_epochs(question: Subproblem, effort: Effort) -> Minimum:
@@ -67,7 +64,6 @@ class _Rounds:
     Attributes:
         best: the best plan so far.
         bound: proved lower bound on the objective, or None.
-        paths: joint states of the networks that pruning left, where all of them were looked at.
     """
 
     def __init__(self, question: Subproblem, effort: Effort, plans: OptimalPlans) -> None:
@@ -79,7 +75,6 @@ class _Rounds:
         self._values: tuple[int, ...] = ()
         self.best: PricedPlan | None = None
         self.bound: int | None = None
-        self.paths = 0
 
     def run(self) -> Minimum:
         """Answer the question.
@@ -91,9 +86,6 @@ class _Rounds:
         self._effort.deadline.check()
         with during("building the program"):
             self._encoding = encoding = self._effort.encode(self._question)
-        minimum = self._by_joint_paths(encoding)
-        if minimum is not None:
-            return minimum
         while encoding.model is not None:
             if self._effort.method == "auto" and not uses("solver"):
                 raise UndecidedError("the solver is left out")
@@ -102,39 +94,6 @@ class _Rounds:
             if outcome.status == "infeasible" or self._is_best(encoding, outcome):
                 break
         return Minimum("none") if self.best is None else Minimum("found", self.best, self.best.objective)
-
-    def _by_joint_paths(self, encoding: ProgramEncoding) -> Minimum | None:
-        """The answer of a search through what pruning leaves; None: it does not know, or is not asked.
-
-        It knows neither a limit on cost nor whether a suffix is optimal: where there is no path at
-        all, there is no plan either, and a path counts if it is a plan.
-        """
-        setting = encoding.setting if isinstance(encoding, AutomataEncoding) else None
-        if self._effort.method != "auto" or setting is None or not uses("joint-paths"):
-            return None
-        question, deadline = self._question, self._effort.deadline
-        share = deadline.part(limits().joint_share)
-        try:
-            with during("searching joint paths through the agents' automata"):
-                layers = JointLayers(question, setting, share)
-                path = layers.run()
-        except JointPathsError:
-            return None
-        except LimitReachedError:
-            deadline.check()
-            return None
-        found = None
-        if path is not None:
-            reached = replay(question, path.steps)
-            found = (
-                None if reached is None else mended(question, path.steps, path.window, reached, self._plans)
-            )
-            dear = question.most_cost is not None and found is not None and found.cost > question.most_cost
-            if found is None or dear or found.objective > path.weight:
-                return None
-        self.paths = layers.states
-        self.best = found
-        return Minimum("none") if found is None else Minimum("found", found, found.objective)
 
     def write(self, proof: ProofWriter, question: Subproblem, minimum: Minimum) -> None:
         """Write down why nothing is better than an answer that these rounds have found.
@@ -194,7 +153,11 @@ def _better(a: PricedPlan | None, b: PricedPlan | None) -> PricedPlan | None:
 
 def _nothing_to_do(question: Subproblem) -> Minimum:
     """No epoch at all: the empty plan or none; it has no window."""
-    goals = goals_hold(question, question.task.init)
-    if not goals or question.rule == WINDOW or (question.most or 0) < 0 or (question.most_cost or 0) < 0:
+    if (
+        not question.goal.holds(question.task.init)
+        or question.rule == WINDOW
+        or (question.most or 0) < 0
+        or (question.most_cost or 0) < 0
+    ):
         return Minimum("none")
     return Minimum("found", PricedPlan((), None, 0, 0), 0)

@@ -8,9 +8,9 @@ from functools import cached_property
 from typing import Final
 
 from serendipity.model import Step, Window
+from verify.base.control import expected_states
 from verify.base.subproblem import EXACT, WINDOW, Subproblem, in_plan
 from verify.base.undecided import during
-from verify.programs.automata.control import expected_states
 from verify.solvers.mip import BYTES_A_TERM, Model
 
 _Sum = dict[int, int]
@@ -81,14 +81,10 @@ class PaperEncoding:
     def equation_3(self) -> None:
         """The goals hold in the last state."""
         self.model.family = "eq. 3"
-        conditions = [self.task.goal]
-        if self.question.robots_goal:
-            conditions.append(self.task.robot_goal)
-        for condition in conditions:
-            for f in condition.positive:
-                self.model.add({self.y[f, self.last]: 1}, "==", 1)
-            for f in condition.negative:
-                self.model.add({self.y[f, self.last]: 1}, "==", 0)
+        for f in self.question.goal.positive:
+            self.model.add({self.y[f, self.last]: 1}, "==", 1)
+        for f in self.question.goal.negative:
+            self.model.add({self.y[f, self.last]: 1}, "==", 0)
 
     def equation_4(self) -> None:
         """Preconditions, negative ones too."""

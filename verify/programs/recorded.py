@@ -9,7 +9,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import ALONE, EXACT, FREE, WINDOW, PricedPlan, Subproblem
 from verify.base.undecided import UndecidedError, during
 from verify.programs.effort import Minimum, ProgramEncoding
-from verify.programs.mending import goals_hold, mended, replay, suffix_least
+from verify.programs.mending import mended, replay, suffix_least
 from verify.proofs import checker
 from verify.proofs.book import Entry, ProofReader, ProofWriter, require_same
 from verify.proofs.tree import refutation
@@ -137,7 +137,7 @@ def without_epochs(question: Subproblem) -> Model:
     """The program of a question without epochs: the empty plan, or none."""
     model = Model(question.deadline)
     model.family = "eq. 3"
-    model.add({}, "<=", 0 if goals_hold(question, question.task.init) else -1)
+    model.add({}, "<=", 0 if question.goal.holds(question.task.init) else -1)
     model.family = "eq. 12"
     model.add({}, "<=", 0 if question.rule != WINDOW else -1)
     if question.most_cost is not None:

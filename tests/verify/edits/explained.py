@@ -49,6 +49,9 @@ def explained(good: Good, data: dict[str, Any], result: Result, edits: tuple[Edi
     original = good.result.to_dict()
     if _meaning(data) == _meaning(original):
         return "it says the same"
+    same = _meaning({**data, "exact": 0}) == _meaning({**original, "exact": 0})
+    if same and _fewer(data.get("exact"), original.get("exact")):
+        return "it says the same in figures that are rounded"
     if _without_options(data) == _without_options(original) and _same_answer(good, result):
         return "the options don't change the answer"
     if _claims_less(good, result):
@@ -60,6 +63,13 @@ def explained(good: Good, data: dict[str, Any], result: Result, edits: tuple[Edi
     if {edit.path[0] for edit in edits} <= {"plan", "policy", "window"} and _another_answer(good, result):
         return "another answer of the same worth"
     return None
+
+
+def _fewer(said: Any, figures: Any) -> bool:
+    """Whether some exact figures are missing, which else are as they were."""
+    if said is None or not isinstance(said, dict) or not isinstance(figures, dict):
+        return said is None or bool(said == figures)
+    return all(name in figures and _fewer(value, figures[name]) for name, value in said.items())
 
 
 def _meaning(data: dict[str, Any]) -> Any:

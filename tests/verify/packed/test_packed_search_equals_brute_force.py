@@ -8,19 +8,20 @@ import pytest
 from hypothesis import given
 from hypothesis.strategies import sampled_from
 
-from serendipity.model import Deadline, Task
+from serendipity.model import Deadline, Task, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.generator.families import family_task
-from serendipity.testing.strategies import tasks
+from serendipity.testing.oracle import best
+from serendipity.testing.strategies import Call, calls, tasks
 from verify.base.execution import State, after, applicable, states_of_pi_h
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
+from verify.calls.solve import solve
 from verify.limits import limited
 from verify.packed import operators as packed
 from verify.packed.bounds import little
 from verify.packed.mutexes import ReachablePairs
-from verify.packed.operators import PackedOperator
-from verify.packed.pattern import FAR
+from verify.packed.operators import FAR, PackedOperator
 from verify.packed.problem import PackedProblem, StateSpace
 
 FAMILY = [
@@ -200,3 +201,47 @@ def test_what_an_optimal_plan_teaches_is_what_a_search_finds(name: str, seed: in
     learned.learn(plan)
     for state in states_of_pi_h(task, plan, Deadline()):
         assert learned.optimum(state) == IndividualOptimum(task).optimum(state)
+
+
+def test_whole_answers_with_better_bounds() -> None:
+    """Programs decide nothing here, and better bounds are made as soon as there are two states."""
+    decided = 0
+
+    @given(calls(modes=("serendipity", "communication", "composite")))
+    def law(call: Call) -> None:
+        nonlocal decided
+        try:
+            optimum = best(call.task, call.options, call.human_plan)
+        except UsageError:
+            return
+        with limited(few_states=1, methods=("-programs",)):
+            result = solve(call.task, call.options, human_plan=call.human_plan_names, method="auto")
+        assert result.status in (optimum.status, "unknown")
+        if result.status == "optimal" and call.options.ties == "fixed":
+            assert result.objective == float(optimum.objective or 0)
+            decided += 1
+
+    law()
+    assert decided
+
+
+@pytest.mark.parametrize(("name", "seed", "size"), FAMILY)
+def test_a_plan_that_is_supposed_to_be_optimal(name: str, seed: int, size: int) -> None:
+    """It is believed only if nothing is cheaper."""
+    task = family_task(name, seed, size)
+    plan = OptimalPlans(task).canonical()
+    if not plan:
+        return
+    expected = IndividualOptimum(task).optimum(task.init)
+    supposed = IndividualOptimum(task)
+    supposed.suppose(plan)
+    assert supposed.optimum(task.init) == expected
+    for there in task.human_actions:
+        state = after(task.init, task.actions[there])
+        for back in task.human_actions:
+            both = applicable(task.actions[there], task.init) and applicable(task.actions[back], state)
+            if both and after(state, task.actions[back]) == task.init:
+                dearer = IndividualOptimum(task)
+                dearer.suppose((there, back, *plan))
+                assert dearer.optimum(task.init) == expected
+                return

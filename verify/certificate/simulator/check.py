@@ -42,7 +42,7 @@ def realised_claim(task: Task, result: Result, plans: OptimalPlans | None = None
     if fault is not None:
         return Claim("realised", "refuted", fault, seconds=seconds)
     models = ", ".join(result.realised) or result.options.human_model
-    return Claim("realised", "proved", wording.played_again(models), seconds=seconds)
+    return Claim("realised", "proved", wording.PLAYED_AGAIN.format(models), seconds=seconds)
 
 
 class _Examination:

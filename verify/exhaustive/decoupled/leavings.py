@@ -1,4 +1,4 @@
-"""What robots leave behind for the human: differences from what is there without any robot.
+"""Differences that robots leave behind for the human, against the world without any robot.
 
 A fact is as the robot left it that changed it last.  So what robots leave behind together differs from what
 is there without them just where the last robot that changed a fact left it different.  Of each robot's
@@ -8,10 +8,8 @@ differences those may be missing that another one can have undone; those that re
 from collections.abc import Sequence
 from typing import Final
 
-import numpy as np
-
 from serendipity.model import Deadline
-from verify.exhaustive.decoupled.rows import Collected, RowLayer, cheapest
+from verify.exhaustive.decoupled.rows import Collected
 from verify.limits import limits
 from verify.packed.cheapest_path import TooManyPackedStatesError
 from verify.packed.layout import Words
@@ -23,7 +21,7 @@ _AT_ONCE: Final = 250_000
 def differences(
     rows: Words, paid: Ints, base: Words, changed: Words, undone: Sequence[Words], deadline: Deadline
 ) -> tuple[Words, Ints]:
-    """What a robot leaves behind, each once at its least cost.
+    """The differences that a robot leaves behind, each once at its least cost.
 
     Args:
         rows: its states.
@@ -37,42 +35,33 @@ def differences(
         TooManyPackedStatesError: there are too many.
         LimitReachedError: the deadline came first.
     """
-    found = cheapest(*_layer((rows ^ base) & changed, paid), deadline)
+    found = Collected(rows.shape[1], limits().left_behind, deadline)
+    found.add((rows ^ base) & changed, paid)
     for bit in undone:
-        deadline.check()
-        without = found.only(((found.rows & bit) != 0).any(axis=1))
-        if len(without.paid):
-            every = Collected(found, limits().left_behind, deadline)
-            every.add(_layer(without.rows & ~bit, without.paid))
-            found = every.layer()
-    return found.rows, found.paid
+        layer = found.layer()
+        without = layer.only(((layer.rows & bit) != 0).any(axis=1))
+        found.add(without.rows & ~bit, without.paid)
+    layer = found.layer()
+    return layer.rows, layer.paid
 
 
 def together(apart: Sequence[tuple[Words, Ints]], most: int, deadline: Deadline) -> tuple[Words, Ints]:
-    """What several robots leave behind, for no more than ``most``.
+    """The differences that several robots leave behind, for no more than ``most``.
 
     Raises:
         TooManyPackedStatesError: there are too many.
         LimitReachedError: the deadline came first.
     """
-    found, cost = apart[0]
-    cheap = cost <= most
-    layer = _layer(found[cheap], cost[cheap])
+    rows, paid = apart[0]
+    rows, paid = rows[paid <= most], paid[paid <= most]
     for others, costs in apart[1:]:
-        rows, paid = layer.rows, layer.paid
         if len(paid) * len(costs) > limits().left_pairs:
             raise TooManyPackedStatesError
-        joined = Collected(_layer(rows[:0], paid[:0]), limits().left_behind, deadline)
+        joined = Collected(rows.shape[1], limits().left_behind, deadline)
         step = max(1, _AT_ONCE // max(1, len(costs)))
         for first in range(0, len(paid), step):
-            deadline.check()
             both = (rows[first : first + step, None] | others[None]).reshape(-1, rows.shape[1])
             sums = (paid[first : first + step, None] + costs[None]).ravel()
-            cheap = sums <= most
-            joined.add(cheapest(*_layer(both[cheap], sums[cheap]), deadline))
-        layer = joined.layer()
-    return layer.rows, layer.paid
-
-
-def _layer(rows: Words, paid: Ints) -> RowLayer:
-    return RowLayer(rows, paid, np.zeros(len(paid), bool))
+            joined.add(both[sums <= most], sums[sums <= most])
+        rows, paid, _ = joined.layer()
+    return rows, paid

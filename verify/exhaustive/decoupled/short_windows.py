@@ -20,10 +20,9 @@ from verify.base.execution import conflicting, states_along
 from verify.base.relevance import Relevant, closure, relevant_part
 from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
-from verify.exhaustive.circles import circles
 from verify.exhaustive.decoupled.leavings import differences, together
 from verify.exhaustive.decoupled.timeline import RobotTimeline, parts
-from verify.exhaustive.team_problem import as_operator
+from verify.exhaustive.team_problem import as_operator, team_space
 from verify.limits import limits
 from verify.packed.cheapest_path import TooManyPackedStatesError
 from verify.packed.layout import PackedLayout, Words
@@ -108,7 +107,7 @@ class _Search:
             return ""
         if question.horizon * question.an_epoch > limits().weight:
             raise TooLargeError
-        space = self._space(relevant)
+        space, _ = team_space(question, relevant)
         if self._in_the_way(relevant, space):
             return "robots may disable what the human does in the same epoch"
         own = [i for i in relevant.actions if task.human in task.actions[i].participants]
@@ -123,15 +122,6 @@ class _Search:
         wanted = list(task.goal.positive), list(task.goal.negative)
         alone = _Alone(PackedProblem(space, matters, operators, wanted, self._deadline), layout)
         return self._ends(alone, [RobotTimeline(question, relevant, part, layout) for part in robots])
-
-    def _space(self, relevant: Relevant) -> StateSpace:
-        """What may be true, also where actions that only work together are done at once."""
-        task, deadline = self._question.task, self._deadline
-        actions = [(i, task.actions[i]) for i in relevant.actions]
-        at_once = [] if self._question.options.strict else circles(actions, task, deadline)
-        as_one = [as_operator((task.actions[i] for i in circle), 0) for circle in at_once]
-        groups = [frozenset(variable.facts) for variable in task.variables]
-        return StateSpace(len(task.facts), task.init, [*task.actions, *as_one], groups, deadline)
 
     def _in_the_way(self, relevant: Relevant, space: StateSpace) -> bool:
         """Whether a robot may disable an action of the human's in the epoch in which that is done."""

@@ -17,7 +17,7 @@ from serendipity.model import GroundAction
 from verify.base.execution import conflicting
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Subproblem
-from verify.exhaustive.decoupled.rows import Bools, Collected, RowLayer, cheapest
+from verify.exhaustive.decoupled.rows import Bools, Collected, RowLayer
 from verify.limits import limits
 from verify.packed.layout import PackedLayout, Words
 from verify.packed.operators import OperatorTable, PackedOperator
@@ -27,7 +27,7 @@ _AT_ONCE: Final = 4_096
 
 @dataclass(frozen=True, slots=True)
 class RobotPart:
-    """What a robot has to do with the world.
+    """A robot's part of the world: its actions, and the facts that they look at and change.
 
     Attributes:
         actions: ids of what it may do.
@@ -140,7 +140,9 @@ class RobotTimeline:
         layer = self.ends() if apart else self._moved(self.layer.only(self._allow(step)), ~in_the_way)
         add, delete = self._bits(human.add), self._bits(human.delete)
         fresh = layer.fresh if apart else np.ones(len(layer.fresh), bool)
-        self.layer = cheapest((layer.rows & ~delete) | add, layer.paid, fresh, self._deadline)
+        followed = Collected(self.layout.words, None, self._deadline)
+        followed.add((layer.rows & ~delete) | add, layer.paid, fresh)
+        self.layer = followed.layer()
         self._free = None
 
     def _bits(self, facts: Sequence[int]) -> Words:
@@ -157,7 +159,7 @@ class RobotTimeline:
         return allowed
 
     def _beside(self, human: GroundAction) -> tuple[Bools, bool]:
-        """What can't be done beside an action of the human's; and whether nothing has to do with it.
+        """Actions that can't be done beside one of the human's; and if none has to do with it.
 
         Then it makes no difference which of the two comes first, so that what could be done before it
         brings about nothing new after it.
@@ -177,9 +179,8 @@ class RobotTimeline:
     def _moved(self, layer: RowLayer, allowed: Bools | None) -> RowLayer:
         """The states after the robot's part of an epoch."""
         begin = np.flatnonzero(layer.fresh)
-        found = Collected(
-            layer._replace(fresh=np.zeros(len(layer.paid), bool)), limits().robot_states, self._deadline
-        )
+        found = Collected(self.layout.words, limits().robot_states, self._deadline)
+        found.add(layer.rows, layer.paid)
         for first in range(0, len(begin), _AT_ONCE):
             self._deadline.check()
             some = begin[first : first + _AT_ONCE]
@@ -188,10 +189,10 @@ class RobotTimeline:
                 rows, chosen = rows[allowed[chosen]], chosen[allowed[chosen]]
             after = self._table.after(layer.rows[some[rows]], chosen)
             cost = layer.paid[some[rows]] + self._table.weight[chosen]
-            found.add(cheapest(after, cost, np.ones(len(cost), bool), self._deadline))
+            found.add(after, cost, fresh=True)
         return found.layer()
 
 
 def _looks_at(one: GroundAction, other: GroundAction) -> bool:
-    """Whether an action asks about a fact that another changes."""
+    """True if an action asks about a fact that another changes."""
     return not {*one.pre, *one.neg}.isdisjoint((*other.add, *other.delete))

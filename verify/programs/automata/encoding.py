@@ -5,12 +5,12 @@ from functools import cached_property
 from typing import Final
 
 from serendipity.model import Deadline, GroundAction, Step, Task, Window
+from verify.base.control import HumanControl, expected_states
 from verify.base.relevance import Relevant, relevant_part, whole_task
 from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
 from verify.limits import limits, uses
 from verify.programs.agents.product import Automaton, SmallAutomata, automata, private_facts
-from verify.programs.automata.control import HumanControl, expected_states
 from verify.programs.automata.network import (
     HumanNetwork,
     Network,
@@ -174,13 +174,8 @@ class AutomataEncoding:
         self, part: Relevant, expected: tuple[frozenset[int], ...]
     ) -> tuple[frozenset[int], frozenset[int]]:
         """Facts that a goal, or a state to be preserved, wants true, and those that a goal wants false."""
-        task = self.question.task
-        wanted_true = frozenset(task.goal.positive).union(*expected) & part.facts
-        wanted_false = frozenset(task.goal.negative) & part.facts
-        if self.question.robots_goal:
-            wanted_true |= part.facts.intersection(task.robot_goal.positive)
-            wanted_false |= part.facts.intersection(task.robot_goal.negative)
-        return wanted_true, wanted_false
+        goal = self.question.goal
+        return frozenset(goal.positive).union(*expected) & part.facts, part.facts.intersection(goal.negative)
 
     def _keep_promising(
         self, part: Relevant, machines: tuple[Automaton, ...], expected: tuple[frozenset[int], ...]

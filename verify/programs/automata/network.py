@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from serendipity.model import Deadline
+from verify.base.control import ALL, OWN, SUFFIX, Control, HumanControl
 from verify.base.relevance import Relevant
 from verify.base.shortest_paths import dijkstra
 from verify.base.subproblem import Subproblem
 from verify.programs.agents.product import Automaton
-from verify.programs.automata.control import ALL, OWN, SUFFIX, Control, HumanControl
 
 WAIT: Final = -1
 NOTHING: Final[frozenset[int]] = frozenset()
@@ -174,11 +174,6 @@ def distances(
 
 def goal_states(question: Subproblem, automaton: Automaton) -> set[int]:
     """Automaton states in which no literal of the goals is false."""
-    task = question.task
-    conditions = [task.goal, task.robot_goal] if question.robots_goal else [task.goal]
-    true: frozenset[int] = frozenset()
-    false: frozenset[int] = frozenset()
-    for condition in conditions:
-        true |= automaton.facts.intersection(condition.positive)
-        false |= automaton.facts.intersection(condition.negative)
+    true = automaton.facts.intersection(question.goal.positive)
+    false = automaton.facts.intersection(question.goal.negative)
     return {k for k, state in enumerate(automaton.states) if true <= state and false.isdisjoint(state)}

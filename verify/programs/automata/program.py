@@ -4,9 +4,9 @@ from collections import defaultdict
 from collections.abc import Iterable
 from typing import Final
 
-from serendipity.model import Condition, Step, Window
+from serendipity.model import Step, Window
+from verify.base.control import INSIDE
 from verify.base.subproblem import Subproblem
-from verify.programs.automata.control import INSIDE
 from verify.programs.automata.flows import Flows
 from verify.programs.automata.linear import Linear, Sum, plus
 from verify.programs.automata.network import WAIT
@@ -93,12 +93,11 @@ class NetworkProgram:
         self.model.family = "eq. 3"
         last = self.setting.horizon
         inside = self.setting.human.automaton.facts
-        robot_goal = self.task.robot_goal if self.question.robots_goal else Condition()
-        for f in self.task.goal.positive + robot_goal.positive:
+        for f in self.question.goal.positive:
             if f in self.setting.part.facts and f not in inside:
                 terms, constant = self.facts.truth(f, last)
                 self.model.add(terms, ">=", 1 - constant)
-        for f in self.task.goal.negative + robot_goal.negative:
+        for f in self.question.goal.negative:
             if f in self.setting.part.facts and f not in inside:
                 terms, constant = self.facts.truth(f, last)
                 self.model.add(terms, "<=", -constant)

@@ -1,6 +1,6 @@
-"""What a program is taught about a suffix that is not the human's optimal plan."""
+"""Rows that teach a program about a suffix that is not the human's optimal plan."""
 
-from verify.programs.automata.control import INSIDE, SUFFIX
+from verify.base.control import INSIDE, SUFFIX
 from verify.programs.automata.linear import plus
 from verify.programs.automata.program import NetworkProgram
 

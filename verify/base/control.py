@@ -1,4 +1,4 @@
-"""What the human may do in which epoch: their control automaton, one for each rule.
+"""The human's control automaton, one for each rule: which actions they may do in which epoch.
 
 A control state is a short text-and-numbers tuple; the first entry says in which part of
 the plan an epoch lies: ``prefix``, ``window`` or ``suffix`` (semantics 3.1), or ``free``.
