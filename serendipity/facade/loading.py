@@ -110,7 +110,7 @@ def load_pddl(
 
 
 def _ready(task: Task, limits: Deadline, on_progress: OnProgress | None) -> Task:
-    if len(task.actions) > _LARGE:
+    if len(task.actions) > _LARGE and not task.needs_time:
         HELD.hold(within_limits(lambda work: _prepare(task, work), limits, on_progress))
     return task
 

@@ -20,7 +20,7 @@ from serendipity.model.arguments import FUNCTION, expect_or_none
 from serendipity.model.keywords import listing
 from serendipity.model.numbers import Number
 from serendipity.model.resources.collection import no_collection
-from serendipity.model.task.task import several
+from serendipity.model.task.plans import PlanEntry, checked_entries
 
 if TYPE_CHECKING:
     from serendipity.recognition import GoalsGiven, ObservedGiven
@@ -46,7 +46,7 @@ class SessionOptions(AnytimeOptions, total=False):
 def plan(
     task: Task,
     *,
-    human_plan: Iterable[str] | None = None,
+    human_plan: Iterable[PlanEntry] | None = None,
     visible: Visible | None = None,
     cancelled: threading.Event | None = None,
     deadline: Deadline | None = None,
@@ -60,8 +60,8 @@ def plan(
 
     Args:
         task: the task.
-        human_plan: names of the actions that the human is going to do; None predicts
-            an optimal plan of theirs (semantics 1).
+        human_plan: names of the actions that the human is going to do, all or none of them with the
+            epochs in which they begin; None predicts an optimal plan of theirs (semantics 1).
         visible: ``visible(agent, fact, state)`` says, by ids of the task, what a human of
             ``human_model="local"`` sees; None for what is where they are.
         cancelled: set from another thread, it ends the call like a time limit.
@@ -123,7 +123,7 @@ def planned(
 def plan_anytime(
     task: Task,
     *,
-    human_plan: Iterable[str] | None = None,
+    human_plan: Iterable[PlanEntry] | None = None,
     visible: Visible | None = None,
     cancelled: threading.Event | None = None,
     deadline: Deadline | None = None,
@@ -249,8 +249,8 @@ def _told(results: Iterator[Result], on_improvement: Callable[[Result], None]) -
     return result
 
 
-def _given(task: Task, names: Iterable[str] | None) -> Given:
-    return None if names is None else partial(task.plan_from_names, several(names, "human plan"))
+def _given(task: Task, names: Iterable[PlanEntry] | None) -> Given:
+    return None if names is None else partial(task.plan_from_names, checked_entries(names, "human plan"))
 
 
 def _result(call: Request, answer: Answer, *, last: bool = True) -> Result:

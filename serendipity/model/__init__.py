@@ -19,8 +19,9 @@ from serendipity.model.numbers import exact
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.table import Table
-from serendipity.model.task.actions import Condition, GroundAction
-from serendipity.model.task.plans import PlanStep, Step, Window
+from serendipity.model.task.actions import Condition, GroundAction, Timing
+from serendipity.model.task.plans import PlanStep, Step, TimedPlan, Window
+from serendipity.model.task.script import Deed, Script, TimedFact, Timeline
 from serendipity.model.task.task import HumanPlan, Task
 from serendipity.model.task.visibility import Surroundings, Visible, surroundings
 
@@ -31,6 +32,7 @@ __all__ = [
     "Condition",
     "Deadline",
     "Decision",
+    "Deed",
     "Floor",
     "GapEntry",
     "GoalAnswer",
@@ -48,6 +50,7 @@ __all__ = [
     "ProofCheck",
     "RefutedProgram",
     "Result",
+    "Script",
     "SerendipityError",
     "StateDelta",
     "Status",
@@ -56,6 +59,10 @@ __all__ = [
     "Table",
     "Task",
     "TiedAnswer",
+    "TimedFact",
+    "TimedPlan",
+    "Timeline",
+    "Timing",
     "Trace",
     "TraceEpoch",
     "TraceSkip",

@@ -7,6 +7,7 @@ from typing import Final, NamedTuple
 from serendipity.model.answers.result import Result
 from serendipity.model.errors import UsageError
 from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.gate import refuse_time
 from serendipity.model.task.task import Task
 
 
@@ -59,11 +60,13 @@ def expect(kind: Kind, **given: object) -> None:
     """Return if arguments are of a kind.
 
     Raises:
-        UsageError: naming the first that is not, what was expected and what was given.
+        UsageError: naming the first that is not, what was expected and what was given; or a task needs time.
     """
     for name, value in given.items():
         if not kind.fits(value):
             raise UsageError(f"{name}: expected {kind.words}, got {shown(value)}")
+        if isinstance(value, Task):
+            refuse_time(value)
 
 
 def expect_or_none(kind: Kind, **given: object) -> None:

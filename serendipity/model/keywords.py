@@ -48,6 +48,8 @@ class AnswerOptions(InterruptionOptions, total=False):
     ties: Ties
     max_ties: int
     no_block: bool | None
+    waiting_cost: Number
+    head_start: int
 
 
 class PlanOptions(AnswerOptions, total=False):

@@ -35,8 +35,11 @@ MAX_TIES: Final = 1_000_000_000
 _FLAGS: Final = {"keep_prefix": (True, False), "no_block": (True, False, None)}
 _LIMITS: Final = {"time_limit": "seconds", "memory_limit": "MiB"}
 
-_LATER: Final = ("memory_limit", "strategies")
+_LATER: Final = ("memory_limit", "strategies", "waiting_cost", "head_start")
 """Options that results of the first versions do without."""
+
+_IN_TIME: Final = ("waiting_cost", "head_start")
+"""Options that are written down only where they are in force."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -60,6 +63,8 @@ class Options:
         human_model: what the human does (semantics 6).
         ties: over the human's optimal plans (semantics 1), or over their choices (semantics 7).
         max_ties: the most optimal human plans that are enumerated, at most :data:`MAX_TIES`.
+        waiting_cost: of an epoch in which the human waits before their last action (semantics 10.2).
+        head_start: epochs of waiting before the human's plan (semantics 10.2).
         no_block: whether robots may leave the human without a plan; None for the default
             of the mode (forbidden under a human model, allowed in assistance).
         time_limit: seconds, or None.
@@ -86,6 +91,8 @@ class Options:
     ties: Ties = "fixed"
     max_ties: int = 1000
     no_block: bool | None = None
+    waiting_cost: Fraction = field(default=Fraction(0))
+    head_start: int = 0
     time_limit: float | None = None
     memory_limit: float | None = None
     strategies: str | None = None
@@ -99,7 +106,7 @@ class Options:
             if getattr(self, name) not in legal:
                 given = f"{getattr(self, name)!r:.50}"
                 raise UsageError(f"{name}: expected one of {', '.join(legal)}, got {given}")
-        for name in ("discount", "window_weight", "communication_weight"):
+        for name in ("discount", "window_weight", "communication_weight", "waiting_cost"):
             self._set(name, _not_negative(exact(getattr(self, name), name), name))
         if self.discount > 1:
             raise UsageError(f"discount: expected a number in [0, 1], got {float(self.discount):g}")
@@ -116,6 +123,7 @@ class Options:
             raise UsageError(f"horizon: 'inf' is for composite mode only, not for {self.mode}")
         if self.max_window is not None:
             self._set("max_window", _whole(self.max_window, "max_window", least=1))
+        self._set("head_start", _whole(self.head_start, "head_start", least=0, most=MAX_EPOCH))
         self._set("max_ties", _whole(self.max_ties, "max_ties", least=1, most=MAX_TIES))
         for name, unit in _LIMITS.items():
             if getattr(self, name) is not None:
@@ -156,7 +164,8 @@ class Options:
 
     def to_dict(self) -> dict[str, Any]:
         """JSON form: every option in force; numbers as floats, or as exact texts where no float is exact."""
-        return {f.name: _plain(getattr(self, f.name)) for f in fields(self)}
+        given = {f.name: _plain(getattr(self, f.name)) for f in fields(self)}
+        return {name: value for name, value in given.items() if value or name not in _IN_TIME}
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> "Options":

@@ -9,6 +9,7 @@ from serendipity.model import Deadline, HumanPlan, Options, Result, Task, UsageE
 from serendipity.model.answers.result_parts import TiedAnswer
 from serendipity.model.numbers import figure
 from serendipity.model.resources.collection import no_collection
+from serendipity.model.task.gate import refuse_time
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans
@@ -52,6 +53,7 @@ def solve(
     """
     if options.mode == "assistance" or options.human_model != "omniscient":
         raise UsageError("solve: expected a mode other than 'assistance' and the omniscient human model")
+    refuse_time(task, options=options)
     started = perf_counter()
     end = (deadline or Deadline()).within(options.time_limit, options.memory_limit)
     effort = Effort(encoding, solver, end.sooner(limits().end_share), method)

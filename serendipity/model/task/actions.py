@@ -2,11 +2,11 @@
 
 from collections.abc import Collection
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Final
 
-from serendipity.model.errors import InputError
+from serendipity.model.errors import InputError, UsageError
 
 NOOP: Final = "noop"
 """Waiting, as plans and policies call it: always possible, free, without effect.
@@ -18,7 +18,7 @@ State = AbstractSet[int]
 """A state is the set of the fact ids that are true in it."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, order=True)
 class Condition:
     """A conjunction of literals: ids of facts that must be true, and false."""
 
@@ -56,9 +56,39 @@ def fitted(state: frozenset[int], disjunctions: Collection[Disjunction]) -> froz
     return state.difference([d.fact for d in disjunctions]) | held
 
 
+@dataclass(frozen=True, slots=True, order=True)
+class Timing:
+    """The course of an action that takes two epochs or more (semantics 10.1).
+
+    Started in epoch ``t`` it ends with epoch ``t + duration - 1``.
+
+    Attributes:
+        duration: whole epochs, at least 2.
+        over_all: asked of the states strictly inside: after ``t`` and up to the one before its last epoch.
+        at_end: asked of the state before its last epoch.
+        start_add: ids of the facts that its beginning makes true, with epoch ``t``; ascending.
+        start_delete: ids of those that its beginning makes false, never in ``start_add``; ascending.
+    """
+
+    duration: int
+    over_all: Condition = field(default_factory=Condition)
+    at_end: Condition = field(default_factory=Condition)
+    start_add: tuple[int, ...] = ()
+    start_delete: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.duration < 2:
+            raise UsageError(f"timing: is for durations of at least 2 epochs, got {self.duration}")
+        if not frozenset(self.start_add).isdisjoint(self.start_delete):
+            raise UsageError("timing: a fact is both added and deleted at the start")
+
+
 @dataclass(frozen=True, slots=True)
 class GroundAction:
     """One ground action (paper, section II-A: name, cost, preconditions, effects).
+
+    Where it takes two epochs or more, ``pre`` and ``neg`` are asked at its start, and ``add`` and ``delete``
+    come with its last epoch.
 
     Attributes:
         name: PDDL text without brackets, lower case: ``move commx room13 hall8``.
@@ -69,6 +99,7 @@ class GroundAction:
         add: ids of the facts that it makes true, ascending.
         delete: ids of the facts that it makes false, ascending; never in ``add``.
         cost: undiscounted cost, at least 0.
+        timing: its course, if it takes more than one epoch; else None.
     """
 
     name: str
@@ -78,6 +109,7 @@ class GroundAction:
     add: tuple[int, ...]
     delete: tuple[int, ...]
     cost: Fraction = field(default=Fraction(1))
+    timing: Timing | None = None
 
     def __post_init__(self) -> None:
         if self.name == NOOP and (self.pre or self.neg or self.add or self.delete):
@@ -93,6 +125,30 @@ class GroundAction:
     def key(self) -> tuple[str, ...]:
         """``(name, arguments...)``: the string order of canonical choices (semantics 1)."""
         return tuple(self.name.split())
+
+    @property
+    def precondition(self) -> Condition:
+        """What has to hold when it begins."""
+        return Condition(self.pre, self.neg)
+
+    @property
+    def duration(self) -> int:
+        """Epochs that it takes."""
+        return 1 if self.timing is None else self.timing.duration
+
+    @property
+    def moments(self) -> "tuple[GroundAction, ...]":
+        """What takes effect of it in an epoch, as actions of one epoch: itself, or its start and its end.
+
+        What they ask holds when they come; what holds in between is left out.
+        """
+        timing = self.timing
+        if timing is None:
+            return (self,)
+        positive = sorted({*timing.over_all.positive, *timing.at_end.positive})
+        negative = sorted({*timing.over_all.negative, *timing.at_end.negative})
+        start = replace(self, add=timing.start_add, delete=timing.start_delete, timing=None)
+        return start, replace(self, pre=tuple(positive), neg=tuple(negative), timing=None)
 
     @property
     def joint(self) -> bool:

@@ -5,11 +5,12 @@ from collections.abc import Iterable
 from serendipity.model.errors import UsageError
 from serendipity.model.keywords import Horizon
 from serendipity.model.options import INFINITE, MAX_EPOCH, Options
+from serendipity.model.task.plans_in_time import outlasts
 from serendipity.model.task.task import HumanPlan, Task
 
 
 def horizon_of(task: Task, options: Options, plan: HumanPlan | None) -> Horizon:
-    """``T``: what the options say, else the length of ``pi_H``.
+    """``T``: what the options say, else the length of ``pi_H`` in epochs.
 
     Args:
         task: the task.
@@ -17,22 +18,27 @@ def horizon_of(task: Task, options: Options, plan: HumanPlan | None) -> Horizon:
         plan: ``pi_H``, or None where the human has no plan alone.
 
     Raises:
-        UsageError: the horizon is shorter than ``pi_H``, or one is missing; ``pi_H`` has too many actions.
+        UsageError: the horizon is shorter than ``pi_H``, or what that reaches does not last so long; one is
+            missing; ``pi_H`` takes too many epochs.
     """
-    _few_enough(len(plan or ()))
+    length = 0 if plan is None else task.epochs_of(plan)
+    _few_enough(length)
     if options.horizon is not None:
         replans = options.human_model != "omniscient"
         words = "the length of the human's plan" if replans else "as long as the human's plan"
-        return _long_enough(options.horizon, 0 if plan is None else len(plan), words)
+        horizon = _long_enough(options.horizon, length, words)
+        if plan is not None and task.script:
+            _require_lasting(task, plan, horizon)
+        return horizon
     if plan is None:
         if options.mode == "composite":
             return INFINITE
         raise UsageError("horizon: must be given, since the human has no plan alone")
-    if not plan and not task.robot_goal.holds(task.init):
+    if not length and not task.robot_goal.holds(task.init):
         raise UsageError(
             "horizon: must be given, since the human's goal holds already and robots have theirs"
         )
-    return len(plan)
+    return length
 
 
 def common_horizon(options: Options, plans: Iterable[HumanPlan]) -> int:
@@ -54,6 +60,14 @@ def _long_enough(horizon: Horizon, least: int, words: str) -> Horizon:
     return horizon
 
 
-def _few_enough(actions: int) -> None:
-    if actions > MAX_EPOCH:
-        raise UsageError(f"horizon: expected at most {MAX_EPOCH} epochs, and the human's plan has {actions}")
+def _require_lasting(task: Task, plan: HumanPlan, horizon: Horizon) -> None:
+    """Check that the goal holds at the end, and nobody is disturbed, where robots do nothing."""
+    if isinstance(horizon, int):
+        broken = outlasts(task, plan, horizon)
+        if broken is not None:
+            raise UsageError(f"horizon: the human's plan does not last until epoch {horizon}: {broken}")
+
+
+def _few_enough(epochs: int) -> None:
+    if epochs > MAX_EPOCH:
+        raise UsageError(f"horizon: expected at most {MAX_EPOCH} epochs, and the human's plan has {epochs}")

@@ -10,6 +10,11 @@ from serendipity.model.task.actions import GroundAction
 _HINTS: Final = 3
 
 
+def canonical_name(text: str) -> str:
+    """An agent's or action's name as results write it: lower case, single blanks."""
+    return " ".join(text.lower().split())
+
+
 class ActionNames(Mapping[str, tuple[int, ...]]):
     """Ids of actions by name, looked up where the actions stand: in the order of their keys.
 

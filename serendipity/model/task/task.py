@@ -5,22 +5,27 @@ from collections.abc import Set as AbstractSet
 from dataclasses import InitVar, dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
+from itertools import accumulate
 
 from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.numbers import total
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import NOOP, Condition, Disjunction, GroundAction, apply, fitted
+from serendipity.model.task.course import first_unmet
+from serendipity.model.task.gate import refuse_time
 from serendipity.model.task.names import ActionNames
+from serendipity.model.task.names import canonical_name as canonical_name
+from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries
+from serendipity.model.task.plans_in_time import plan_in_time, replayed
+from serendipity.model.task.script import Script, Timeline, moments, resolved
 from serendipity.model.task.variables import Variable, find_variables
 from serendipity.model.telling import Grid, Line, Told, team
 
 HumanPlan = tuple[int, ...]
-"""``pi_H``: action ids in order, without noops; ``pi_H[t]`` is executed in epoch t."""
+"""``pi_H``: action ids in order, without noops; ``pi_H[t]`` is executed in epoch t.
 
-
-def canonical_name(text: str) -> str:
-    """An agent's or action's name as results write it: lower case, single blanks."""
-    return " ".join(text.lower().split())
+Actions of several epochs follow each other; with waiting in between it is a :class:`.TimedPlan`.
+"""
 
 
 def several(names: Iterable[str], what: str) -> tuple[str, ...]:
@@ -60,6 +65,9 @@ class Task(Told):
             does: a given plan may name them.
         disjunctions: what those facts stand for that are not of the input; the actions
             keep them true to it.
+        script: what happens anyway (semantics 10.3); bystanders are among ``agents``, what they could do
+            is not among ``actions``.
+        epoch: of an epoch, how long it is in the unit of the input (of PDDL's durations), for people.
         variables: finite-domain variables behind the facts; each fact is in exactly one.  They
             follow from facts, initial state and actions.
 
@@ -79,14 +87,18 @@ class Task(Told):
     warnings: tuple[str, ...] = ()
     waiting: frozenset[tuple[str, int]] = frozenset()
     disjunctions: tuple[Disjunction, ...] = ()
+    script: Timeline = field(default_factory=Timeline)
+    epoch: Fraction = field(default=Fraction(1))
     variables: tuple[Variable, ...] = field(init=False, repr=False, compare=False)
     known_variables: InitVar[tuple[Variable, ...] | None] = field(default=None, kw_only=True)
 
     def __post_init__(self, known_variables: tuple[Variable, ...] | None) -> None:
         if not 0 <= self.human < len(self.agents):
             raise UsageError("a task needs exactly one human among its agents")
+        if self.human in self.script.people:
+            raise UsageError(f"script: '{self.agents[self.human]}' is the human, whose plan is no part of it")
         if known_variables is None:
-            known_variables = find_variables(self.facts, self.init, self.actions)
+            known_variables = find_variables(self.facts, self.init, moments(self.actions, self.script))
         object.__setattr__(self, "variables", known_variables)
 
     def told(self) -> Iterator[Line | Grid]:
@@ -110,8 +122,14 @@ class Task(Told):
 
     @property
     def robots(self) -> tuple[int, ...]:
-        """Ids of all agents but the human."""
-        return tuple(i for i in range(len(self.agents)) if i != self.human)
+        """Ids of all agents but the human and bystanders."""
+        others = {self.human, *self.script.people}
+        return tuple(i for i in range(len(self.agents)) if i not in others)
+
+    @cached_property
+    def needs_time(self) -> bool:
+        """Whether an action takes more than one epoch, or something happens by a script."""
+        return bool(self.script) or any(action.timing is not None for action in self.actions)
 
     @cached_property
     def human_actions(self) -> tuple[int, ...]:
@@ -127,34 +145,56 @@ class Task(Told):
         """The cost of an action to the team: full with the human, else discounted (semantics 1)."""
         return action.cost if self.human in action.participants else action.cost * (1 - discount)
 
+    def starts_of(self, plan: HumanPlan) -> tuple[int, ...]:
+        """The epoch in which each action of a human plan begins."""
+        if isinstance(plan, TimedPlan):
+            return plan.starts
+        ends = accumulate(self.actions[i].duration for i in plan)
+        return tuple(end - self.actions[i].duration + 1 for i, end in zip(plan, ends, strict=True))
+
+    def epochs_of(self, plan: HumanPlan) -> int:
+        """The length of a human plan in epochs, waiting included."""
+        return plan.length if isinstance(plan, TimedPlan) else sum(self.actions[i].duration for i in plan)
+
     def replay_alone(self, plan: HumanPlan) -> list[frozenset[int]]:
-        """States ``s_0 .. s_n`` while the human executes ``plan`` and robots idle.
+        """States ``s_0 .. s_n`` after each epoch while the human executes ``plan`` and robots idle.
 
         Raises:
             PlanError: an action is not theirs alone or not applicable, or ``G_H`` is missed.
         """
+        if self.needs_time or isinstance(plan, TimedPlan):
+            return replayed(self, plan)
         states = [self.init]
         for step, action_id in enumerate(plan, start=1):
             states.append(self._after(states[-1], action_id, step))
-        self._require_goal(states[-1], plan)
+        self.require_goal(states[-1], plan)
         return states
 
     def _after(self, state: frozenset[int], action_id: int, step: int) -> frozenset[int]:
         """The state after a step of the human's plan."""
-        return apply(state, self._step(state, action_id, step))
+        return apply(state, self.step_of(state, action_id, step))
 
-    def _step(self, state: AbstractSet[int], action_id: int, step: int) -> GroundAction:
-        """The action of a step of the human's plan, which they can do alone in the state."""
+    def step_of(self, state: AbstractSet[int], action_id: int, step: int) -> GroundAction:
+        """The action of a step of the human's plan, which they can begin alone in the state.
+
+        Raises:
+            PlanError: they can't.
+        """
         action = self.actions[action_id]
         if action.participants == (self.human,):
             if action.applicable(state):
                 return action
-            reason = f"is not applicable: {self._first_unmet(action, state)}"
+            reason = f"is not applicable: {first_unmet(action.precondition, state, self.facts)}"
         else:
             reason = f"is not an action that {self.agents[self.human]} can do alone"
         raise PlanError(f"human plan, step {step}: '{action.name}' {reason}", step=step)
 
-    def _require_goal(self, state: AbstractSet[int], plan: HumanPlan) -> None:
+    def require_goal(self, state: AbstractSet[int], plan: HumanPlan) -> None:
+        """Check that a plan of the human has reached the goal in a state.
+
+        Raises:
+            PlanError: it has not.
+        """
         if not self.goal.holds(state):
             last = f"after its last step '{self.actions[plan[-1]].name}'" if plan else "with no step"
             raise PlanError(f"human plan: the goal does not hold {last}")
@@ -163,20 +203,28 @@ class Task(Told):
         """Whether waiting of the human is called so, in some case at least."""
         return name == NOOP or (name, self.human) in self.waiting
 
-    def plan_from_names(self, names: Iterable[str]) -> HumanPlan:
-        """The human plan that a list of action names writes down; waiting is skipped.
+    def plan_from_names(self, names: Iterable[PlanEntry]) -> HumanPlan:
+        """The human plan that a list of action names writes down.
 
-        A name shared by several actions is read as the first that is applicable there.
+        Waiting is skipped, unless each action comes with the epoch in which it begins: then what is left
+        between them is waiting, and a last ``noop`` may say until when.  A name shared by several actions
+        is read as the first that is applicable there.
 
         Raises:
             PlanError: naming the first step that is unknown, not theirs, or not applicable,
                 or saying that the goal is missed.
-            UsageError: they are no list of names.
+            UsageError: they are no list of names, or the human waits in it.
         """
+        entries = checked_entries(names, "human plan")
+        untimed = [entry for entry in entries if isinstance(entry, str)]
+        if self.needs_time or len(untimed) < len(entries):
+            chosen_plan = plan_in_time(self, entries)
+            refuse_time(plan=chosen_plan)
+            return chosen_plan
         plan: list[int] = []
         state = set(self.init)  # moved in place: such plans may be very long
         known: dict[str, tuple[int, ...]] = {}
-        for step, text in enumerate(several(names, "human plan"), start=1):
+        for step, text in enumerate(untimed, start=1):
             name = canonical_name(text)
             if name not in known:
                 known[name] = self.named.get(name, ())
@@ -189,10 +237,10 @@ class Task(Told):
                 raise PlanError(message, step=step)
             chosen = ids[0] if chosen is None else chosen
             plan.append(chosen)
-            action = self._step(state, chosen, len(plan))
+            action = self.step_of(state, chosen, len(plan))
             state.difference_update(action.delete)
             state.update(action.add)
-        self._require_goal(state, tuple(plan))
+        self.require_goal(state, tuple(plan))
         return tuple(plan)
 
     def variants_of(self, plan: HumanPlan) -> HumanPlan:
@@ -201,13 +249,16 @@ class Task(Told):
         Raises:
             PlanError: a step is not applicable, or the goal is missed.
         """
+        if self.needs_time or isinstance(plan, TimedPlan):
+            names = (self.actions[i].name for i in plan)
+            return plan_in_time(self, zip(self.starts_of(plan), names, strict=True))
         found: list[int] = []
         state = self.init
         for step, action_id in enumerate(plan, start=1):
             ids = self.named[self.actions[action_id].name]
             found.append(next((i for i in ids if self.actions[i].applicable(state)), ids[0]))
             state = self._after(state, found[-1], step)
-        self._require_goal(state, tuple(found))
+        self.require_goal(state, tuple(found))
         return tuple(found)
 
     def names(self, plan: HumanPlan) -> frozenset[str]:
@@ -237,7 +288,7 @@ class Task(Told):
         if self.fits(state):
             variables = self.variables  # what would be found, or better
         else:
-            variables = find_variables(self.facts, state, self.actions, deadline)
+            variables = find_variables(self.facts, state, moments(self.actions, self.script), deadline)
         return replace(self, init=state, known_variables=variables)
 
     def fits(self, state: frozenset[int]) -> bool:
@@ -250,6 +301,19 @@ class Task(Told):
         theirs = self.robot_goal if robot_goal is None else robot_goal
         return replace(self, goal=goal, robot_goal=theirs, known_variables=self.variables)
 
+    def with_script(self, script: Script) -> "Task":
+        """The same task with more that happens anyway.
+
+        Those whose plans it has become bystanders: only what these plans say is done by them.
+
+        Raises:
+            UsageError: there is no such fact or agent, a plan has an action that its person can't do alone,
+                or something contradicts itself.
+        """
+        timeline = resolved(self, script)
+        actions = tuple(a for a in self.actions if timeline.people.isdisjoint(a.participants))
+        return replace(self, actions=actions, script=timeline)
+
     def with_human(self, human: str) -> "Task":
         """The same task with another agent as the human.
 
@@ -260,9 +324,3 @@ class Task(Told):
         if name not in self.agents:
             raise UsageError(f"human: expected one of {', '.join(self.agents)}, got '{human!s:.50}'")
         return replace(self, human=self.agents.index(name), known_variables=self.variables)
-
-    def _first_unmet(self, action: GroundAction, state: AbstractSet[int]) -> str:
-        missing = next((f for f in action.pre if f not in state), None)
-        if missing is not None:
-            return f"'{self.facts[missing]}' is false"
-        return f"'{self.facts[next(f for f in action.neg if f in state)]}' is true"

@@ -1,0 +1,121 @@
+"""Human plans beside a script, or with waiting in them: read from names, and replayed (semantics 10)."""
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from serendipity.model.errors import PlanError
+from serendipity.model.task.actions import GroundAction
+from serendipity.model.task.course import BrokenError, Course
+from serendipity.model.task.names import canonical_name
+from serendipity.model.task.plans import PlanEntry, TimedPlan
+
+if TYPE_CHECKING:
+    from serendipity.model.task.task import HumanPlan, Task
+
+
+def plan_in_time(task: "Task", entries: Iterable[PlanEntry]) -> "HumanPlan":
+    """The human plan that entries write down, which reaches the goal; waiting without an epoch is skipped.
+
+    Raises:
+        PlanError: naming the first step that is unknown, not theirs, begins too early or can't be done, or
+            saying that the goal is missed.
+    """
+    human = _Human(task)
+    for step, entry in enumerate(entries, start=1):
+        epoch, name = (None, entry) if isinstance(entry, str) else entry
+        human.step(step, epoch, canonical_name(name))
+    task.require_goal(human.course.state, tuple(human.actions))
+    return without_gaps(task, TimedPlan(human.actions, human.starts, human.course.epoch))
+
+
+def replayed(task: "Task", plan: "HumanPlan") -> list[frozenset[int]]:
+    """The state after each epoch of a human plan that reaches the goal, the initial one first.
+
+    Raises:
+        PlanError: a step is not theirs or can't be done, or the goal is missed.
+    """
+    human = _done(task, plan)
+    task.require_goal(human.course.state, plan)
+    return human.states
+
+
+def outlasts(task: "Task", plan: "HumanPlan", epochs: int) -> str | None:
+    """The reason why what a human plan reaches does not last until an epoch, or None if it does.
+
+    After the plan everybody is idle.
+
+    Raises:
+        PlanError: it is no plan in the first place.
+    """
+    human = _done(task, plan)
+    try:
+        human.wait_until(epochs)
+    except PlanError as error:
+        return error.message.removeprefix("human plan, ")
+    return None if task.goal.holds(human.course.state) else "the goal does not hold any more"
+
+
+def _done(task: "Task", plan: "HumanPlan") -> "_Human":
+    human = _Human(task)
+    for step, (epoch, action_id) in enumerate(zip(task.starts_of(plan), plan, strict=True), start=1):
+        human.do(step, epoch, action_id)
+    human.wait_until(task.epochs_of(plan))
+    return human
+
+
+def without_gaps(task: "Task", plan: TimedPlan) -> "HumanPlan":
+    """The plan; a plain tuple where the human waits nowhere."""
+    plain = tuple(plan)
+    waits = (plan.starts, plan.length) != (task.starts_of(plain), task.epochs_of(plain))
+    return plan if waits else plain
+
+
+class _Human:
+    """The human alone, at a plan."""
+
+    def __init__(self, task: "Task") -> None:
+        self.task = task
+        self.course = Course(task.facts, task.init, task.script)
+        self.states = [task.init]
+        self.actions: list[int] = []
+        self.starts: list[int] = []
+
+    def step(self, step: int, epoch: int | None, name: str) -> None:
+        """Do the action of a name, from an epoch on or at once."""
+        ids = self.task.named.get(name, ())
+        waits = self.task.waits(name)
+        if epoch is not None:
+            if epoch <= self.course.epoch:
+                early = f"expected an epoch from {self.course.epoch + 1} on, got {epoch}"
+                raise PlanError(f"human plan, step {step}: '{name}': {early}", step=step)
+            self.wait_until(epoch - 1)
+        state = self.course.state
+        chosen = next((i for i in ids if self.task.actions[i].applicable(state)), None)
+        if chosen is None and waits:
+            if epoch is not None:
+                self.wait_until(epoch)
+            return
+        if not ids:
+            raise PlanError(f"human plan, step {step}: there is no action '{name}' in the task", step=step)
+        self.do(step, self.course.epoch + 1, ids[0] if chosen is None else chosen)
+
+    def do(self, step: int, epoch: int, action_id: int) -> None:
+        """Do an action from an epoch on, until it has ended."""
+        self.wait_until(epoch - 1)
+        action = self.task.step_of(self.course.state, action_id, step)
+        self._begin([action], f"step {step}", step)
+        self.actions.append(action_id)
+        self.starts.append(epoch)
+        self.wait_until(epoch + action.duration - 1, f"step {step}", step)
+
+    def wait_until(self, epoch: int, where: str = "", step: int | None = None) -> None:
+        """Let epochs go by."""
+        while self.course.epoch < epoch:
+            self._begin([], where or f"epoch {self.course.epoch + 1}", step)
+
+    def _begin(self, actions: list[GroundAction], where: str, step: int | None) -> None:
+        try:
+            self.course.begin(actions)
+        except BrokenError as error:
+            raise PlanError(f"human plan, {where}: {error}", step=step) from None
+        self.states.append(self.course.state)
