@@ -15,6 +15,7 @@ from serendipity.facade.logs import recorded
 from serendipity.facade.prepared import HELD
 from serendipity.model import Deadline, Task
 from serendipity.model.arguments import BY_NAME, FUNCTION, PAIR, PATH, TEXT, expect, expect_or_none
+from serendipity.model.numbers import Number
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.task.task import several
 from serendipity.pddl.layouts import Pair, read_agents, read_folder, read_pddl
@@ -34,6 +35,7 @@ def load(
     path: PathArgument,
     human: str | None = None,
     *,
+    epoch: Number | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
@@ -44,6 +46,7 @@ def load(
     Args:
         path: the directory.
         human: name of the human, or None for the only agent with a goal.
+        epoch: how long an epoch is, in the unit of PDDL's durations; None to find out.
         time_limit: seconds for this call, or None.
         memory_limit: what the process may have in memory, in MiB, or None.
         deadline: one that other work shares, such as planning; it holds beside the two limits.
@@ -53,7 +56,9 @@ def load(
     expect(PATH, path=path)
     expect_or_none(TEXT, human=human)
     expect_or_none(FUNCTION, on_progress=on_progress)
-    return _ready(read_folder(path, human, deadline=limits, on_progress=on_progress), limits, on_progress)
+    return _ready(
+        read_folder(path, human, epoch=epoch, deadline=limits, on_progress=on_progress), limits, on_progress
+    )
 
 
 @recorded("load", _size)
@@ -63,6 +68,7 @@ def load_agents(
     human: str | None = None,
     *,
     name: str | None = None,
+    epoch: Number | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
@@ -78,7 +84,7 @@ def load_agents(
     expect_or_none(PAIR, team=team)
     expect_or_none(TEXT, human=human, name=name)
     expect_or_none(FUNCTION, on_progress=on_progress)
-    task = read_agents(agents, team, human, name=name, deadline=limits, on_progress=on_progress)
+    task = read_agents(agents, team, human, name=name, epoch=epoch, deadline=limits, on_progress=on_progress)
     return _ready(task, limits, on_progress)
 
 
@@ -90,6 +96,7 @@ def load_pddl(
     robots: Sequence[str] = (),
     *,
     name: str | None = None,
+    epoch: Number | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
@@ -105,7 +112,9 @@ def load_pddl(
     named = several(robots, "robots")
     expect_or_none(TEXT, name=name)
     expect_or_none(FUNCTION, on_progress=on_progress)
-    task = read_pddl(domain, problem, human, named, name=name, deadline=limits, on_progress=on_progress)
+    task = read_pddl(
+        domain, problem, human, named, name=name, epoch=epoch, deadline=limits, on_progress=on_progress
+    )
     return _ready(task, limits, on_progress)
 
 

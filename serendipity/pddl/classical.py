@@ -72,6 +72,10 @@ def lifted_files(unit: Unit, shares: Mapping[str, Fraction]) -> ClassicalFiles:
     Raises:
         InputError: an action has no ``:agent``, or a type is ``either`` of several.
     """
+    if unit.problem.timed or any(schema.course is not None for schema in unit.domain.schemas):
+        raise InputError(
+            "planners for one agent are given no durations and no timed literals", unit.domain_file
+        )
     priced = [_priced(schema, unit, shares) for schema in unit.domain.schemas]
     scale = lcm(*(cost.denominator for action in priced for cost in action.costs.values()))
     return ClassicalFiles(_domain(unit, priced), _problem(unit, shares, priced, scale), scale)

@@ -1,12 +1,15 @@
 """The three layouts of PDDL input."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import Final
 
 from serendipity.model import Deadline, InputError, Task, UsageError
+from serendipity.model.numbers import Number
 from serendipity.model.task.task import canonical_name
 from serendipity.pddl.grounding.assemble import Blueprint, Source, assemble
+from serendipity.pddl.grounding.clock import epoch_length
 from serendipity.pddl.parsing.files import PathArgument, read_unit
 from serendipity.pddl.parsing.lifted import And, Key, Unit
 from serendipity.pddl.parsing.tree import listed, quoted
@@ -26,6 +29,7 @@ def read_folder(
     path: PathArgument,
     human: str | None = None,
     *,
+    epoch: Number | None = None,
     deadline: Deadline | None = None,
     on_progress: OnProgress | None = None,
 ) -> Task:
@@ -34,12 +38,14 @@ def read_folder(
     Args:
         path: the directory; agents are called as their folders.
         human: name of the human, or None for the only agent with a goal.
+        epoch: how long an epoch is, in the unit of PDDL's durations, which are rounded up to whole
+            epochs; None for the greatest common divisor of all that can come up.
         deadline: how long it may take, and in how much memory.
         on_progress: is told what is being done, and how many ground actions there are so far.
 
     Raises:
         InputError: a file is missing, can't be read or is wrong.
-        UsageError: nobody, or more than one agent, could be the human.
+        UsageError: nobody, or more than one agent, could be the human; an epoch is no time.
         LimitReachedError: the deadline came first, or there is not enough memory.
     """
     root = Path(path)
@@ -59,7 +65,9 @@ def read_folder(
     team = next((pairs.pop(name) for name in list(pairs) if name.lower() == TEAM), None)
     if not pairs:
         raise InputError("no agent's folder with 'domain.pddl' and 'problem.pddl' in this folder", root)
-    return read_agents(pairs, team, human, name=root.name, deadline=deadline, on_progress=on_progress)
+    return read_agents(
+        pairs, team, human, name=root.name, epoch=epoch, deadline=deadline, on_progress=on_progress
+    )
 
 
 def read_agents(
@@ -68,6 +76,7 @@ def read_agents(
     human: str | None = None,
     *,
     name: str | None = None,
+    epoch: Number | None = None,
     deadline: Deadline | None = None,
     on_progress: OnProgress | None = None,
 ) -> Task:
@@ -82,26 +91,33 @@ def read_agents(
         team: domain and problem file of the joint actions, or None.
         human: name of the human, or None for the only agent with a goal.
         name: of the task; default is that of the human's problem.
+        epoch: how long an epoch is, in the unit of PDDL's durations, which are rounded up to whole
+            epochs; None for the greatest common divisor of all that can come up.
         deadline: how long it may take, and in how much memory.
         on_progress: is told what is being done, and how many ground actions there are so far.
 
     Raises:
         InputError: a file is missing, can't be read or is wrong.
-        UsageError: nobody, or more than one agent, could be the human.
+        UsageError: nobody, or more than one agent, could be the human; an epoch is no time.
         LimitReachedError: the deadline came first, or there is not enough memory.
     """
-    names = _unique_names(agents)
+    names, length = _unique_names(agents), epoch_length(epoch)
 
     def read(work: Work) -> Task:
         units = {who: read_unit(who, *pair, work) for who, pair in zip(names, agents.values(), strict=True)}
         team_unit = None if team is None else read_unit(None, *team, work)
-        return _united(units, team_unit, human, name, work)
+        return _united(units, team_unit, human, name, length, work)
 
     return within_limits(read, deadline, on_progress)
 
 
 def _united(
-    units: Mapping[str, Unit], team: Unit | None, human: str | None, name: str | None, work: Work
+    units: Mapping[str, Unit],
+    team: Unit | None,
+    human: str | None,
+    name: str | None,
+    epoch: Fraction | None,
+    work: Work,
 ) -> Task:
     names = [*units]
     everyone = [*units.values(), *([] if team is None else [team])]
@@ -121,6 +137,7 @@ def _united(
         goals=units[human_name],
         robot_goals=[unit for unit in everyone if unit.owner != human_name],
         warnings=[*empty_lists(everyone), *other_domains(everyone), *missing_facts(everyone, work)],
+        epoch=epoch,
     )
     return assemble(blueprint, work)
 
@@ -132,6 +149,7 @@ def read_pddl(
     robots: Sequence[str] = (),
     *,
     name: str | None = None,
+    epoch: Number | None = None,
     deadline: Deadline | None = None,
     on_progress: OnProgress | None = None,
 ) -> Task:
@@ -148,14 +166,17 @@ def read_pddl(
         robots: the objects that are robots, at least one; with MA-PDDL none, or ``all`` where no
             object is called that, means all the other objects that can be an ``:agent``.
         name: of the task; default is that of the problem.
+        epoch: how long an epoch is, in the unit of PDDL's durations, which are rounded up to whole
+            epochs; None for the greatest common divisor of all that can come up.
         deadline: how long it may take, and in how much memory.
         on_progress: is told what is being done, and how many ground actions there are so far.
 
     Raises:
         InputError: a file is missing, can't be read or is wrong.
-        UsageError: an agent is not an object of the task, or is named twice.
+        UsageError: an agent is not an object of the task, or is named twice; an epoch is no time.
         LimitReachedError: the deadline came first, or there is not enough memory.
     """
+    length = epoch_length(epoch)
 
     def read(work: Work) -> Task:
         unit = read_unit(None, domain, problem, work)
@@ -166,7 +187,7 @@ def read_pddl(
         by_name = bool(robots) and (list(robots) != [ALL] or ALL in unit.problem.objects)
         named = robots if by_name else _other_agents(unit, canonical_name(human))
         names = _unique_names([human, *named])
-        return _one(unit, names, name, work)
+        return _one(unit, names, name, length, work)
 
     return within_limits(read, deadline, on_progress)
 
@@ -181,7 +202,7 @@ def _other_agents(unit: Unit, human: str) -> list[str]:
     return sorted(_can_be_agents(unit) - {human})
 
 
-def _one(unit: Unit, names: Sequence[str], name: str | None, work: Work) -> Task:
+def _one(unit: Unit, names: Sequence[str], name: str | None, epoch: Fraction | None, work: Work) -> Task:
     for agent in names:
         if agent not in unit.problem.objects:
             raise UsageError(f"agent {quoted(agent)} is not an object of {unit.problem_file}")
@@ -199,6 +220,7 @@ def _one(unit: Unit, names: Sequence[str], name: str | None, work: Work) -> Task
         goals=unit,
         left_out=_Outsiders(unit, names).reason,
         warnings=[*empty_lists([unit]), *other_domains([unit]), *_outsiders(unit, names)],
+        epoch=epoch,
     )
     return assemble(blueprint, work)
 

@@ -83,7 +83,7 @@ def missing_facts(units: Sequence[Unit], work: Work) -> list[str]:
     Predicates that no action changes are left out, and so is a file whose initial
     state is empty (a team's, say, that only brings joint actions).
     """
-    changed = {e.literal.key[0] for unit in units for s in unit.domain.schemas for e in s.effects}
+    changed = {e.literal.key[0] for unit in units for s in unit.domain.schemas for e in s.all_effects}
     found: dict[tuple[str, str, str], list[Key]] = {}
     for a, b in combinations([unit for unit in units if unit.problem.init], 2):
         for holder, other in ((a, b), (b, a)):

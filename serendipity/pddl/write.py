@@ -7,14 +7,14 @@ no goal needs are not in it.
 """
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from math import lcm
 from pathlib import Path
 from typing import Final
 
-from serendipity.model import GroundAction, Task
+from serendipity.model import GroundAction, InputError, Task, Timing
 from serendipity.pddl.classical import ClassicalFiles
 from serendipity.pddl.parsing.scope import RESERVED
 from serendipity.pddl.participants import agents_named
@@ -24,7 +24,7 @@ _ILLEGAL: Final = re.compile(r"[^a-z0-9_-]")
 
 
 def write_pddl(task: Task, directory: str | Path) -> None:
-    """Write a task as a directory that ``load(directory, human=...)`` reads back.
+    """Write a task as a directory that ``load(directory, human=..., epoch=1)`` reads back.
 
     Args:
         task: the task; its agents' names must do as names of folders.
@@ -32,6 +32,7 @@ def write_pddl(task: Task, directory: str | Path) -> None:
 
     Raises:
         OSError: it can't be written.
+        InputError: it has bystanders, whose plans are no part of PDDL.
     """
     for folder, (domain, problem) in task_files(task).items():
         place = Path(directory, folder)
@@ -41,7 +42,13 @@ def write_pddl(task: Task, directory: str | Path) -> None:
 
 
 def task_files(task: Task) -> dict[str, tuple[str, str]]:
-    """The texts ``(domain, problem)`` of each agent's folder and of the team's."""
+    """The texts ``(domain, problem)`` of each agent's folder and of the team's.
+
+    Raises:
+        InputError: it has bystanders, whose plans are no part of PDDL.
+    """
+    if task.script.people:
+        raise InputError("a task with bystanders can't be written: their plans are no part of PDDL")
     facts = _fact_names(task)
     names = _action_names(task)
     files = {}
@@ -51,6 +58,7 @@ def task_files(task: Task) -> dict[str, tuple[str, str]]:
         mentioned = _mentioned(own.values())
         if agent == task.human:
             mentioned |= {*task.goal.positive, *task.goal.negative}
+            mentioned |= {one.fact for one in task.script.facts}
         files[name] = (_domain(own, facts, mentioned), _problem(task, facts, mentioned, goal))
     joint = {names[i]: a for i, a in enumerate(task.actions) if a.joint}
     goal = _goal(task.robot_goal.positive, task.robot_goal.negative, facts)
@@ -64,7 +72,12 @@ def composite_files(task: Task, discount: Fraction) -> ClassicalFiles:
 
     Plans of such a problem are sequences.  Where actions may share an epoch although each
     spoils a precondition of another (``interference="paper"``), no sequence does the same.
+
+    Raises:
+        InputError: the task needs time.
     """
+    if task.needs_time:
+        raise InputError("planners for one agent are given no durations and no timed literals")
     costs = [task.team_cost(action, discount) for action in task.actions]
     scale = lcm(*(cost.denominator for cost in costs))
     facts = _fact_names(task)
@@ -87,14 +100,22 @@ def composite_names(task: Task) -> list[str]:
 
 
 def _mentioned(actions: Iterable[GroundAction]) -> set[int]:
-    return {fact for a in actions for fact in (*a.pre, *a.neg, *a.add, *a.delete)}
+    moments = (moment for action in actions for moment in action.moments)
+    return {fact for a in moments for fact in (*a.pre, *a.neg, *a.add, *a.delete)}
 
 
 def _domain(actions: Mapping[str, GroundAction], facts: Sequence[str], mentioned: set[int]) -> str:
-    lines = ["(define (domain grounded)", "  (:requirements :strips :negative-preconditions :action-costs)"]
+    timed = " :durative-actions" if any(action.timing for action in actions.values()) else ""
+    lines = [
+        "(define (domain grounded)",
+        f"  (:requirements :strips :negative-preconditions :action-costs{timed})",
+    ]
     lines += ["  (:predicates", *(f"    ({facts[fact]})" for fact in sorted(mentioned)), "  )"]
     lines.append("  (:functions (total-cost))")
     for name, action in actions.items():
+        if action.timing is not None:
+            lines += _durative(name, action, action.timing, facts)
+            continue
         condition = _literals(action.pre, action.neg, facts)
         effect = [f"(increase (total-cost) {_number(action.cost)})"]
         effect += _literals(action.add, action.delete, facts)
@@ -107,6 +128,30 @@ def _domain(actions: Mapping[str, GroundAction], facts: Sequence[str], mentioned
     return "\n".join([*lines, ")", ""])
 
 
+def _durative(name: str, action: GroundAction, timing: Timing, facts: Sequence[str]) -> list[str]:
+    cost = f"(increase (total-cost) {_number(action.cost)})"
+    conditions = [
+        *_at("at start", _literals(action.pre, action.neg, facts)),
+        *_at("over all", _literals(timing.over_all.positive, timing.over_all.negative, facts)),
+        *_at("at end", _literals(timing.at_end.positive, timing.at_end.negative, facts)),
+    ]
+    effects = [
+        *_at("at start", [cost, *_literals(timing.start_add, timing.start_delete, facts)]),
+        *_at("at end", _literals(action.add, action.delete, facts)),
+    ]
+    return [
+        f"  (:durative-action {name}",
+        "    :parameters ()",
+        f"    :duration (= ?duration {timing.duration})",
+        f"    :condition (and {' '.join(conditions)})",
+        f"    :effect (and {' '.join(effects)}))",
+    ]
+
+
+def _at(when: str, parts: Iterable[str]) -> Iterator[str]:
+    return (f"({when} {part})" for part in parts)
+
+
 def _problem(task: Task, facts: Sequence[str], mentioned: set[int], goal: Iterable[str]) -> str:
     init = [f"    ({facts[fact]})" for fact in sorted(task.init & mentioned)]
     lines = [
@@ -115,6 +160,12 @@ def _problem(task: Task, facts: Sequence[str], mentioned: set[int], goal: Iterab
         "  (:init",
         "    (= (total-cost) 0)",
         *init,
+        *(
+            f"    (at {one.epoch} {literal})"
+            for one in task.script.facts
+            if one.fact in mentioned
+            for literal in _literals([one.fact] if one.true else [], [] if one.true else [one.fact], facts)
+        ),
         "  )",
         f"  (:goal (and {' '.join(goal)}))",
         "  (:metric minimize (total-cost))",

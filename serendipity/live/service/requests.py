@@ -1,7 +1,6 @@
 """What requests have to look like; what their values mean is checked by those who plan."""
 
 import json
-from dataclasses import fields
 from typing import Any, Final
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -14,11 +13,9 @@ _PROBLEM: Final = "text of a PDDL problem"
 
 
 def _options_schema() -> dict[str, Any]:
-    defaults = Options().to_dict()
     described = {
-        field.name: {"default": defaults[field.name]}
-        | ({"enum": list(CHOICES[field.name])} if field.name in CHOICES else {})
-        for field in fields(Options)
+        name: {"default": default} | ({"enum": list(CHOICES[name])} if name in CHOICES else {})
+        for name, default in Options().to_dict().items()
     }
     return {"type": "object", "properties": described, "additionalProperties": False}
 

@@ -7,9 +7,11 @@ from fractions import Fraction
 from itertools import chain
 from typing import Final
 
-from serendipity.model import GroundAction, InputError, Task
+from serendipity.model import GroundAction, InputError, Task, Timeline
 from serendipity.model.task.actions import NOOP
+from serendipity.model.task.script import moments
 from serendipity.pddl.grounding.blocks import Block
+from serendipity.pddl.grounding.clock import Clock, script_of, time_warnings
 from serendipity.pddl.grounding.disjunctive import NotExactError, variables_behind, with_disjunctions
 from serendipity.pddl.grounding.goals import Goal, read_goal
 from serendipity.pddl.grounding.instantiate import Instantiator, Participants
@@ -54,6 +56,7 @@ class Blueprint:
         robot_goals: units that state goals beyond the human's.
         left_out: why an action in which nobody takes part is left out.
         warnings: about the input.
+        epoch: how long an epoch is, in the unit of durations; None to find out.
     """
 
     name: str
@@ -64,6 +67,12 @@ class Blueprint:
     robot_goals: list[Unit] = field(default_factory=list)
     left_out: Callable[[Key], str] = " ".join
     warnings: list[str] = field(default_factory=list)
+    epoch: Fraction | None = None
+
+    @property
+    def units(self) -> list[Unit]:
+        """The files, each once."""
+        return [*{id(source.unit): source.unit for source in self.sources}.values()]
 
 
 def assemble(blueprint: Blueprint, work: Work) -> Task:
@@ -80,8 +89,12 @@ def assemble(blueprint: Blueprint, work: Work) -> Task:
     if not goal:
         blueprint.warnings.append(_no_goal(blueprint))
     facts, blocks = _grounded(blueprint, relations, work)
-    numbering = _numbered(facts, blocks, relations, goal, robot_goals, work)
-    actions = tuple(_actions(numbering, blueprint))
+    script = script_of(blueprint.units, facts)
+    numbering = _numbered(facts, blocks, relations, goal, robot_goals, work, script)
+    clock = Clock(blueprint.units, numbering.blocks, blueprint.epoch)
+    actions = tuple(_actions(numbering, blueprint, clock))
+    timeline = _timeline(numbering, blueprint, clock)
+    blueprint.warnings += [*clock.warnings(), *time_warnings(blueprint.units)]
     task = Task(
         name=blueprint.name,
         agents=blueprint.agents,
@@ -93,13 +106,17 @@ def assemble(blueprint: Blueprint, work: Work) -> Task:
         robot_goal=numbering.condition(chain.from_iterable(one.literals for one in robot_goals)),
         warnings=tuple(blueprint.warnings),
         waiting=frozenset(numbering.waiting),
-        known_variables=variables_behind(numbering.names, numbering.init, actions, work),
+        script=timeline,
+        epoch=clock.epoch,
+        known_variables=variables_behind(numbering.names, numbering.init, moments(actions, timeline), work),
     )
     return _with_disjunctive_goals(task, numbering, goal, robot_goals, work)
 
 
 def _relations(sources: Iterable[Source]) -> Relations:
-    effects = [effect.literal for source in sources for schema in source.schemas for effect in schema.effects]
+    schemas = [schema for source in sources for schema in source.schemas]
+    effects = [effect.literal for schema in schemas for effect in schema.all_effects]
+    effects += [timed.literal for source in sources for timed in source.unit.problem.timed]
     fluent = frozenset([literal.key[0] for literal in effects])
     added = frozenset([literal.key[0] for literal in effects if literal.positive])
     return Relations(chain.from_iterable(source.unit.problem.init for source in sources), fluent, added)
@@ -138,7 +155,7 @@ def _owned(blocks: Iterable[Block], blueprint: Blueprint, work: Work) -> list[Bl
     owned = []
     for block in work.deadline.each(blocks, 1):
         if not all(block.participants):
-            others = (r.key for r in block.records() if not r.participants and any(r[2:6]))
+            others = (r.key for r in block.records() if not (r.participants or r.only_waits))
             reasons.update(map(blueprint.left_out, others))
         owned.append(block.only(block.participants))
     for reason, number in sorted(reasons.items()):
@@ -153,6 +170,7 @@ def _numbered(
     goal: Goal,
     robot_goals: Sequence[Goal],
     work: Work,
+    script: tuple[frozenset[int], frozenset[int]],
 ) -> Numbering:
     """The executable actions in their final order; goals lose what is known of them."""
     goals = (goal, *robot_goals)
@@ -160,12 +178,12 @@ def _numbered(
         _ = facts[literal.key]  # has an id from here on
     init = {facts[key] for key in relations.init if key in facts}
     work.stage("finding out which actions can be executed")
-    left = executable(blocks, init, work)
+    left = executable(blocks, init, work, script)
     count = sum(map(len, left))
     size = count * _BYTES[0] + len(facts) * _BYTES[1]
     work.require(size, f"reading the task ({count:,} ground actions)")
     work.stage(f"numbering {count:,} ground actions")
-    changes = Changes(facts, init, left, work)
+    changes = Changes(facts, init, left, work, script)
     for one in goals:
         one.simplify(lambda literal: changes.truth(facts[literal.key], literal.positive))
     for one in robot_goals:
@@ -174,9 +192,19 @@ def _numbered(
     return Numbering(facts, init, left, changes, named, work)
 
 
-def _actions(numbering: Numbering, blueprint: Blueprint) -> list[GroundAction]:
+def _timeline(numbering: Numbering, blueprint: Blueprint, clock: Clock) -> Timeline:
+    """The script of the files."""
+    found = [
+        numbering.timed_fact(clock.epoch_of(timed, unit), timed.literal)
+        for unit in blueprint.units
+        for timed in unit.problem.timed
+    ]
+    return Timeline(tuple(fact for fact in found if fact is not None))
+
+
+def _actions(numbering: Numbering, blueprint: Blueprint, clock: Clock) -> list[GroundAction]:
     try:
-        return numbering.actions()
+        return numbering.actions(clock.epochs)
     except InputError as error:
         if error.file is not None:
             raise

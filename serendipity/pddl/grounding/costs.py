@@ -1,11 +1,11 @@
-"""Costs of ground actions.
+"""Costs and durations of ground actions.
 
 A cost may be missing for arguments that no action ever has, for values are given only where they
 make sense (distances between neighbours, say).  So what is wrong with a cost is told only of
 actions that can be executed.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final
@@ -13,7 +13,7 @@ from typing import Final
 from serendipity.model import InputError
 from serendipity.pddl.grounding.product import Product
 from serendipity.pddl.grounding.quantifiers import ground_key
-from serendipity.pddl.parsing.lifted import Expression, FunctionValue, Key, Operation, Schema, Unit
+from serendipity.pddl.parsing.lifted import Course, Expression, FunctionValue, Key, Operation, Schema, Unit
 from serendipity.pddl.parsing.scope import calculate, cost_fault
 from serendipity.pddl.parsing.tree import quoted
 
@@ -23,7 +23,7 @@ NOTHING: Final = Fraction(0)
 
 @dataclass(frozen=True, slots=True)
 class BadCost:
-    """A fault in the cost of an action."""
+    """A fault in the cost or duration of an action."""
 
     problem: str
     unit: Unit
@@ -38,7 +38,7 @@ Cost = Fraction | BadCost
 
 
 class Costs:
-    """The costs of ground actions.
+    """The costs and durations of ground actions.
 
     Args:
         values: of function terms.
@@ -51,7 +51,7 @@ class Costs:
     def of(self, schema: Schema, unit: Unit, product: Product) -> list[Cost]:
         """The costs of the actions of a schema, for some bindings."""
         if not unit.priced:
-            return [ONE] * product.size
+            return [ONE] * product.size if schema.course is None else self.durations(schema, unit, product)
         increases = schema.increases
         if len(increases) == 1 and isinstance(increases[0], Fraction):
             return [increases[0]] * product.size  # such values were checked where they were read
@@ -59,17 +59,49 @@ class Costs:
             return [self._sum(increases, {})] * product.size
         return [self._cost(schema, unit, values) for values in product]
 
+    def durations(self, schema: Schema, unit: Unit, product: Product) -> list[Cost]:
+        """The least durations of the actions of a durative schema, for some bindings."""
+        course = schema.course
+        assert course is not None, "only durative actions have durations"
+        if all(isinstance(value, Fraction) for value in (*course.least, *course.most)):
+            return [self._duration(schema, course, unit, {})] * product.size
+        return [self._duration(schema, course, unit, values) for values in product]
+
     def _cost(self, schema: Schema, unit: Unit, values: dict[str, str]) -> Cost:
+        return self._checked("cost", lambda: self._sum(schema.increases, values), cost_fault, schema, unit)
+
+    def _duration(self, schema: Schema, course: Course, unit: Unit, values: dict[str, str]) -> Cost:
+        def fault(duration: Fraction) -> str | None:
+            most = min([self._value(value, values) for value in course.most], default=duration)
+            if most < duration:
+                return f"expected a duration of at least {float(duration):g}, and of at most {float(most):g}"
+            if duration <= 0:
+                return f"expected a duration above 0, got {float(duration):g}"
+            return None if cost_fault(duration) is None else "expected a duration of fewer digits"
+
+        return self._checked(
+            "duration", lambda: max(self._value(value, values) for value in course.least), fault, schema, unit
+        )
+
+    def _checked(
+        self,
+        what: str,
+        calculated: Callable[[], Fraction],
+        fault_of: Callable[[Fraction], str | None],
+        schema: Schema,
+        unit: Unit,
+    ) -> Cost:
+        """A value, or what is wrong with it."""
         try:
-            cost = self._sum(schema.increases, values)
+            value = calculated()
+            fault = fault_of(value)
         except ZeroDivisionError:
-            problem = "division by zero in its cost"
+            problem = f"division by zero in its {what}"
         except KeyError as missing:
-            problem = f"no initial value of {quoted(' '.join(missing.args[0]))} for its cost"
+            problem = f"no initial value of {quoted(' '.join(missing.args[0]))} for its {what}"
         else:
-            fault = cost_fault(cost)
             if fault is None:
-                return cost
+                return value
             problem = fault
         # One object for each problem: there may be very many actions that have it.
         return self._bad.setdefault(

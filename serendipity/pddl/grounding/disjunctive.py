@@ -17,6 +17,7 @@ from itertools import islice
 
 from serendipity.model import Condition, GroundAction, Task
 from serendipity.model.task.actions import Disjunction
+from serendipity.model.task.script import moments
 from serendipity.model.task.variables import Variable, find_variables
 from serendipity.pddl.grounding.normal import MAX_CASES
 from serendipity.pddl.grounding.numbering import in_order
@@ -56,7 +57,7 @@ def with_disjunctions(
         robot_goal=_more(task.robot_goal, literals) if robots else task.robot_goal,
         actions=actions,
         disjunctions=(*task.disjunctions, *compiled.extra),
-        known_variables=variables_behind(facts, init, actions, work),
+        known_variables=variables_behind(facts, init, moments(actions, task.script), work),
     )
 
 
@@ -110,6 +111,7 @@ class _Compiled:
 
     def _fact(self, disjunction: Literals) -> int:
         """A new fact that says whether the disjunction holds."""
+        self._refuse_time(disjunction)
         fact = len(self.task.facts) + len(self.extra)
         name = f"either {' or '.join(map(self._text, disjunction))} holds"
         polled = self.work.deadline.each
@@ -127,6 +129,19 @@ class _Compiled:
         self.names.append(name)
         self.extra.append(Disjunction(fact, disjunction))
         return fact
+
+    def _refuse_time(self, disjunction: Literals) -> None:
+        """Refuse what changes while something goes on, or by itself: actions of one epoch say it exactly."""
+        changed = {one.fact for one in self.task.script.facts}
+        for action in self.actions:
+            if action.timing is not None:
+                changed.update(*(moment.add + moment.delete for moment in action.moments))
+        fact = next((fact for fact, _ in disjunction if fact in changed), None)
+        if fact is not None:
+            name = quoted(self.task.facts[fact])
+            raise NotExactError(
+                f"'or' with {name}, which durative actions or the script change, is not supported"
+            )
 
     def _text(self, literal: Literal) -> str:
         fact, positive = literal

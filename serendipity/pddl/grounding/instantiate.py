@@ -12,14 +12,22 @@ from itertools import chain, count
 from typing import Final
 
 from serendipity.model.errors import LIMITS
-from serendipity.pddl.grounding.blocks import Block, Column, Grounded, Ids, block_of
+from serendipity.pddl.grounding.blocks import (
+    Block,
+    BlockCourse,
+    Column,
+    Grounded,
+    GroundedCourse,
+    Ids,
+    block_of,
+)
 from serendipity.pddl.grounding.cases import Cases
 from serendipity.pddl.grounding.costs import Costs
 from serendipity.pddl.grounding.join import Relations, bindings
 from serendipity.pddl.grounding.normal import Lifted, lifted_of
 from serendipity.pddl.grounding.product import Product
 from serendipity.pddl.grounding.quantifiers import ground_key
-from serendipity.pddl.parsing.lifted import Key, Schema, Unit
+from serendipity.pddl.parsing.lifted import Key, Literal, Schema, Unit
 from serendipity.pddl.parsing.tree import quoted
 from serendipity.pddl.work import Work, about
 
@@ -60,6 +68,7 @@ class Instantiator:
         self.facts: defaultdict[Key, int] = defaultdict(count().__next__)
         self._blocks: list[Block] = []
         self._records: list[Grounded] = []
+        self._durative: list[Grounded] = []
         self._count = 0
 
     def ground(
@@ -118,25 +127,32 @@ class Instantiator:
             self._add(self._record(lifted, unit, participants, product))
 
     def _add(self, record: Grounded) -> None:
-        self._records.append(record)
-        if len(self._records) >= _LARGE:
-            self._make_block()
+        records = self._records if record.course is None else self._durative
+        records.append(record)
+        if len(records) >= _LARGE:
+            self._make_block(records)
 
-    def _make_block(self) -> None:
-        self._blocks.append(block_of(self._records))
-        self._records = []
+    def _make_block(self, records: list[Grounded]) -> None:
+        self._blocks.append(block_of(records))
+        records.clear()
         self.work.require(_LARGE * BYTES, f"grounding cases, {self._count:,} ground actions so far")
 
     def blocks(self) -> list[Block]:
         """All ground actions so far."""
-        return [*self._blocks, block_of(self._records)]
+        durative = [block_of(self._durative)] if self._durative else []
+        return [*self._blocks, block_of(self._records), *durative]
 
     def _block(self, lifted: Lifted, unit: Unit, participants: Participants, product: Product) -> Block:
         atoms = _Atoms(product, self.facts)
         keys = atoms.of(schema_key(lifted), product.everything)
         pre, neg, add, delete = map(atoms.column, self._conditions(lifted))
         who = [*participants(keys)]
-        return Block(keys, who, pre, neg, add, delete, self._costs.of(lifted.schema, unit, product))
+        costs = self._costs.of(lifted.schema, unit, product)
+        course = None
+        if lifted.schema.course is not None:
+            columns = tuple(map(atoms.column, self._course(lifted)))
+            course = BlockCourse(columns, self._costs.durations(lifted.schema, unit, product))
+        return Block(keys, who, pre, neg, add, delete, costs, course)
 
     def _record(self, lifted: Lifted, unit: Unit, participants: Participants, product: Product) -> Grounded:
         values = product.fixed
@@ -147,18 +163,35 @@ class Instantiator:
         )
         (who,) = participants([key])
         (cost,) = self._costs.of(lifted.schema, unit, product)
-        return Grounded(key, who, pre, neg, add, delete, cost)
+        course = None
+        if lifted.schema.course is not None:
+            ids = tuple(
+                tuple([self.facts[ground_key(atom, values)] for atom in atoms])
+                for atoms in self._course(lifted)
+            )
+            (duration,) = self._costs.durations(lifted.schema, unit, product)
+            course = GroundedCourse(ids, duration)
+        return Grounded(key, who, pre, neg, add, delete, cost, course)
 
     def _conditions(self, lifted: Lifted) -> tuple[list[Key], list[Key], list[Key], list[Key]]:
         """The lifted atoms that must be true, must be false, become true, become false."""
-        fluent = self.relations.fluent
-        needs = [literal for literal in lifted.precondition if literal.key[0] in fluent]
-        return (
-            [literal.key for literal in needs if literal.positive],
-            [literal.key for literal in needs if not literal.positive],
-            [literal.key for literal in lifted.effects if literal.positive],
-            [literal.key for literal in lifted.effects if not literal.positive],
-        )
+        return (*self._fluent(lifted.precondition), *_by_sign(lifted.effects))
+
+    def _course(self, lifted: Lifted) -> tuple[list[Key], ...]:
+        """The same of the course of a durative action: over all, at end, at start."""
+        over, end = self._fluent(lifted.over_all), self._fluent(lifted.at_end)
+        return (*over, *end, *_by_sign(lifted.start_effects))
+
+    def _fluent(self, needs: Iterable[Literal]) -> tuple[list[Key], list[Key]]:
+        return _by_sign([literal for literal in needs if literal.key[0] in self.relations.fluent])
+
+
+def _by_sign(literals: Sequence[Literal]) -> tuple[list[Key], list[Key]]:
+    """The atoms of the positive literals, and of the others."""
+    return (
+        [literal.key for literal in literals if literal.positive],
+        [literal.key for literal in literals if not literal.positive],
+    )
 
 
 class _Atoms:

@@ -111,8 +111,8 @@ class _Join:
         self.unit = unit
         self.schema = lifted.schema
         self.domains = {p.name: dict.fromkeys(unit.objects_of(p.type)) for p in lifted.parameters}
-        self.joins = [lit for lit in lifted.precondition if relations.joined(lit)]
-        self.filters: list[Formula] = [lit for lit in lifted.precondition if relations.filtered(lit)]
+        self.joins = [lit for lit in lifted.needs if relations.joined(lit)]
+        self.filters: list[Formula] = [lit for lit in lifted.needs if relations.filtered(lit)]
         if lifted.choices:
             self.filters += [choice for choice in lifted.choices if relations.static(choice)]
         self.bound: set[str] = set()

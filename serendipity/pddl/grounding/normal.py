@@ -8,7 +8,7 @@ action, when static facts have decided most of them.
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import count
 from typing import Final
 
@@ -23,6 +23,7 @@ from serendipity.pddl.grounding.quantifiers import (
 )
 from serendipity.pddl.parsing.lifted import (
     And,
+    Course,
     Effect,
     Formula,
     Literal,
@@ -32,6 +33,7 @@ from serendipity.pddl.parsing.lifted import (
     Schema,
     Unit,
 )
+from serendipity.pddl.parsing.tree import quoted
 from serendipity.pddl.work import Work, about
 
 MAX_CASES: Final = 256
@@ -63,8 +65,11 @@ class Lifted:
         parameters: declared ones, then hidden ones.
         precondition: literals, equalities among them.
         choices: further conditions, disjunctive ones.
-        effects: unconditional effects.
+        effects: unconditional effects; of a durative action those at end.
         conditional: pairs of a condition and the effect that it has.
+        over_all: literals that a durative action needs while it goes on.
+        at_end: literals that it needs to end.
+        start_effects: its effects at start.
     """
 
     schema: Schema
@@ -73,6 +78,14 @@ class Lifted:
     choices: tuple[Formula, ...] = ()
     effects: tuple[Literal, ...] = ()
     conditional: tuple[tuple[Formula, Literal], ...] = ()
+    over_all: tuple[Literal, ...] = ()
+    at_end: tuple[Literal, ...] = ()
+    start_effects: tuple[Literal, ...] = ()
+
+    @property
+    def needs(self) -> tuple[Literal, ...]:
+        """Literals that it needs at some time."""
+        return (*self.precondition, *self.over_all, *self.at_end) if self.schema.course else self.precondition
 
 
 def lifted_of(schema: Schema, unit: Unit, work: Work) -> Lifted:
@@ -94,7 +107,7 @@ def lifted_of(schema: Schema, unit: Unit, work: Work) -> Lifted:
     needs = _Needs(unit, work)
     needs.collect(precondition)
     simple, conditional = _expand_effects(effects, unit, work)
-    return Lifted(
+    lifted = Lifted(
         schema,
         (*schema.parameters, *needs.hidden),
         tuple(needs.literals),
@@ -102,6 +115,29 @@ def lifted_of(schema: Schema, unit: Unit, work: Work) -> Lifted:
         simple,
         conditional,
     )
+    return lifted if schema.course is None else _with_course(lifted, schema.course, unit, work)
+
+
+def _with_course(lifted: Lifted, course: Course, unit: Unit, work: Work) -> Lifted:
+    """The lifted action with what its course needs and changes.
+
+    Raises:
+        InputError: what it needs after its start is more than literals.
+    """
+    over_all = _literals(lifted.schema, course.over_all, "over all", unit, work)
+    at_end = _literals(lifted.schema, course.at_end, "at end", unit, work)
+    at_start = [e for effect in course.start_effects if (e := simplified_effect(effect, unit)) is not None]
+    start_effects, _ = _expand_effects(at_start, unit, work)
+    return replace(lifted, over_all=over_all, at_end=at_end, start_effects=start_effects)
+
+
+def _literals(schema: Schema, formula: Formula, when: str, unit: Unit, work: Work) -> tuple[Literal, ...]:
+    needs = _Needs(unit, work)
+    needs.collect(simplified(formula, unit))
+    if needs.choices or needs.hidden:
+        message = f"action {quoted(schema.name)}: '{when}': expected no 'or', 'imply' and 'exists'"
+        raise unit.domain_error(message, schema.line)
+    return tuple(needs.literals)
 
 
 def require_literals(number: int, place: str, work: Work) -> None:

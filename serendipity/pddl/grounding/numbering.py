@@ -1,14 +1,16 @@
 """Final ids: facts that matter in the order of their names, actions in that of theirs."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from fractions import Fraction
 from itertools import chain, repeat
 from operator import attrgetter
 from typing import cast
 
-from serendipity.model import Condition, GroundAction
-from serendipity.pddl.grounding.blocks import Block, Column
-from serendipity.pddl.grounding.costs import BadCost
+from serendipity.model import Condition, GroundAction, TimedFact
+from serendipity.pddl.grounding.blocks import Block, BlockCourse, Column, facts_of
+from serendipity.pddl.grounding.clock import timed_action
+from serendipity.pddl.grounding.costs import BadCost, Cost
 from serendipity.pddl.parsing.lifted import Key, Literal
 from serendipity.pddl.work import Work
 
@@ -21,6 +23,7 @@ class Changes:
         init: ids of those that are true initially.
         blocks: the actions that can be executed.
         work: its deadline is asked.
+        script: ids of those that become true, and false, anyway.
 
     Attributes:
         always: facts that are true in every state.
@@ -28,14 +31,20 @@ class Changes:
         relevant: facts that are neither, or that some action asks for or deletes.
     """
 
-    def __init__(self, facts: Mapping[Key, int], init: set[int], blocks: Sequence[Block], work: Work) -> None:
-        added: set[int] = set()
-        deleted: set[int] = set()
+    def __init__(
+        self,
+        facts: Mapping[Key, int],
+        init: set[int],
+        blocks: Sequence[Block],
+        work: Work,
+        script: tuple[AbstractSet[int], AbstractSet[int]] = (frozenset(), frozenset()),
+    ) -> None:
+        added, deleted = map(set, script)
         asked: set[int] = set()
         for block in work.deadline.each(blocks, 1):
-            added.update(block.add.facts())
-            deleted.update(block.delete.facts())
-            asked.update(block.pre.facts(), block.neg.facts())
+            added.update(facts_of(block.added))
+            deleted.update(facts_of(block.deleted))
+            asked.update(facts_of(block.asked))
         self.always = init - deleted
         self.never = set(range(len(facts))) - init - added
         self.relevant = (added | deleted | asked) - self.always - (self.never - deleted)
@@ -97,23 +106,60 @@ class Numbering:
             tuple(sorted(fact for fact, positive in found if not positive)),
         )
 
-    def actions(self) -> list[GroundAction]:
+    def timed_fact(self, epoch: int, literal: Literal) -> TimedFact | None:
+        """A literal that becomes true with an epoch; None where it makes no difference."""
+        fact = self._ids.get(self.facts.get(literal.key, -1))
+        return None if fact is None else TimedFact(epoch, fact, literal.positive)
+
+    def actions(self, epochs: Callable[[Key, Cost], int]) -> list[GroundAction]:
         """The actions without those that only wait, ascending in name, then in all the rest; each once.
 
         A blank is less than any character of a word, so this is the order of ``key``.
+
+        Args:
+            epochs: how many an action of that name takes, given its duration.
 
         Raises:
             InputError: an action's cost is not what it should be.
         """
         actions: list[GroundAction] = []
         for block in self._work.deadline.each(self.blocks, 1):
-            actions += self._ground(block)
+            actions += self._ground(block) if block.course is None else self._ground_durative(block, epochs)
         self._work.stage(f"sorting {len(actions):,} ground actions")
         return in_order(actions)
 
     def _ground(self, block: Block) -> Iterator[GroundAction]:
-        add = _renumbered(block.add, self._changing)
-        block = Block(
+        block = self._renumbered(block)
+        if all(() in column.table for column in block.conditions):
+            block = self._without_waiting(block)
+        columns = [column.rows() for column in block.conditions]
+        names = map(" ".join, block.keys)
+        return map(GroundAction, names, block.participants, *columns, _checked(block))
+
+    def _ground_durative(self, block: Block, epochs: Callable[[Key, Cost], int]) -> Iterator[GroundAction]:
+        """Actions of several epochs, or of one where their durations are so short."""
+        _checked(block)
+        block = self._without_waiting(self._renumbered(block))
+        for record in block.records():
+            action = timed_action(record, epochs)
+            if action is not None:
+                yield action
+
+    def _renumbered(self, block: Block) -> Block:
+        add, course = _renumbered(block.add, self._changing), block.course
+        if course is not None:
+            start_add = _renumbered(course.start_add, self._changing)
+            (over, over_neg), (end, end_neg) = course.later
+            columns = (
+                _renumbered(over, self._changing),
+                _renumbered(over_neg, self._possible),
+                _renumbered(end, self._changing),
+                _renumbered(end_neg, self._possible),
+                start_add,
+                _without(_renumbered(course.start_delete, self._ids), start_add),
+            )
+            course = BlockCourse(columns, course.durations)
+        return Block(
             block.keys,
             block.participants,
             _renumbered(block.pre, self._changing),
@@ -121,18 +167,14 @@ class Numbering:
             add,
             _without(_renumbered(block.delete, self._ids), add),
             block.costs,
+            course,
         )
-        if all(() in column.table for column in block.conditions):
-            block = self._without_waiting(block)
-        columns = [column.rows() for column in block.conditions]
-        names = map(" ".join, block.keys)
-        return map(GroundAction, names, block.participants, *columns, _checked(block))
 
     def _without_waiting(self, block: Block) -> Block:
         """The actions that ask for something, or change something; names of the others are noted."""
         acting = []
         for record in block.records():
-            acting.append(any(record[2:6]))
+            acting.append(not record.only_waits)
             if not acting[-1] and len(record.participants) == 1:
                 self.waiting.add((" ".join(record.key), record.participants[0]))
         return block.only(acting)

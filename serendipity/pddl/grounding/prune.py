@@ -6,25 +6,33 @@ from itertools import accumulate, chain, compress
 from operator import not_
 from typing import Final
 
-from serendipity.pddl.grounding.blocks import Block
+from serendipity.pddl.grounding.blocks import Block, Column, facts_of
 from serendipity.pddl.work import Work
 
 _SLICE: Final = 10_000
 """Actions between two looks at the deadline: a few milliseconds of them."""
 
 
-def executable(blocks: Iterable[Block], init: Iterable[int], work: Work) -> list[Block]:
+def executable(
+    blocks: Iterable[Block],
+    init: Iterable[int],
+    work: Work,
+    script: tuple[Set[int], Set[int]] = (frozenset(), frozenset()),
+) -> list[Block]:
     """The actions whose preconditions are reachable if nothing is ever deleted.
+
+    What becomes true and false anyway, by ``script``, counts as added and deleted.
 
     A negative precondition on a fact that is true initially and that no executable
     action deletes is never met either.
     """
     init = frozenset(init)
+    true, false = script
     while True:
-        blocks = _reachable(blocks, init, work)
-        lasting = set(init)
+        blocks = _reachable(blocks, init | true, work)
+        lasting = {*init.difference(false)}
         for block in work.deadline.each(blocks, 1):
-            lasting.difference_update(block.delete.facts())
+            lasting.difference_update(facts_of(block.deleted))
         possible = [_possible(block, lasting) for block in work.deadline.each(blocks, 1)]
         if sum(map(len, possible)) == sum(map(len, blocks)):
             return blocks
@@ -32,12 +40,20 @@ def executable(blocks: Iterable[Block], init: Iterable[int], work: Work) -> list
 
 
 def _possible(block: Block, lasting: Set[int]) -> Block:
-    if not any(block.neg.table):
-        return block
-    pairs = zip(block.neg.rows(), block.pre.rows(), strict=True)
-    return block.only(
-        [lasting.isdisjoint(neg) and not any(fact in pre for fact in neg) for neg, pre in pairs]
-    )
+    if any(block.neg.table):
+        block = block.only(_not_contradictory(block.neg, block.pre, lasting))
+    for when in (0, 1) if block.course is not None else ():
+        assert block.course is not None
+        positive, negative = block.course.later[when]
+        if any(negative.table):
+            block = block.only(_not_contradictory(negative, positive, lasting))
+    return block
+
+
+def _not_contradictory(negative: Column, positive: Column, lasting: Set[int]) -> list[bool]:
+    """Where what must be false may be so, and need not be true as well."""
+    pairs = zip(negative.rows(), positive.rows(), strict=True)
+    return [lasting.isdisjoint(neg) and not any(fact in pre for fact in neg) for neg, pre in pairs]
 
 
 def _reachable(blocks: Iterable[Block], init: frozenset[int], work: Work) -> list[Block]:
@@ -57,8 +73,8 @@ class _Reachability:
     """The facts reached so far; an action waits for one fact at a time that is not."""
 
     def __init__(self, blocks: Sequence[Block], init: Iterable[int], work: Work) -> None:
-        self.pre = [*chain.from_iterable(block.pre.rows() for block in work.deadline.each(blocks, 1))]
-        self.add = [*chain.from_iterable(block.add.rows() for block in work.deadline.each(blocks, 1))]
+        self.pre = [*chain.from_iterable(block.needs() for block in work.deadline.each(blocks, 1))]
+        self.add = [*chain.from_iterable(block.gains() for block in work.deadline.each(blocks, 1))]
         self.reached = set(init)
         self.executable = bytearray(len(self.pre))
         self._waiting: defaultdict[int, list[int]] = defaultdict(list)

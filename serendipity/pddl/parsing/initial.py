@@ -6,7 +6,7 @@ from operator import contains
 from typing import cast
 
 from serendipity.model import InputError
-from serendipity.pddl.parsing.lifted import EQUALITY, Key
+from serendipity.pddl.parsing.lifted import EQUALITY, Key, Literal, TimedLiteral
 from serendipity.pddl.parsing.scope import TOTAL_COST, Scope, is_number, number
 from serendipity.pddl.parsing.tree import SExpression, expected, node_at, quoted, refuse_more, shown
 from serendipity.pddl.parsing.types import Type
@@ -20,6 +20,7 @@ class Initial:
     true: dict[Key, None] = field(default_factory=dict)
     false: dict[Key, int] = field(default_factory=dict)
     values: dict[Key, Fraction] = field(default_factory=dict)
+    timed: list[TimedLiteral] = field(default_factory=list)
 
 
 def read_initial(section: SExpression, scope: Scope, work: Work) -> Initial:
@@ -80,9 +81,26 @@ def _add_other(initial: Initial, node: SExpression, scope: Scope) -> None:
         refuse_more(node, 2)
         initial.false.setdefault(scope.atom(node_at(node, 1, "an atom")), node.line)
     elif len(node.items) == 3 and is_number(node.items[1]) and isinstance(node.items[2], SExpression):
-        raise InputError(f"timed initial literals ({shown(node)}) are not supported", line=node.line)
+        initial.timed.append(_timed(node, node.items[2], scope))
     else:
         initial.true[scope.atom(node)] = None
+
+
+def _timed(node: SExpression, effect: SExpression, scope: Scope) -> TimedLiteral:
+    """The timed literal ``(at 30 (not (open shop)))``."""
+    if node.head != "at":
+        raise expected("'(at TIME LITERAL)'", node, 0)
+    time = number(str(node.items[1]), node.line_of(1))
+    if time <= 0:
+        raise InputError(f"expected a time above 0, got {float(time):g}", line=node.line_of(1))
+    if effect.head == EQUALITY:
+        raise InputError(f"timed initial fluents ({shown(node)}) are not supported", line=node.line)
+    if effect.head == "not":
+        refuse_more(effect, 2)
+        atom = scope.atom(node_at(effect, 1, "an atom"))
+    else:
+        atom = scope.atom(effect)
+    return TimedLiteral(time, Literal(atom, effect.head != "not"), node.line)
 
 
 def _add_value(values: dict[Key, Fraction], node: SExpression, scope: Scope) -> None:

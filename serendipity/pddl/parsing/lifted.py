@@ -92,6 +92,30 @@ Expression = Fraction | FunctionValue | Operation
 
 
 @dataclass(frozen=True, slots=True)
+class Course:
+    """What a durative action asks for and changes beside its conditions at start and its effects at end.
+
+    Attributes:
+        least: its duration is at least each of these.
+        most: and at most each of these.
+        over_all: in negation normal form.
+        at_end: likewise.
+        start_effects: on facts.
+    """
+
+    least: tuple[Expression, ...]
+    most: tuple[Expression, ...]
+    over_all: Formula
+    at_end: Formula
+    start_effects: tuple[Effect, ...]
+
+    @property
+    def fixed(self) -> bool:
+        """Whether no inequality leaves a choice."""
+        return self.least == self.most
+
+
+@dataclass(frozen=True, slots=True)
 class Schema:
     """A lifted action.
 
@@ -99,11 +123,12 @@ class Schema:
         name: lower case.
         line: where it is in the domain file.
         parameters: its declared parameters.
-        precondition: in negation normal form.
-        effects: on facts.
+        precondition: in negation normal form; of a durative action its condition at start.
+        effects: on facts; of a durative action at end.
         increases: what is added to the total cost.
         agent: whether the first parameter is the agent that acts, by itself (MA-PDDL's ``:agent``).
         quantified: whether there are quantifiers in it.
+        course: the rest of a durative action; else None.
     """
 
     name: str
@@ -114,6 +139,26 @@ class Schema:
     increases: tuple[Expression, ...]
     agent: bool = False
     quantified: bool = False
+    course: Course | None = None
+
+    @property
+    def conditions(self) -> tuple[Formula, ...]:
+        """What it asks for: at its start, while it goes on, and for its end."""
+        course = self.course
+        return (self.precondition,) if course is None else (self.precondition, course.over_all, course.at_end)
+
+    @property
+    def all_effects(self) -> tuple[Effect, ...]:
+        """Effects at its start and at its end."""
+        return self.effects if self.course is None else (*self.course.start_effects, *self.effects)
+
+
+class TimedLiteral(NamedTuple):
+    """A literal that becomes true at a time, whatever anybody does (PDDL 2.2)."""
+
+    time: Fraction
+    literal: Literal
+    line: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,6 +195,8 @@ class Problem:
         goal_line: where the goal is, or None.
         metric: whether it asks to minimise the total cost.
         empty_lists: the lines where a type stands behind no object.
+        timed: the literals that become true later.
+        total_time: whether it asks to minimise the total time.
     """
 
     name: str
@@ -162,6 +209,8 @@ class Problem:
     goal_line: int | None
     metric: bool
     empty_lists: tuple[int, ...] = ()
+    timed: tuple[TimedLiteral, ...] = ()
+    total_time: bool = False
 
 
 @dataclass(frozen=True)
@@ -184,7 +233,9 @@ class Unit:
 
     @property
     def priced(self) -> bool:
-        """Whether actions cost what they say (0 if nothing), not 1 each."""
+        """Whether actions cost what they say (0 if nothing), not 1 each, or what time they take."""
+        if self.problem.total_time:
+            return False
         return self.problem.metric or any(schema.increases for schema in self.domain.schemas)
 
     @cached_property

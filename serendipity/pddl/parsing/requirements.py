@@ -23,6 +23,9 @@ SUPPORTED: Final = frozenset(
         ":multi-agent",
         ":unfactored-privacy",
         ":factored-privacy",
+        ":durative-actions",
+        ":duration-inequalities",
+        ":timed-initial-literals",
     }
 )
 """Supported requirements; of both kinds of fluents action costs only: others are refused where used."""
@@ -30,11 +33,8 @@ SUPPORTED: Final = frozenset(
 UNSUPPORTED: Final = {
     ":derived-predicates": "derived predicates",
     ":domain-axioms": "axioms",
-    ":durative-actions": "durative actions",
-    ":duration-inequalities": "durative actions",
     ":continuous-effects": "continuous effects",
     ":time": "processes and events",
-    ":timed-initial-literals": "timed initial literals",
     ":timed-initial-fluents": "timed initial fluents",
     ":object-fluents": "object fluents",
     ":preferences": "preferences",

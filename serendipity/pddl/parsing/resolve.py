@@ -9,6 +9,7 @@ from graphlib import CycleError, TopologicalSorter
 from typing import Final
 
 from serendipity.model import InputError
+from serendipity.pddl.parsing.durative import DurativeReader
 from serendipity.pddl.parsing.initial import read_initial
 from serendipity.pddl.parsing.lifted import And, Domain, Formula, Problem, Schema
 from serendipity.pddl.parsing.scope import TOTAL_COST, Scope, check_type, cost_fault
@@ -17,6 +18,8 @@ from serendipity.pddl.parsing.syntax import VARIABLE, Typed, read_action, signat
 from serendipity.pddl.parsing.tree import SExpression, expected, name_at, naming, node_at, quoted, refuse_more
 from serendipity.pddl.parsing.types import MAX_LEVELS, OBJECT, Type, Types, type_text
 from serendipity.pddl.work import Work
+
+TOTAL_TIME: Final = "total-time"
 
 _KEPT: Final = 64
 
@@ -55,6 +58,7 @@ def read_problem(text: str, domain: Domain, work: Work) -> Problem:
     with naming("initial state"):
         initial = read_initial(form.section(":init"), scope, work)
     goal = form.sections.get(":goal")
+    metric = _metric(form.sections.get(":metric"), domain)
     return Problem(
         form.name,
         _domain_name(form),
@@ -64,8 +68,10 @@ def read_problem(text: str, domain: Domain, work: Work) -> Problem:
         initial.values,
         And() if goal is None else _goal(goal, scope),
         None if goal is None else goal.line,
-        _minimises_cost(form.sections.get(":metric")),
+        metric == TOTAL_COST,
         tuple(empty),
+        tuple(initial.timed),
+        metric == TOTAL_TIME,
     )
 
 
@@ -109,8 +115,13 @@ def _schema(section: SExpression, scope: Scope) -> Schema:
     with naming(f"action {quoted(text.name)}"):
         own = typed_list(text.parts.get(":parameters", nothing), 0, VARIABLE)
         parameters = scope.parameters([*agent, *own])
-        precondition = scope.condition(text.parts.get(":precondition", nothing))
-        effects, increases = scope.effects(text.parts[":effect"])
+        course = None
+        if text.durative:
+            reader = DurativeReader(scope)
+            precondition, effects, increases, course = reader.read(text.parts)
+        else:
+            precondition = scope.condition(text.parts.get(":precondition", nothing))
+            effects, increases = scope.effects(text.parts[":effect"])
         for value in increases:
             fault = cost_fault(value) if isinstance(value, Fraction) else None
             if fault is not None:
@@ -124,6 +135,7 @@ def _schema(section: SExpression, scope: Scope) -> Schema:
         tuple(increases),
         text.agent is not None,
         scope.quantified,
+        course,
     )
 
 
@@ -186,14 +198,19 @@ def _goal(section: SExpression, scope: Scope) -> Formula:
         return And() if len(section.items) < 2 else scope.condition(node_at(section, 1, "a condition"))
 
 
-def _minimises_cost(section: SExpression | None) -> bool:
+def _metric(section: SExpression | None, domain: Domain) -> str | None:
+    """What is minimised: ``total-cost``, ``total-time``, or None where nothing is said."""
     if section is None:
-        return False
+        return None
     if section.items[1:2] not in (["minimize"], ["maximize"]):
         raise expected("'minimize'", section, 1)
     refuse_more(section, 3)
     total = node_at(section, 2, f"'({TOTAL_COST})'")
+    durative = any(schema.course is not None for schema in domain.schemas)
+    if section.items[1] == "minimize" and durative and total.items == [TOTAL_TIME]:
+        return TOTAL_TIME
     if section.items[1] != "minimize" or total.items != [TOTAL_COST]:
-        message = f"the only metric supported is 'minimize ({TOTAL_COST})'"
+        also = f" and 'minimize ({TOTAL_TIME})'" if durative else ""
+        message = f"the only metric supported is 'minimize ({TOTAL_COST})'{also}"
         raise InputError(message, line=section.line)
-    return True
+    return TOTAL_COST

@@ -44,7 +44,7 @@ TOTAL_COST: Final = "total-cost"
 _NUMBER: Final = regex(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?")
 
 _COMPARISONS: Final = ("<", "<=", ">", ">=")
-_NUMERIC_EFFECTS: Final = ("increase", "decrease", "assign", "scale-up", "scale-down")
+NUMERIC_EFFECTS: Final = ("increase", "decrease", "assign", "scale-up", "scale-down")
 
 _UNSUPPORTED: Final = {
     "preference": "preferences",
@@ -68,7 +68,7 @@ _UNSUPPORTED: Final = {
 """Words that other planners know, in front of other things than arguments."""
 
 RESERVED: Final = frozenset(
-    {"and", "or", "not", "imply", "forall", "exists", "when", EQUALITY, *_COMPARISONS, *_NUMERIC_EFFECTS}
+    {"and", "or", "not", "imply", "forall", "exists", "when", EQUALITY, *_COMPARISONS, *NUMERIC_EFFECTS}
 )
 """Words that are no names of predicates, since they begin conditions or effects of their own."""
 
@@ -174,7 +174,7 @@ class Scope:
             case ("forall" | "exists") as word:
                 refuse_more(node, 3)
                 outer = self.variables
-                parameters = self._bound(node)
+                parameters = self.bound(node)
                 body = self.condition(node_at(node, 2, "a condition"), positive)
                 self.variables = outer
                 return Quantified((word == "forall") == positive, parameters, body)
@@ -191,7 +191,7 @@ class Scope:
             raise InputError(f"'=' takes 2 arguments, got {len(node.items) - 1}", line=node.line)
         return (EQUALITY, self.term(node, 1), self.term(node, 2))
 
-    def _bound(self, quantified: SExpression) -> tuple[Parameter, ...]:
+    def bound(self, quantified: SExpression) -> tuple[Parameter, ...]:
         """The variables of a quantifier; from here on they are in scope."""
         self.quantified = True
         refuse_more(quantified, 3)
@@ -210,7 +210,7 @@ class Scope:
                 return [Effect(Literal(self.atom(node_at(node, 1, "an atom")), positive=False))], []
             case "forall":
                 outer = self.variables
-                parameters = self._bound(node)
+                parameters = self.bound(node)
                 found = self._facts_only(node, "quantified")
                 self.variables = outer
                 return [replace(e, parameters=parameters + e.parameters) for e in found], []
@@ -219,7 +219,7 @@ class Scope:
                 condition = self.condition(node_at(node, 1, "a condition"))
                 found = self._facts_only(node, "conditional")
                 return [replace(e, condition=_both(condition, e.condition)) for e in found], []
-        if node.head in _NUMERIC_EFFECTS:
+        if node.head in NUMERIC_EFFECTS:
             return [], [self._increase(node)]
         return [Effect(Literal(self.atom(node)))], []
 
@@ -230,7 +230,7 @@ class Scope:
             raise InputError(message, line=node.line)
         refuse_more(node, 3)
         self.atom(function, "function")
-        return self._expression(node, 2)
+        return self.expression(node, 2)
 
     def _facts_only(self, node: SExpression, kind: str) -> list[Effect]:
         found, costs = self.effects(node_at(node, 2, "an effect"))
@@ -238,9 +238,14 @@ class Scope:
             raise InputError(f"{kind} action costs are not supported", line=node.line)
         return found
 
-    def _expression(self, node: SExpression, i: int) -> Expression:
-        """A cost among the items of a node: numbers, functions and what is calculated of them."""
+    def expression(self, node: SExpression, i: int) -> Expression:
+        """A cost or duration among the items of a node: numbers, functions and what is calculated of them."""
         item = node.items[i] if i < len(node.items) else None
+        if item == "#t":
+            raise InputError("continuous effects ('#t') are not supported", line=node.line_of(i))
+        if item == "?duration":
+            message = "'?duration' in effects on numbers is not supported"
+            raise InputError(message, line=node.line_of(i))
         if isinstance(item, str):
             return number(item, node.line_of(i))
         inner = node_at(node, i, "a number or a function")
@@ -251,7 +256,7 @@ class Scope:
         operator, *_ = inner.items
         if len(inner.items) < 3:
             raise expected(f"two values to {operator}", inner, len(inner.items))
-        return _operation(str(operator), [self._expression(inner, j) for j in _rest(inner)], inner.line)
+        return _operation(str(operator), [self.expression(inner, j) for j in _rest(inner)], inner.line)
 
 
 def _rest(node: SExpression) -> range:

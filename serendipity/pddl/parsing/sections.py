@@ -5,6 +5,7 @@ from typing import Final
 
 from serendipity.model import InputError
 from serendipity.pddl.parsing.requirements import read_requirements
+from serendipity.pddl.parsing.syntax import DURATIVE
 from serendipity.pddl.parsing.tree import (
     SExpression,
     expected,
@@ -16,15 +17,16 @@ from serendipity.pddl.parsing.tree import (
 )
 from serendipity.pddl.work import Work
 
+ACTIONS: Final = (":action", DURATIVE)
+
 _SECTIONS: Final = {
-    "domain": (":requirements", ":types", ":constants", ":predicates", ":functions", ":action"),
+    "domain": (":requirements", ":types", ":constants", ":predicates", ":functions", *ACTIONS),
     "problem": (":requirements", ":domain", ":objects", ":init", ":goal", ":metric"),
 }
 
 _UNSUPPORTED: Final = {
     ":derived": "derived predicates",
     ":axiom": "axioms",
-    ":durative-action": "durative actions",
     ":process": "processes",
     ":event": "events",
     ":constraints": "trajectory constraints",
@@ -41,7 +43,7 @@ class PddlFile:
         name: of the domain or problem.
         requirements: what it says it requires.
         sections: by keyword, all but the actions.
-        actions: the sections ``(:action ...)``.
+        actions: the sections ``(:action ...)`` and ``(:durative-action ...)``.
     """
 
     name: str
@@ -80,7 +82,7 @@ def read_form(text: str, kind: str, work: Work) -> PddlFile:
 
 def _add_section(form: PddlFile, section: SExpression, kind: str) -> None:
     keyword = section.head
-    if keyword == ":action" and kind == "domain":
+    if keyword in ACTIONS and kind == "domain":
         form.actions.append(section)
         return
     if not isinstance(keyword, str) or keyword not in _SECTIONS[kind]:

@@ -11,7 +11,10 @@ from serendipity.pddl.parsing.types import ANYTHING, Type
 PRIVATE: Final = ":private"
 VARIABLE: Final = "a variable, as ?x"
 
+DURATIVE: Final = ":durative-action"
+
 _PARTS: Final = (":parameters", ":precondition", ":effect")
+_DURATIVE_PARTS: Final = (":parameters", ":duration", ":condition", ":effect")
 
 
 class Typed(NamedTuple):
@@ -32,17 +35,20 @@ class Declaration(NamedTuple):
 
 @dataclass(slots=True)
 class ActionText:
-    """The parts of a section ``(:action ...)``.
+    """The parts of a section ``(:action ...)`` or ``(:durative-action ...)``.
 
     Attributes:
         name: of the action.
         line: of the section.
+        durative: whether it is a durative action.
         agent: what stands behind ``:agent``.
-        parts: what stands behind ``:parameters``, ``:precondition`` and ``:effect``.
+        parts: what stands behind ``:parameters``, ``:precondition`` (or ``:duration`` and ``:condition``)
+            and ``:effect``.
     """
 
     name: str
     line: int
+    durative: bool = False
     agent: Typed | None = None
     parts: dict[str, SExpression] = field(default_factory=dict)
 
@@ -133,26 +139,30 @@ def _without_words(private: SExpression) -> SExpression:
 
 
 def read_action(section: SExpression) -> ActionText:
-    """The parts of a section ``(:action ...)``.
+    """The parts of a section ``(:action ...)`` or ``(:durative-action ...)``.
 
     Raises:
-        InputError: something else is in it, or no effect; with the line.
+        InputError: something else is in it, no effect or no duration; with the line.
     """
-    action = ActionText(name_at(section, 1, "the name of an action"), section.line)
+    durative = section.head == DURATIVE
+    action = ActionText(name_at(section, 1, "the name of an action"), section.line, durative)
     with naming(f"action {quoted(action.name)}"):
         i = 2
         while i < len(section.items):
             i = _read_part(action, section, i)
         if ":effect" not in action.parts:
             raise InputError("expected an ':effect'", line=section.line)
+        if durative and ":duration" not in action.parts:
+            raise InputError("expected a ':duration'", line=section.line)
     return action
 
 
 def _read_part(action: ActionText, section: SExpression, i: int) -> int:
     """Read the part at item ``i``; returns where the next one starts."""
     keyword = section.items[i]
-    if not isinstance(keyword, str) or keyword not in (":agent", *_PARTS):
-        raise expected(f"{', '.join(map(repr, _PARTS))}", section, i)
+    parts = _DURATIVE_PARTS if action.durative else _PARTS
+    if not isinstance(keyword, str) or keyword not in (":agent", *parts):
+        raise expected(f"{', '.join(map(repr, parts))}", section, i)
     if keyword in action.parts or (keyword == ":agent" and action.agent is not None):
         raise InputError(f"'{keyword}' was given already", line=section.line_of(i))
     if keyword != ":agent":
