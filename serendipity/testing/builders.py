@@ -7,8 +7,9 @@ in ``task`` are single words; those of ``usar`` are PDDL atoms (``at h a0``).
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from itertools import pairwise, permutations
+from typing import NamedTuple
 
-from serendipity.model import Condition, GroundAction, Task
+from serendipity.model import Condition, GroundAction, Task, Timing
 
 
 class Builder:
@@ -34,15 +35,28 @@ class Builder:
         self._separator = separator
         self._alphabetical = alphabetical
         self._facts: dict[str, None] = {}
-        self._actions: list[tuple[str, tuple[int, ...], _Words, _Words, Fraction]] = []
+        self._actions: list[_Action] = []
 
     def action(self, name: str, agents: tuple[int, ...], pre: str, effects: str, cost: str) -> None:
         """Add an action whose name ends in its agents'."""
         self.named(" ".join((name, *(self.agents[i] for i in agents))), agents, pre, effects, cost)
 
-    def named(self, name: str, agents: tuple[int, ...], pre: str, effects: str, cost: str = "1") -> None:
-        """Add an action of that very name."""
-        self._actions.append((name, agents, self._words(pre), self._words(effects), Fraction(cost)))
+    def named(
+        self, name: str, agents: tuple[int, ...], pre: str, effects: str, cost: str = "1", duration: int = 1
+    ) -> None:
+        """Add an action of that very name.
+
+        Args:
+            name: of the action.
+            agents: ids of the participants.
+            pre: precondition literals; of an action of several epochs ``at start / over all / at end``.
+            effects: effect literals; of an action of several epochs ``at start / at end``, or at end alone.
+            cost: undiscounted.
+            duration: in epochs.
+        """
+        conditions = [*map(self._words, pre.split("/")), ([], []), ([], [])][:3]
+        changes = [([], []), *map(self._words, effects.split("/"))][-2:]
+        self._actions.append(_Action(name, agents, conditions, changes, Fraction(cost), duration))
 
     def task(self, init: str, goal: str, robot_goal: str = "", human: int = 0) -> Task:
         """All actions so far as a task.
@@ -62,11 +76,11 @@ class Builder:
             return tuple(sorted({ids[word] for word in words}.difference(but)))
 
         ground = []
-        for name, who, pre, effects, cost in self._actions:
-            add = numbers(effects[0])
-            ground.append(
-                GroundAction(name, who, numbers(pre[0]), numbers(pre[1]), add, numbers(effects[1], add), cost)
-            )
+        for name, who, conditions, changes, cost, duration in self._actions:
+            pre, over, end = (Condition(numbers(true), numbers(false)) for true, false in conditions)
+            sooner, later = ((add := numbers(true), numbers(false, add)) for true, false in changes)
+            timing = None if duration == 1 else Timing(duration, over, end, *sooner)
+            ground.append(GroundAction(name, who, pre.positive, pre.negative, *later, cost, timing))
         return Task(
             name=self._name,
             agents=self.agents,
@@ -87,6 +101,15 @@ class Builder:
 
 
 _Words = tuple[list[str], list[str]]
+
+
+class _Action(NamedTuple):
+    name: str
+    agents: tuple[int, ...]
+    conditions: list[_Words]
+    changes: list[_Words]
+    cost: Fraction
+    duration: int
 
 
 def task(
@@ -110,6 +133,8 @@ def task(
         actions: by name, e.g. ``{"do h": "p !q -> r !p @ 3"}``: precondition literals,
             ``->``, effect literals, ``@`` and the cost (1 without one).  Participants are
             the agents among the words of the name.  ``|`` stands between variants of one action.
+            ``"p / q / q -> !p / r @ 3 [4]"`` takes 4 epochs: conditions at start, over all and at end,
+            effects at start and at end (of fewer, the first conditions and the last effects).
 
     Facts are all words that occur, in alphabetical order.
     """
@@ -218,9 +243,10 @@ def _pairs(edges: str) -> list[tuple[str, str]]:
     return pairs
 
 
-def _parsed(text: str) -> tuple[str, str, str]:
+def _parsed(text: str) -> tuple[str, str, str, int]:
+    text, _, duration = text.partition("[")
     body, _, cost = text.partition("@")
     pre, arrow, effects = body.partition("->")
     if not arrow:
         raise ValueError(f"expected 'precondition -> effects', got {text!r}")
-    return pre, effects, cost.strip() or "1"
+    return pre, effects, cost.strip() or "1", int(duration.strip(" ]") or 1)

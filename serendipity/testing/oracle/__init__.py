@@ -9,7 +9,8 @@ against.
 """
 
 from serendipity.testing.oracle.alone import Alone, human_plans, optimal_human_plan
-from serendipity.testing.oracle.answers import Optimum, best
+from serendipity.testing.oracle.answers import Optimum
+from serendipity.testing.oracle.best import best
 from serendipity.testing.oracle.epochs import action_sets, action_sets_of_names
 
 __all__ = [

@@ -3,12 +3,11 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import islice
 from math import lcm
 
 from serendipity.model import HumanPlan, Options, Task, UsageError, Window
 from serendipity.model.keywords import Horizon
-from serendipity.testing.oracle.alone import Alone, human_plans
+from serendipity.testing.oracle.alone import Alone
 from serendipity.testing.oracle.epochs import State, action_sets, after, holds
 from serendipity.testing.oracle.labels import NOTHING, Label, Layer, Moves, advance, front, plus
 from serendipity.testing.oracle.suffixes import suffix_rule
@@ -47,51 +46,6 @@ class WindowPlan:
         return (self.objective, self.label[1], length, -start, self.label[2])
 
 
-def best(task: Task, options: Options, human_plan: HumanPlan | None = None) -> Optimum:
-    """The exact answer to a call.
-
-    Args:
-        human_plan: ``pi_H`` where it is given; else it is predicted.
-
-    Raises:
-        UsageError: the horizon is missing or too short, or there are too many ties.
-    """
-    if human_plan is None and options.ties != "fixed" and options.mode in ("serendipity", "communication"):
-        plans = list(islice(human_plans(task), options.max_ties + 1))
-        if len(plans) > options.max_ties:
-            raise UsageError("ties: too many optimal human plans")
-        if plans:
-            return _over_ties(
-                [Solver(task, options, plan, given=False).solve() for plan in plans], options.ties
-            )
-    plan = next(human_plans(task), None) if human_plan is None else human_plan
-    return Solver(task, options, plan, given=human_plan is not None).solve()
-
-
-def _over_ties(answers: list[Optimum], ties: str) -> Optimum:
-    costs = [answer.cost for answer in answers if answer.cost is not None]
-    if len(costs) < len(answers):
-        return next(answer for answer in answers if answer.cost is None)
-    if ties == "expected" and len(answers) > 1:
-        return Optimum(
-            "optimal",
-            cost=_mean(answer.cost for answer in answers),
-            objective=_mean(answer.objective for answer in answers),
-            opportunity=any(answer.opportunity for answer in answers),
-            human_cost=answers[0].human_cost,
-            saving=_mean(answer.saving for answer in answers),
-        )
-    chosen = (max if ties == "robust" else min)(costs)
-    return next(answer for answer in answers if answer.cost == chosen)
-
-
-def _mean(amounts: Iterable[Fraction | None]) -> Fraction | None:
-    """None where one of them is not known."""
-    listed = list(amounts)
-    known = [amount for amount in listed if amount is not None]
-    return sum(known, Fraction(0)) / len(known) if len(known) == len(listed) else None
-
-
 class Solver:
     """One call with one ``pi_H`` (None: the human has no plan alone)."""
 
@@ -101,6 +55,7 @@ class Solver:
         self.human_plan = human_plan
         self.given = given
         self.alone = Alone(task)
+        self.length = self._length()
         self.robots_goal = bool(task.robot_goal) and options.mode != "individual"
         self.horizon = self._horizon()
         self.unit = _smallest_unit(task, options)
@@ -134,9 +89,9 @@ class Solver:
     def _do_nothing(self, baseline: Label) -> WindowPlan:
         """The baseline: no limit rejects it, and with idle robots it fits the window of its last action."""
         assert self.human_plan is not None
-        if not self.options.windowed or not self.human_plan:
+        if not self.options.windowed or not self.length:
             return WindowPlan(baseline, baseline[1], None)
-        window = Window(len(self.human_plan), len(self.human_plan) + 1)
+        window = Window(self.length, self.length + 1)
         return WindowPlan(baseline, baseline[1] + self._units(self.options.window_weight), window)
 
     def _baseline(self) -> Label | None:
@@ -145,9 +100,9 @@ class Solver:
         if plan is None:
             return None
         if not self.robots_goal:
-            cost = self._units(self.task.cost_of(plan))
+            cost = self._units(self._cost_of(plan))
             return (cost, cost, len(plan))
-        layer: Layer = {self.task.init: (NOTHING,)}
+        layer: Layer[State] = {self.task.init: (NOTHING,)}
         assert self.horizon is not None
         epochs = self.horizon
         for t in range(1, len(plan) + 1):
@@ -178,15 +133,30 @@ class Solver:
     @property
     def _improvable(self) -> bool:
         """Whether a plan is given that costs more than an optimal one."""
-        worth = self.alone.worth(self.task.init)
-        return self.given and worth is not None and worth[0] < self.task.cost_of(self.human_plan or ())
+        worth = self._optimum()
+        return self.given and worth is not None and worth[0] < self._cost_of(self.human_plan or ())
 
     def _without_robots(self) -> "Solver":
         """The same call, were there no robots."""
-        alone = Solver(_without_robots(self.task), self.options, self.human_plan, given=False)
+        alone = type(self)(_without_robots(self.task), self.options, self._renumbered(), given=False)
         alone.unit = self.unit
-        alone.human_plan = _renumbered(self.task, self.human_plan or ())
         return alone
+
+    def _renumbered(self) -> HumanPlan:
+        """The human's plan where their own actions are all there is."""
+        return tuple(self.task.human_actions.index(i) for i in self.human_plan or ())
+
+    def _length(self) -> int:
+        """The number of epochs of the human's plan."""
+        return len(self.human_plan or ())
+
+    def _cost_of(self, plan: HumanPlan) -> Fraction:
+        """The cost of the human's plan."""
+        return self.task.cost_of(plan)
+
+    def _optimum(self) -> tuple[Fraction, int] | None:
+        """Cost and number of actions of an optimal plan of the human alone."""
+        return self.alone.worth(self.task.init)
 
     def _max_cost(self, baseline: Label | None) -> int | None:
         limit = self.options.max_cost
@@ -198,11 +168,11 @@ class Solver:
     # -- answers
 
     def _individual(self) -> Optimum:
-        worth = self.alone.worth(self.task.init)
+        worth = self._optimum()
         if worth is None:
             return Optimum("infeasible", reason="no-human-plan")
         cost, length = worth
-        human_cost = self.task.cost_of(self.human_plan or ())
+        human_cost = self._cost_of(self.human_plan or ())
         return Optimum(
             "optimal",
             cost,
@@ -215,7 +185,7 @@ class Solver:
         )
 
     def _answer(self, found: WindowPlan | None, baseline: Label | None, *, helps: bool) -> Optimum:
-        human_cost = None if self.human_plan is None else self.task.cost_of(self.human_plan)
+        human_cost = None if self.human_plan is None else self._cost_of(self.human_plan)
         known = Optimum("optimal", human_cost=human_cost)
         if baseline is not None:
             idle = self._idle(baseline)
@@ -252,7 +222,7 @@ class Solver:
         plan = self.human_plan or ()
         last = int(self.horizon or 0)
         suffix = suffix_rule(self.task, self.options, plan, self.alone, self._price)
-        prefix: Layer = {self.task.init: (NOTHING,)}
+        prefix: Layer[State] = {self.task.init: (NOTHING,)}
         for xi1 in range(1, len(plan) + 1):
             layer = prefix
             for xi2 in range(xi1 + 1, last + 2):
@@ -267,12 +237,12 @@ class Solver:
                             yield WindowPlan(total, total[0] + weight, Window(xi1, xi2))
             prefix = advance(prefix, self._moves("prefix", xi1))
 
-    def _goal_labels(self, layer: Layer) -> Iterator[Label]:
+    def _goal_labels(self, layer: Layer[State]) -> Iterator[Label]:
         for state, labels in layer.items():
             if holds(self.task.goal, state) and (not self.robots_goal or holds(self.task.robot_goal, state)):
                 yield from labels
 
-    def _moves(self, phase: str, epoch: int) -> Moves:
+    def _moves(self, phase: str, epoch: int) -> Moves[State]:
         """All action sets that a phase allows, as (next state, label)."""
         plan = self.human_plan or ()
         fixed = plan[epoch - 1] if phase != "free" and epoch <= len(plan) else None
@@ -334,19 +304,20 @@ class Solver:
         if options.mode == "individual" or (plan is None and options.windowed):
             return None
         if options.horizon is None:
-            if self.robots_goal and plan == () and not holds(self.task.robot_goal, self.task.init):
+            idle = plan is not None and not self.length
+            if self.robots_goal and idle and not holds(self.task.robot_goal, self.task.init):
                 raise UsageError("horizon: must be given, the human has nothing to do")
             if plan is not None:
-                return len(plan)
+                return self.length
             if options.mode == "composite":
                 return "inf"
             raise UsageError("horizon: must be given, the human has no plan alone")
-        if plan is not None and options.horizon != "inf" and int(options.horizon) < len(plan):
+        if plan is not None and options.horizon != "inf" and int(options.horizon) < self.length:
             raise UsageError("horizon: shorter than the human's plan")
         return options.horizon
 
 
-def _advanced(layer: Layer, moves: Moves, epochs: int | None) -> Layer:
+def _advanced(layer: Layer[State], moves: Moves[State], epochs: int | None) -> Layer[State]:
     """The layer after some epochs; with None, when waiting longer changes nothing."""
     done = 0
     while epochs is None or done < epochs:
@@ -374,7 +345,3 @@ def _smallest_unit(task: Task, options: Options) -> int:
 
 def _without_robots(task: Task) -> Task:
     return replace(task, actions=tuple(task.actions[i] for i in task.human_actions))
-
-
-def _renumbered(task: Task, plan: HumanPlan) -> HumanPlan:
-    return tuple(task.human_actions.index(i) for i in plan)

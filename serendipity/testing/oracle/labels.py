@@ -1,8 +1,7 @@
 """Labels of partial plans, and layers: the states after an epoch with their labels."""
 
-from collections.abc import Callable, Iterable
-
-from serendipity.testing.oracle.epochs import State
+from collections.abc import Callable, Hashable, Iterable
+from typing import TypeVar
 
 Label = tuple[int, int, int]
 """Objective without K, cost (both in the call's smallest unit of cost), number of actions."""
@@ -10,8 +9,11 @@ Label = tuple[int, int, int]
 Front = tuple[Label, ...]
 """Labels of which none is worse in every completion than another."""
 
-Layer = dict[State, Front]
-Moves = Callable[[State], Iterable[tuple[State, Label]]]
+S = TypeVar("S", bound=Hashable)
+"""States, or what else there may be between two epochs."""
+
+Layer = dict[S, Front]
+Moves = Callable[[S], Iterable[tuple[S, Label]]]
 
 NOTHING: Label = (0, 0, 0)
 
@@ -33,9 +35,9 @@ def front(labels: Iterable[Label]) -> Front:
     return tuple(kept)
 
 
-def advance(layer: Layer, moves: Moves) -> Layer:
+def advance(layer: Layer[S], moves: Moves[S]) -> Layer[S]:
     """The layer after one more epoch."""
-    reached: dict[State, list[Label]] = {}
+    reached: dict[S, list[Label]] = {}
     for state, labels in layer.items():
         for next_state, step in moves(state):
             reached.setdefault(next_state, []).extend(plus(label, step) for label in labels)

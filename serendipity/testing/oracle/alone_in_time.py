@@ -1,0 +1,189 @@
+"""The human alone beside a script: optimal plans over (state, epoch) from any moment (semantics 10.3)."""
+
+import heapq
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import NamedTuple
+
+from serendipity.model import HumanPlan, Task, TimedPlan
+from serendipity.testing.oracle.epochs import State, holds
+from serendipity.testing.oracle.moments import Moment, World
+
+Worth = tuple[Fraction, int, int]
+"""Cost, number of epochs, number of actions."""
+
+
+class Way(NamedTuple):
+    """What the human may do next; ``action`` is None where they wait for an epoch."""
+
+    action: int | None
+    price: Worth
+    moment: Moment
+    epoch: int
+
+
+class AloneInTime:
+    """Optimal costs of the human alone, for all moments that were asked for.
+
+    Epochs are those that are over; moments are ones in which the human is free.
+
+    Args:
+        task: the task.
+        waiting_cost: of an epoch of waiting before an action.
+        strict: whether interference is strict.
+    """
+
+    def __init__(self, task: Task, waiting_cost: Fraction = Fraction(0), *, strict: bool = False) -> None:
+        self.task = task
+        self.world = World(task, strict=strict)
+        self.waiting_cost = waiting_cost
+        self._settled: dict[State, Worth | None] = {}
+        self._acting: dict[tuple[Moment, int], Worth | None] = {}
+
+    def worth(self, moment: Moment, epoch: int) -> Worth | None:
+        """The least (cost, epochs, actions) of a plan of theirs; None if there is none."""
+        known = [self.acting(moment, epoch), self.resting(moment, epoch)]
+        return min((worth for worth in known if worth is not None), default=None)
+
+    def resting(self, moment: Moment, epoch: int) -> Worth | None:
+        """The same without an action: until the goal holds by itself."""
+        passed = 0
+        now: Moment | None = moment
+        while now is not None:
+            if holds(self.task.goal, now.state):
+                return (Fraction(0), passed, 0)
+            if epoch + passed >= self.world.settled:
+                return None
+            passed += 1
+            now = self.world.alone(now, epoch + passed)
+        return None
+
+    def acting(self, moment: Moment, epoch: int) -> Worth | None:
+        """The same with an action at least; None where the goal holds: they have nothing to do."""
+        if holds(self.task.goal, moment.state):
+            return None
+        if epoch >= self.world.settled:
+            if moment.state not in self._settled:
+                self._solve(moment.state)
+            return self._settled[moment.state]
+        key = (moment, epoch)
+        if key not in self._acting:
+            found = [_plus(way.price, self._rest(way)) for way in self.ways(moment, epoch)]
+            self._acting[key] = min((worth for worth in found if worth is not None), default=None)
+        return self._acting[key]
+
+    def best(self, moment: Moment, epoch: int) -> list[Way]:
+        """The ways that begin a plan of the worth of :meth:`acting`, those that act in front."""
+        worth = self.acting(moment, epoch)
+        if worth is None:
+            return []
+        return [way for way in self.ways(moment, epoch) if _plus(way.price, self._rest(way)) == worth]
+
+    def ways(self, moment: Moment, epoch: int) -> Iterator[Way]:
+        """Their own actions that can be done, in ascending order; then waiting, while the script lasts."""
+        for i in self.task.human_actions:
+            end = self._done(moment, epoch, i)
+            if end is not None:
+                action = self.task.actions[i]
+                yield Way(i, (action.cost, action.duration, 1), end, epoch + action.duration)
+        later = self.world.alone(moment, epoch + 1) if epoch < self.world.settled else None
+        if later is not None:
+            yield Way(None, (self.waiting_cost, 1, 0), later, epoch + 1)
+
+    def _rest(self, way: Way) -> Worth | None:
+        """After waiting there has to be an action: else it was the end of the plan."""
+        return (self.acting if way.action is None else self.worth)(way.moment, way.epoch)
+
+    def _done(self, moment: Moment, epoch: int, action: int) -> Moment | None:
+        """The moment after an action of theirs."""
+        now = self.world.alone(moment, epoch + 1, action)
+        for passed in range(2, self.task.actions[action].duration + 1):
+            now = None if now is None else self.world.alone(now, epoch + passed)
+        return now
+
+    def _solve(self, start: State) -> None:
+        """Explore everything the human can reach, then one Dijkstra backward from the goal states."""
+        late = self.world.settled
+        seen, stack = {start}, [start]
+        edges: dict[State, list[tuple[State, Worth]]] = {}
+        while stack:
+            state = stack.pop()
+            for way in self.ways(Moment(state), late):
+                edges.setdefault(way.moment.state, []).append((state, way.price))
+                if way.moment.state not in seen:
+                    seen.add(way.moment.state)
+                    stack.append(way.moment.state)
+        final: dict[State, Worth] = {}
+        goals = [state for state in seen if holds(self.task.goal, state)]
+        queue: list[tuple[Worth, int, State]] = [((Fraction(0), 0, 0), n, s) for n, s in enumerate(goals)]
+        ticket = len(queue)
+        while queue:
+            worth, _, state = heapq.heappop(queue)
+            if state in final:
+                continue
+            final[state] = worth
+            for before, price in edges.get(state, ()):
+                ticket += 1
+                heapq.heappush(queue, (_sum(price, worth), ticket, before))
+        for state in seen:
+            self._settled[state] = final.get(state)
+
+
+def _sum(a: Worth, b: Worth) -> Worth:
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def _plus(a: Worth, b: Worth | None) -> Worth | None:
+    return None if b is None else _sum(a, b)
+
+
+def plans_in_time(
+    task: Task, waiting_cost: Fraction = Fraction(0), head_start: int = 0, *, strict: bool = False
+) -> Iterator[HumanPlan]:
+    """All optimal plans of the human alone that differ in names; the canonical one first.
+
+    Of those of the same names, the one that acts as early as it can.
+
+    Args:
+        task: the task.
+        waiting_cost: of an epoch of waiting before an action.
+        head_start: epochs of waiting before the plan.
+        strict: whether interference is strict.
+    """
+    alone = AloneInTime(task, waiting_cost, strict=strict)
+    now: Moment | None = Moment(task.init)
+    for epoch in range(1, head_start + 1):
+        now = None if now is None else alone.world.alone(now, epoch)
+    if now is None or alone.worth(now, head_start) is None:
+        return
+    known: set[tuple[str, ...]] = set()
+    seen: set[object] = set()
+    stack: list[tuple[Moment, int, tuple[int, ...], tuple[int, ...], bool]] = [
+        (now, head_start, (), (), False)
+    ]
+    while stack:
+        moment, epoch, plan, starts, acts = stack.pop()
+        names = tuple(task.actions[i].name for i in plan)
+        if (moment, epoch, names, acts) in seen:
+            continue
+        seen.add((moment, epoch, names, acts))
+        resting = alone.resting(moment, epoch)
+        if not acts and resting is not None and resting == alone.worth(moment, epoch):
+            if names not in known:
+                known.add(names)
+                yield human_plan(task, plan, starts, epoch + resting[1])
+            continue
+        for way in reversed(alone.best(moment, epoch)):
+            if way.action is None:
+                stack.append((way.moment, way.epoch, plan, starts, True))
+            else:
+                stack.append((way.moment, way.epoch, (*plan, way.action), (*starts, epoch + 1), False))
+
+
+def human_plan(task: Task, actions: tuple[int, ...], starts: tuple[int, ...], length: int) -> HumanPlan:
+    """A plan as tasks have it: a plain tuple where the human waits nowhere."""
+    free, gaps = 1, False
+    for i, start in zip(actions, starts, strict=True):
+        gaps = gaps or start != free
+        free = start + task.actions[i].duration
+    return TimedPlan(actions, starts, length) if gaps or length != free - 1 else actions

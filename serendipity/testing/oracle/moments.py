@@ -1,0 +1,141 @@
+"""Time by brute force: an action of several epochs as a part for each of them (semantics 10).
+
+A part asks what has to hold before its epoch, and does what takes effect in it: the first has the conditions
+and effects at start, the last those at end, and all but the first ask for what holds over all.
+"""
+
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from serendipity.model import GroundAction, Task
+from serendipity.testing.oracle.epochs import State, after, compatible, usable
+
+Going = tuple[tuple[int, int], ...]
+"""What is under way, ascending: numbers of actions, each with how many of its parts are over."""
+
+
+class Moment(NamedTuple):
+    """Where things stand between two epochs.
+
+    Attributes:
+        state: the facts that are true.
+        going: what is under way.
+        retired: whether the human begins nothing any more, so that waiting costs them nothing.
+    """
+
+    state: State
+    going: Going = ()
+    retired: bool = False
+
+
+def parts_of(action: GroundAction) -> tuple[GroundAction, ...]:
+    """What an action asks and does in each of its epochs, as actions of one epoch."""
+    timing = action.timing
+    if timing is None:
+        return (action,)
+
+    def part(pre: set[int], neg: set[int], add: Iterable[int], delete: Iterable[int]) -> GroundAction:
+        asked, refused = tuple(sorted(pre)), tuple(sorted(neg))
+        return GroundAction(action.name, action.participants, asked, refused, tuple(add), tuple(delete))
+
+    inside, last = timing.over_all, timing.at_end
+    over, over_neg = set(inside.positive), set(inside.negative)
+    middle = part(over, over_neg, (), ())
+    return (
+        part(set(action.pre), set(action.neg), timing.start_add, timing.start_delete),
+        *[middle] * (timing.duration - 2),
+        part(over | set(last.positive), over_neg | set(last.negative), action.add, action.delete),
+    )
+
+
+class World:
+    """What may happen in an epoch of a task, bystanders and the script included.
+
+    Args:
+        task: the task.
+        strict: whether interference is strict.
+
+    Attributes:
+        settled: the epoch after which nothing depends on the epoch any more.
+    """
+
+    def __init__(self, task: Task, *, strict: bool) -> None:
+        self.task = task
+        self.strict = strict
+        self.settled = task.script.last
+        deeds = [action for deed in task.script.deeds for action in deed.variants]
+        self._numbers = {id(action): len(task.actions) + i for i, action in enumerate(deeds)}
+        self._who = [action.participants for action in (*task.actions, *deeds)]
+        self._parts = [parts_of(action) for action in (*task.actions, *deeds)]
+
+    def sets(
+        self, moment: Moment, epoch: int, candidates: Iterable[int]
+    ) -> Iterator[tuple[tuple[int, ...], Moment]]:
+        """Every set of actions that can begin in an epoch, with where it leads."""
+        forced = self._forced(moment, epoch)
+        if forced is None:
+            return
+        parts = [self._parts[i][k] for i, k in forced]
+        ready = [i for i in candidates if usable(self._parts[i][0], moment.state)]
+        ready = [i for i in ready if self._fits(self._parts[i][0], parts)]
+
+        def extend(chosen: tuple[int, ...], start: int) -> Iterator[tuple[int, ...]]:
+            yield chosen
+            for k in range(start, len(ready)):
+                part = self._parts[ready[k]][0]
+                if self._fits(part, [self._parts[i][0] for i in chosen]):
+                    yield from extend((*chosen, ready[k]), k + 1)
+
+        for chosen in extend((), 0):
+            yield chosen, self._outcome(moment, epoch, [*forced, *((i, 0) for i in chosen)])
+
+    def alone(self, moment: Moment, epoch: int, begun: int | None = None) -> Moment | None:
+        """The moment after an epoch in which only one action begins, or none; None where that can't be."""
+        wanted = () if begun is None else (begun,)
+        ends = (onward for chosen, onward in self.sets(moment, epoch, wanted) if chosen == wanted)
+        return next(ends, None)
+
+    def parts(self, action: int) -> tuple[GroundAction, ...]:
+        """What an action of the task asks and does, epoch by epoch."""
+        return self._parts[action]
+
+    def busy(self, moment: Moment, agent: int) -> bool:
+        """Whether an agent is at something."""
+        return any(agent in self._who[i] for i, _ in moment.going)
+
+    def others_busy(self, moment: Moment) -> bool:
+        """Whether a robot is at something."""
+        robots = {*self.task.robots}
+        return any(robots.intersection(self._who[i]) for i, _ in moment.going)
+
+    def plan_is_over(self, moment: Moment) -> bool:
+        """Whether nobody but bystanders is at anything."""
+        return all(i >= len(self.task.actions) for i, _ in moment.going)
+
+    def _forced(self, moment: Moment, epoch: int) -> Going | None:
+        """What goes on or is begun by bystanders in an epoch; None where something of it can't be."""
+        begun = []
+        for deed in self.task.script.begun(epoch):
+            numbers = [self._numbers[id(action)] for action in deed.variants]
+            possible = [i for i in numbers if usable(self._parts[i][0], moment.state)]
+            if not possible:
+                return None
+            begun.append((possible[0], 0))
+        forced = (*moment.going, *begun)
+        parts = [self._parts[i][k] for i, k in forced]
+        if not all(usable(part, moment.state) for part in parts):
+            return None
+        if not all(self._fits(part, parts[:k]) for k, part in enumerate(parts)):
+            return None
+        return forced
+
+    def _fits(self, part: GroundAction, others: Iterable[GroundAction]) -> bool:
+        return all(compatible(part, other, strict=self.strict) for other in others)
+
+    def _outcome(self, moment: Moment, epoch: int, happening: Iterable[tuple[int, int]]) -> Moment:
+        done = [*happening]
+        state = after(moment.state, [self._parts[i][k] for i, k in done])
+        facts = [one for one in self.task.script.facts if one.epoch == epoch]
+        state = (state - {one.fact for one in facts}) | {one.fact for one in facts if one.true}
+        going = tuple(sorted((i, k + 1) for i, k in done if k + 1 < len(self._parts[i])))
+        return Moment(frozenset(state), going, moment.retired)
