@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from serendipity.model import HumanPlan, Task
+from serendipity.testing.oracle.alone_in_time import plans_in_time
 from serendipity.testing.oracle.epochs import State, after, holds, usable
 
 Worth = tuple[Fraction, int]
@@ -73,6 +74,9 @@ class Alone:
 
 def human_plans(task: Task) -> Iterator[HumanPlan]:
     """All optimal plans of the human alone from ``I`` that differ in names; the canonical one first."""
+    if task.needs_time:
+        yield from plans_in_time(task)
+        return
     alone = Alone(task)
     if alone.worth(task.init) is None:
         return

@@ -27,11 +27,22 @@ from serendipity.testing.strategies.tasks import (
     tasks,
     usar_tasks,
 )
+from serendipity.testing.strategies.time import (
+    bystander_tasks,
+    calls_in_time,
+    scripted_tasks,
+    scripts,
+    tasks_in_time,
+    timed_plans,
+    timed_tasks,
+)
 
 __all__ = [
     "MODES",
     "Call",
+    "bystander_tasks",
     "calls",
+    "calls_in_time",
     "corridor_tasks",
     "errand_tasks",
     "family_tasks",
@@ -39,7 +50,12 @@ __all__ = [
     "options",
     "plans",
     "results",
+    "scripted_tasks",
+    "scripts",
     "strips_tasks",
     "tasks",
+    "tasks_in_time",
+    "timed_plans",
+    "timed_tasks",
     "usar_tasks",
 ]

@@ -1,0 +1,160 @@
+"""Small tasks and calls with time: durations, scripts, bystanders, plans with waiting (semantics 10)."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import accumulate
+from typing import Final
+
+from hypothesis import strategies as st
+
+from serendipity.model import (
+    Condition,
+    GroundAction,
+    HumanPlan,
+    Options,
+    PlanError,
+    Script,
+    Task,
+    TimedPlan,
+    Timing,
+)
+from serendipity.model.keywords import Mode
+from serendipity.testing.call import Call
+from serendipity.testing.oracle import human_plans
+from serendipity.testing.strategies.tasks import corridor_tasks, errand_tasks, strips_tasks
+
+_DURATIONS: Final = (1, 1, 2, 2, 3)
+_MODES: Final[tuple[Mode, ...]] = ("serendipity", "serendipity", "individual", "communication", "composite")
+_LAST_EPOCH: Final = 5
+_LONGEST: Final = 7
+
+
+@st.composite
+def timed_tasks(draw: st.DrawFn, *, of: st.SearchStrategy[Task] | None = None) -> Task:
+    """Tasks whose actions take one to three epochs, with conditions and effects at any time of theirs.
+
+    Args:
+        of: tasks of one epoch each, or None for small ones.
+    """
+    built = draw(_small_tasks() if of is None else of)
+    actions = tuple(draw(_timed(action)) for action in built.actions)
+    return replace(built, actions=actions)
+
+
+@st.composite
+def scripts(draw: st.DrawFn, built: Task, *, most: int = 3) -> Script:
+    """Facts of a task that become true or false in its first epochs.
+
+    Args:
+        built: the task.
+        most: how many at most.
+    """
+    moments = st.tuples(st.integers(1, _LAST_EPOCH), st.sampled_from(built.facts))
+    chosen = draw(st.lists(moments, max_size=most, unique=True))
+    return Script(facts=[(epoch, f"{draw(st.sampled_from(['', '!']))}{fact}") for epoch, fact in chosen])
+
+
+@st.composite
+def scripted_tasks(draw: st.DrawFn, *, of: st.SearchStrategy[Task] | None = None) -> Task:
+    """Tasks with a script of facts, whose actions may take several epochs.
+
+    Args:
+        of: tasks without a script, or None for small ones.
+    """
+    built = draw(st.one_of(_small_tasks(), timed_tasks()) if of is None else of)
+    return built.with_script(draw(scripts(built)))
+
+
+@st.composite
+def bystander_tasks(draw: st.DrawFn) -> Task:
+    """Tasks in which the last of the robots is a bystander, with one to three actions at their times."""
+    several = strips_tasks(facts=(3, 4), robots=(2, 2))
+    built = draw(st.one_of(several, timed_tasks(of=several)))
+    agent = len(built.agents) - 1
+    own = [action for action in built.actions if action.participants == (agent,)]
+    chosen = draw(st.lists(st.sampled_from(own), min_size=1, max_size=3))
+    epoch, plan = 1, list[tuple[int, str]]()
+    for action in chosen:
+        epoch += draw(st.integers(0, 2))
+        plan.append((epoch, action.name))
+        epoch += action.duration
+    return built.with_script(Script(people={built.agents[agent]: plan}))
+
+
+def tasks_in_time() -> st.SearchStrategy[Task]:
+    """Any small task with time in it."""
+    return st.one_of(timed_tasks(), timed_tasks(), scripted_tasks(), bystander_tasks())
+
+
+@st.composite
+def timed_plans(draw: st.DrawFn, task: Task, plan: HumanPlan) -> HumanPlan:
+    """A plan of the human's, now and then with waiting in it where that leaves it one."""
+    if draw(st.booleans()):
+        return plan
+    gaps = [draw(st.sampled_from([0, 0, 1, 2])) for _ in plan]
+    starts = [start + gap for start, gap in zip(task.starts_of(plan), accumulate(gaps), strict=True)]
+    waiting = TimedPlan(plan, starts, task.epochs_of(plan) + sum(gaps))
+    try:
+        task.replay_alone(waiting)
+    except PlanError:
+        return plan
+    return waiting if any(gaps) else plan
+
+
+@st.composite
+def calls_in_time(
+    draw: st.DrawFn, *, modes: Sequence[Mode] = _MODES, of: st.SearchStrategy[Task] | None = None
+) -> Call:
+    """A task with time, a mode and options that are legal for it, often with a plan that is given.
+
+    Args:
+        modes: drawn from.
+        of: tasks, or None for any with time.
+    """
+    task = draw(tasks_in_time() if of is None else of)
+    mode = draw(st.sampled_from(modes))
+    options = Options(
+        mode=mode,
+        discount=draw(st.sampled_from(["0", "0.5", "0.9"])),
+        window_weight=draw(st.sampled_from(["1000", "0", "0.25", "1"])),
+        max_window=draw(st.sampled_from([None, None, 1, 2])),
+        suffix=draw(st.sampled_from(["replan", "replan", "subplan"])),
+        preservation=draw(st.sampled_from(["kernel", "kernel", "state"])),
+        interference=draw(st.sampled_from(["paper", "paper", "strict"])),
+        waiting_cost=draw(st.sampled_from(["0", "0", "1", "0.5"])),
+        head_start=draw(st.sampled_from([0, 0, 1, 2])),
+        keep_prefix=mode == "communication" and draw(st.integers(0, 3)) == 0,
+    )
+    plan = next(human_plans(task), None)
+    if plan is None or task.epochs_of(plan) > _LONGEST:
+        horizon = None if mode == "individual" or plan is not None else draw(st.integers(1, 4))
+        return Call(task, options.but(horizon=horizon))
+    given = draw(timed_plans(task, plan)) if draw(st.integers(0, 2)) == 0 else None
+    if mode != "individual" and not task.robot_goal.holds(task.init):
+        known = task.epochs_of(plan if given is None else given) + options.head_start
+        options = options.but(horizon=known + draw(st.integers(0, 1)))
+    return Call(task, options, given)
+
+
+def _small_tasks() -> st.SearchStrategy[Task]:
+    return st.one_of(strips_tasks(facts=(3, 4), robots=(1, 1)), corridor_tasks(), errand_tasks())
+
+
+@st.composite
+def _timed(draw: st.DrawFn, action: GroundAction) -> GroundAction:
+    """The action with a duration, and some of its conditions and effects moved within it."""
+    duration = draw(st.sampled_from(_DURATIONS))
+    if duration == 1:
+        return action
+    pre, over, end = _parted(draw, action.pre)
+    neg, over_neg, end_neg = _parted(draw, action.neg)
+    add, start_add, _ = _parted(draw, action.add, 2)
+    delete, start_delete, _ = _parted(draw, action.delete, 2)
+    timing = Timing(duration, Condition(over, over_neg), Condition(end, end_neg), start_add, start_delete)
+    return replace(action, pre=pre, neg=neg, add=add, delete=delete, timing=timing)
+
+
+def _parted(draw: st.DrawFn, facts: tuple[int, ...], parts: int = 3) -> tuple[tuple[int, ...], ...]:
+    """Facts in three parts, of which the first has most; the last may be left empty."""
+    place = {fact: draw(st.sampled_from([0, *range(parts)])) for fact in facts}
+    return tuple(tuple(fact for fact in facts if place[fact] == k) for k in range(3))

@@ -1,0 +1,82 @@
+"""Brute force with time: equal to brute force without it where there is none, and laws of section 3.1."""
+
+from dataclasses import replace
+from itertools import islice
+
+from hypothesis import given, settings
+
+from serendipity.model import HumanPlan, PlanError, TimedFact, Timeline, UsageError
+from serendipity.testing.call import Call
+from serendipity.testing.oracle import Optimum, best, human_plans
+from serendipity.testing.oracle.alone_in_time import plans_in_time
+from serendipity.testing.oracle.answers import Solver
+from serendipity.testing.oracle.in_time import SolverInTime
+from serendipity.testing.strategies import calls, calls_in_time
+from serendipity.testing.strategies.time import _small_tasks
+
+
+def solved(solver: type[Solver], call: Call, plan: HumanPlan | None) -> Optimum | str:
+    """The answer, or what is wrong with the call."""
+    try:
+        return solver(call.task, call.options, plan, given=call.human_plan is not None).solve()
+    except UsageError as error:
+        return str(error)
+
+
+def answered(call: Call) -> Optimum | str:
+    """The answer, or what is wrong with the call."""
+    try:
+        return best(call.task, call.options, call.human_plan)
+    except (PlanError, UsageError) as error:
+        return str(error)
+
+
+@settings(max_examples=60, deadline=None)
+@given(calls(ties=False))
+def test_without_time_both_ways_agree(call: Call) -> None:
+    plans = [*islice(human_plans(call.task), 20)]
+    assert [*islice(plans_in_time(call.task), 20)] == plans
+    plan = call.human_plan if call.human_plan is not None or not plans else plans[0]
+    assert solved(SolverInTime, call, plan) == solved(Solver, call, plan)
+
+
+@settings(max_examples=40, deadline=None)
+@given(calls(ties=False, of=_small_tasks()))
+def test_a_script_that_nobody_cares_for_changes_nothing(call: Call) -> None:
+    task = call.task
+    noise = Timeline(tuple(TimedFact(epoch, len(task.facts), epoch % 2 == 1) for epoch in (1, 3, 4)))
+    noisy = replace(task, facts=(*task.facts, "noise"), script=noise)
+    assert [*islice(human_plans(noisy), 20)] == [*islice(human_plans(task), 20)]
+    assert answered(replace(call, task=noisy)) == answered(call)
+
+
+@settings(max_examples=40, deadline=None)
+@given(calls_in_time(modes=["serendipity"]))
+def test_with_free_windows_serendipity_is_composite(call: Call) -> None:
+    free = call.options.but(window_weight=0, max_window=None, suffix="replan", preservation="kernel")
+    alone = answered(replace(call, options=free))
+    together = answered(replace(call, options=free.but(mode="composite")))
+    if isinstance(alone, str) or isinstance(together, str) or alone.human_cost is None:
+        return
+    if not call.task.robot_goal and alone.saving_alone == 0:
+        assert alone.cost == together.cost
+
+
+@settings(max_examples=40, deadline=None)
+@given(calls_in_time(modes=["communication"]))
+def test_communication_that_is_free_is_composite(call: Call) -> None:
+    free = call.options.but(keep_prefix=False)
+    announced = answered(replace(call, options=free))
+    together = answered(replace(call, options=free.but(mode="composite")))
+    if isinstance(announced, Optimum) and isinstance(together, Optimum):
+        assert (announced.cost, announced.opportunity) == (together.cost, together.opportunity)
+
+
+@settings(max_examples=60, deadline=None)
+@given(calls_in_time())
+def test_no_answer_costs_more_than_doing_nothing(call: Call) -> None:
+    answer = answered(call)
+    if isinstance(answer, str) or answer.cost is None or answer.human_cost is None:
+        return
+    if not call.task.robot_goal and call.options.mode != "individual":
+        assert answer.cost <= answer.human_cost
