@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from itertools import groupby
 from pathlib import Path
+from typing import Final
 
 from serendipity.cli.files.reading import read_text
 from serendipity.model import GroundAction, PlanError, PlanStep, Result, Task
@@ -10,27 +11,30 @@ from serendipity.model.numbers import plain
 from serendipity.model.printable import printable
 from serendipity.model.task.actions import disables
 from serendipity.model.telling import team
-from serendipity.pddl.parsing.lists import actions_in
+from serendipity.pddl.parsing.timed_plans import entries, plan_lines
+
+_PLAN: Final = "human plan: "
 
 
 def checked_plan(path: Path | None, task: Task) -> tuple[str, ...] | None:
-    """The names of the actions in a file, if there is one; waiting (``noop``) is not part of the plan.
+    """The names of the actions in a file, if there is one; waiting is part of it where actions have times.
 
     Raises:
         InputError: ``file:line`` and what was expected.
         PlanError: ``file:line`` and the first action that is wrong in the task, or the goal missed.
+        UsageError: the human waits in it.
     """
     if path is None:
         return None
-    found = actions_in(read_text(path), path, "human plan: ")
-    kept = [(bare, line) for name, line in found if (bare := name.strip()).lower() not in ("", "noop")]
-    names = tuple(name for name, _ in kept)
+    found = [one._replace(name=one.name.strip()) for one in plan_lines(read_text(path), path, _PLAN)]
+    kept = [one for one in found if one.timed or one.name.lower() not in ("", "noop")]
+    listed = entries(kept, task, path, _PLAN)
     try:
-        task.plan_from_names(names)
+        task.plan_from_names(listed)
     except PlanError as error:
-        line = None if error.step is None else kept[error.step - 1][1]
+        line = None if error.step is None else kept[error.step - 1].line
         raise PlanError(error.message, path, line) from None
-    return names
+    return tuple(entry if isinstance(entry, str) else entry[1] for entry in listed)
 
 
 def plan_file(task: Task, result: Result) -> str:

@@ -35,7 +35,7 @@ def actions_in(text: str, path: object, what: str = "") -> list[tuple[str, int]]
         InputError: a line is not one action, or the JSON is no list of names.
     """
     if not starts_json(text):
-        lines = [(_action(line, path, number, what), number) for number, line in lines_of(text)]
+        lines = [(action_of(line, path, number, what), number) for number, line in lines_of(text)]
         return [(name, number) for name, number in lines if name]
     found = []
     for value, number in json_items(text, path, what):
@@ -98,8 +98,12 @@ def json_value(text: str, path: object) -> Any:
         raise InputError("expected numbers of at most 4300 digits", path) from None
 
 
-def _action(line: str, path: object, number: int, what: str) -> str:
-    """The action of a line without comment; empty where there is none."""
+def action_of(line: str, path: object, number: int, what: str) -> str:
+    """The action of a line without comment; empty where there is none.
+
+    Raises:
+        InputError: it is more than one action.
+    """
     bare = _EPOCH.sub("", line, count=1)
     if bare.startswith("(") and bare.endswith(")"):
         bare = bare[1:-1].strip()

@@ -127,8 +127,11 @@ def calls_in_time(
     )
     plan = next(human_plans(task), None)
     if plan is None or task.epochs_of(plan) > _LONGEST:
-        horizon = None if mode == "individual" or plan is not None else draw(st.integers(1, 4))
-        return Call(task, options.but(horizon=horizon))
+        if mode == "individual" or plan is not None:
+            return Call(task, options)
+        if mode == "composite" and draw(st.booleans()):
+            return Call(task, options.but(horizon="inf"))
+        return Call(task, options.but(horizon=draw(st.integers(1, 4))))
     given = draw(timed_plans(task, plan)) if draw(st.integers(0, 2)) == 0 else None
     if mode != "individual" and not task.robot_goal.holds(task.init):
         known = task.epochs_of(plan if given is None else given) + options.head_start

@@ -1,0 +1,60 @@
+"""Calls that nothing can answer in time yet say so in one line."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+import serendipity
+from serendipity.model import Options, Script, Task, UsageError
+from serendipity.testing.builders import task
+from verify.calls.solve import solve
+
+
+def slow() -> Task:
+    """A task of one action that takes two epochs."""
+    return task(goal="done", actions={"do h": " -> done @ 1 [2]", "help r": " -> done"})
+
+
+def plain() -> Task:
+    """The same in one epoch."""
+    return task(goal="done", actions={"do h": " -> done", "help r": " -> done"})
+
+
+CALLS: dict[str, Callable[[Task], Any]] = {
+    "plan": serendipity.plan,
+    "plan_anytime": lambda one: [*serendipity.plan_anytime(one)],
+    "interruptions": serendipity.interruptions,
+    "explain": serendipity.explain,
+    "Session": serendipity.Session,
+    "execute": lambda one: serendipity.execute(one),
+    "recognise": lambda one: serendipity.recognise(one, [{"name": "g", "goal": ["done"]}]),
+    "check": lambda one: serendipity.check(one, serendipity.plan(plain())),
+    "verify": lambda one: serendipity.verify(one, serendipity.plan(plain())),
+    "solve": lambda one: solve(one, Options()),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_tasks_that_need_time_are_refused(name: str) -> None:
+    with pytest.raises(UsageError) as caught:
+        CALLS[name](slow())
+    expected = "time: the task has actions of more than one epoch, which is read, but not planned for yet"
+    assert str(caught.value) == expected
+    with pytest.raises(UsageError, match="time: the task has a script"):
+        CALLS[name](plain().with_script(Script(facts=[(2, "done")])))
+
+
+def test_waiting_is_refused() -> None:
+    with pytest.raises(UsageError, match="time: the human waits in their plan"):
+        serendipity.plan(plain(), human_plan=[(3, "do h")])
+    assert serendipity.plan(plain(), human_plan=[(1, "do h")]).cost == 1
+    for options in ({"waiting_cost": 1}, {"head_start": 2}):
+        with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
+            serendipity.plan(plain(), **options)
+
+
+def test_options_of_time_are_written_down_only_where_they_are_in_force() -> None:
+    assert "waiting_cost" not in Options().to_dict()
+    timed = Options(waiting_cost="0.5", head_start=7)
+    assert Options.from_dict(timed.to_dict()) == timed
