@@ -73,6 +73,12 @@ def usar200() -> Path:
 
 
 @pytest.fixture(scope="session")
+def ipc2002time() -> Path:
+    """Domains of the planning competition of 2002, in time."""
+    return _data("ipc2002time")
+
+
+@pytest.fixture(scope="session")
 def spa() -> Path:
     """The problems of silent proactive assistance."""
     return _data("spa")
