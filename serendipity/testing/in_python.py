@@ -1,4 +1,4 @@
-"""A small task as the text of a program."""
+"""A small task, without its script, as the text of a program."""
 
 from fractions import Fraction
 
@@ -23,13 +23,20 @@ def in_python(task: Task) -> str:
 def _matters(task: Task, fact: int) -> bool:
     """Whether anything asks for a fact or changes it."""
     goals = (*task.goal.positive, *task.goal.negative, *task.robot_goal.positive, *task.robot_goal.negative)
-    return fact in goals or any(fact in (*a.pre, *a.neg, *a.add, *a.delete) for a in task.actions)
+    moments = (moment for action in task.actions for moment in action.moments)
+    return fact in goals or any(fact in (*a.pre, *a.neg, *a.add, *a.delete) for a in moments)
 
 
 def _action(action: GroundAction, facts: list[str]) -> str:
     cost = "" if action.cost == 1 else f" @ {_number(action.cost)}"
     before = _literals(Condition(action.pre, action.neg), facts)
-    return f"{before} -> {_literals(Condition(action.add, action.delete), facts)}{cost}".strip()
+    after = _literals(Condition(action.add, action.delete), facts)
+    timing = action.timing
+    if timing is None:
+        return f"{before} -> {after}{cost}".strip()
+    asked = [before, _literals(timing.over_all, facts), _literals(timing.at_end, facts)]
+    start = _literals(Condition(timing.start_add, timing.start_delete), facts)
+    return f"{' / '.join(asked)} -> {start} / {after}{cost} [{timing.duration}]"
 
 
 def _literals(condition: Condition, facts: list[str]) -> str:

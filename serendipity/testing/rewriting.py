@@ -5,7 +5,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Final
 
-from serendipity.model import Condition, GroundAction
+from serendipity.model import Condition, Deed, GroundAction, HumanPlan, TimedPlan, Timeline, Timing
 from serendipity.testing.call import Call
 
 _IDLER: Final = "idler"
@@ -17,13 +17,18 @@ def renamed(call: Call) -> Call:
     """Facts, actions and agents under other names, in other places."""
     task = call.task
     facts, agents = len(task.facts), len(task.agents)
-    names = {name: f"act{k}" for k, name in enumerate(sorted({a.name for a in task.actions}, reverse=True))}
+    every = {a.name for a in task.actions} | {deed.name for deed in task.script.deeds}
+    names = {name: f"act{k}" for k, name in enumerate(sorted(every, reverse=True))}
 
     def fact_ids(ids: tuple[int, ...]) -> tuple[int, ...]:
         return tuple(sorted(facts - 1 - f for f in ids))
 
     def condition(given: Condition) -> Condition:
         return Condition(fact_ids(given.positive), fact_ids(given.negative))
+
+    def timing(given: Timing) -> Timing:
+        starts = fact_ids(given.start_add), fact_ids(given.start_delete)
+        return Timing(given.duration, condition(given.over_all), condition(given.at_end), *starts)
 
     def action(given: GroundAction) -> GroundAction:
         who = tuple(sorted(agents - 1 - agent for agent in given.participants))
@@ -36,8 +41,17 @@ def renamed(call: Call) -> Call:
             fact_ids(given.add),
             fact_ids(given.delete),
             given.cost,
+            None if given.timing is None else timing(given.timing),
         )
 
+    script = Timeline(
+        tuple(replace(one, fact=facts - 1 - one.fact) for one in task.script.facts),
+        tuple(
+            Deed(deed.epoch, agents - 1 - deed.agent, tuple(map(action, deed.variants)))
+            for deed in task.script.deeds
+        ),
+        frozenset(agents - 1 - agent for agent in task.script.people),
+    )
     actions, places = _in_order([action(given) for given in task.actions])
     other = replace(
         task,
@@ -48,9 +62,9 @@ def renamed(call: Call) -> Call:
         goal=condition(task.goal),
         robot_goal=condition(task.robot_goal),
         actions=actions,
+        script=script,
     )
-    plan = None if call.human_plan is None else tuple(places[i] for i in call.human_plan)
-    return replace(call, task=other, human_plan=plan)
+    return replace(call, task=other, human_plan=_placed(call.human_plan, places))
 
 
 def with_idle_robot(call: Call) -> Call:
@@ -65,8 +79,7 @@ def with_idle_robot(call: Call) -> Call:
         facts=(*task.facts, _fresh(_MOMENT, task.facts)),
         actions=actions,
     )
-    plan = None if call.human_plan is None else tuple(places[i] for i in call.human_plan)
-    return replace(call, task=more, human_plan=plan)
+    return replace(call, task=more, human_plan=_placed(call.human_plan, places))
 
 
 def doubled(call: Call) -> Call:
@@ -87,7 +100,8 @@ def doubled(call: Call) -> Call:
 def with_split_action(call: Call) -> Call | None:
     """The first action that costs something in two steps, of half its cost each; None if there is none."""
     task = call.task
-    split = next((i for i, a in enumerate(task.actions) if a.cost and len(task.named[a.name]) == 1), None)
+    single = (i for i, a in enumerate(task.actions) if a.cost and len(task.named[a.name]) == 1)
+    split = next((i for i in single if task.actions[i].timing is None), None)
     if split is None:
         return None
     whole, fact = task.actions[split], len(task.facts)
@@ -108,6 +122,14 @@ def with_split_action(call: Call) -> Call | None:
     for i in call.human_plan or ():
         plan += [places[i], places[-1]] if i == split else [places[i]]
     return replace(call, task=more, human_plan=None if call.human_plan is None else tuple(plan))
+
+
+def _placed(plan: HumanPlan | None, places: Sequence[int]) -> HumanPlan | None:
+    """A plan whose actions have other ids."""
+    if plan is None:
+        return None
+    ids = tuple(places[i] for i in plan)
+    return TimedPlan(ids, plan.starts, plan.length) if isinstance(plan, TimedPlan) else ids
 
 
 def _in_order(actions: Sequence[GroundAction]) -> tuple[tuple[GroundAction, ...], list[int]]:

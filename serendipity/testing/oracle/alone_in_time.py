@@ -1,11 +1,12 @@
 """The human alone beside a script: optimal plans over (state, epoch) from any moment (semantics 10.3)."""
 
 import heapq
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
-from serendipity.model import HumanPlan, Task, TimedPlan
+from serendipity.model import Condition, HumanPlan, Script, Task, TimedPlan, UsageError
 from serendipity.testing.oracle.epochs import State, holds
 from serendipity.testing.oracle.moments import Moment, World
 
@@ -178,6 +179,27 @@ def plans_in_time(
                 stack.append((way.moment, way.epoch, plan, starts, True))
             else:
                 stack.append((way.moment, way.epoch, (*plan, way.action), (*starts, epoch + 1), False))
+
+
+def with_predicted(task: Task, goals: Mapping[str, Condition]) -> Task:
+    """The task with some people as bystanders, each on their own optimal plan beside the script so far.
+
+    Args:
+        task: the task.
+        goals: what each of them wants, in the order in which they are predicted.
+
+    Raises:
+        UsageError: one of them has no plan alone.
+    """
+    for person, goal in goals.items():
+        theirs = replace(task.with_human(person), goal=goal, robot_goal=Condition())
+        plan = next(plans_in_time(theirs), None)
+        if plan is None:
+            raise UsageError(f"script: {person} has no plan alone")
+        names = (theirs.actions[i].name for i in plan)
+        entries = tuple(zip(theirs.starts_of(plan), names, strict=True))
+        task = task.with_script(Script(people={person: entries}))
+    return task
 
 
 def human_plan(task: Task, actions: tuple[int, ...], starts: tuple[int, ...], length: int) -> HumanPlan:

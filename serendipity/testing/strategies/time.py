@@ -36,7 +36,7 @@ def timed_tasks(draw: st.DrawFn, *, of: st.SearchStrategy[Task] | None = None) -
     Args:
         of: tasks of one epoch each, or None for small ones.
     """
-    built = draw(_small_tasks() if of is None else of)
+    built = draw(small_tasks() if of is None else of)
     actions = tuple(draw(_timed(action)) for action in built.actions)
     return replace(built, actions=actions)
 
@@ -61,7 +61,7 @@ def scripted_tasks(draw: st.DrawFn, *, of: st.SearchStrategy[Task] | None = None
     Args:
         of: tasks without a script, or None for small ones.
     """
-    built = draw(st.one_of(_small_tasks(), timed_tasks()) if of is None else of)
+    built = draw(st.one_of(small_tasks(), timed_tasks()) if of is None else of)
     return built.with_script(draw(scripts(built)))
 
 
@@ -139,7 +139,8 @@ def calls_in_time(
     return Call(task, options, given)
 
 
-def _small_tasks() -> st.SearchStrategy[Task]:
+def small_tasks() -> st.SearchStrategy[Task]:
+    """Tasks of one epoch each that stay small in time."""
     return st.one_of(strips_tasks(facts=(3, 4), robots=(1, 1)), corridor_tasks(), errand_tasks())
 
 

@@ -5,14 +5,17 @@ from itertools import islice
 
 from hypothesis import given, settings
 
-from serendipity.model import HumanPlan, PlanError, TimedFact, Timeline, UsageError
+from serendipity.model import Condition, HumanPlan, Options, PlanError, Task, TimedFact, Timeline, UsageError
+from serendipity.testing.builders import task as build
 from serendipity.testing.call import Call
+from serendipity.testing.in_python import in_python
 from serendipity.testing.oracle import Optimum, best, human_plans
 from serendipity.testing.oracle.alone_in_time import plans_in_time
 from serendipity.testing.oracle.answers import Solver
 from serendipity.testing.oracle.in_time import SolverInTime
-from serendipity.testing.strategies import calls, calls_in_time
-from serendipity.testing.strategies.time import _small_tasks
+from serendipity.testing.rewriting import renamed
+from serendipity.testing.strategies import calls, calls_in_time, tasks_in_time
+from serendipity.testing.strategies.time import small_tasks
 
 
 def solved(solver: type[Solver], call: Call, plan: HumanPlan | None) -> Optimum | str:
@@ -41,13 +44,40 @@ def test_without_time_both_ways_agree(call: Call) -> None:
 
 
 @settings(max_examples=40, deadline=None)
-@given(calls(ties=False, of=_small_tasks()))
+@given(calls(ties=False, of=small_tasks()))
 def test_a_script_that_nobody_cares_for_changes_nothing(call: Call) -> None:
     task = call.task
     noise = Timeline(tuple(TimedFact(epoch, len(task.facts), epoch % 2 == 1) for epoch in (1, 3, 4)))
     noisy = replace(task, facts=(*task.facts, "noise"), script=noise)
     assert [*islice(human_plans(noisy), 20)] == [*islice(human_plans(task), 20)]
     assert answered(replace(call, task=noisy)) == answered(call)
+
+
+@settings(max_examples=40, deadline=None)
+@given(calls_in_time())
+def test_renaming_keeps_the_cost(call: Call) -> None:
+    options = call.options.but(head_start=0)
+    plan = call.human_plan or next(
+        plans_in_time(call.task, options.waiting_cost, strict=options.strict), None
+    )
+    if plan is None:
+        return
+    settled = replace(call, options=options, human_plan=plan)
+    before, after = answered(settled), answered(renamed(settled))
+    if isinstance(before, Optimum) and isinstance(after, Optimum):
+        assert (before.cost, before.objective, before.saving) == (after.cost, after.objective, after.saving)
+    else:
+        assert before == after
+
+
+@settings(max_examples=40, deadline=None)
+@given(tasks_in_time())
+def test_tasks_are_told_in_python(built: Task) -> None:
+    plain = replace(built, script=Timeline(), robot_goal=Condition())
+    again = eval(in_python(plain), {"task": build})
+    kinds = [(a.name.replace(" ", "_"), a.duration, a.cost) for a in plain.actions]
+    assert [(a.name.replace(" ", "_"), a.duration, a.cost) for a in again.actions] == kinds
+    assert best(again, Options(mode="individual")) == best(plain, Options(mode="individual"))
 
 
 @settings(max_examples=40, deadline=None)

@@ -5,9 +5,10 @@ from typing import Any
 
 import pytest
 
-from serendipity.model import Options, Script, Task, UsageError, Window
+from serendipity.model import Condition, Options, PlanError, Script, Task, UsageError, Window
 from serendipity.testing.builders import task
 from serendipity.testing.oracle import best, human_plans, optimal_human_plan
+from serendipity.testing.oracle.alone_in_time import with_predicted
 
 HALF = "0.5"
 
@@ -37,9 +38,8 @@ def carol(plan: Any = ((2, "move carol c b"), (3, "move carol b e"))) -> Task:
                     f"{who}-{a} clear-{b} -> {who}-{b} !{who}-{a} clear-{a} !clear-{b}"
                 )
     init = "h-a carol-c clear-b clear-e clear-d"
-    return task(agents="h r carol", init=init, goal="h-d", actions=actions).with_script(
-        Script(people={"carol": plan})
-    )
+    empty = task(agents="h r carol", init=init, goal="h-d", actions=actions)
+    return empty if plan is None else empty.with_script(Script(people={"carol": plan}))
 
 
 def test_moves_of_two_epochs_cost_once() -> None:
@@ -83,10 +83,24 @@ def test_nobody_is_in_carols_way() -> None:
     assert (answer.cost, answer.opportunity) == (3, False)
 
 
+def test_bystanders_can_be_predicted() -> None:
+    wanted = Condition((carol().facts.index("carol-e"),))
+    there = with_predicted(carol(None), {"carol": wanted})
+    assert [(deed.epoch, deed.name) for deed in there.script.deeds] == [
+        (1, "move carol c b"),
+        (2, "move carol b e"),
+    ]
+    plan = optimal_human_plan(there)
+    assert plan is not None
+    assert there.starts_of(plan) == (3, 4, 5)
+    with pytest.raises(UsageError, match="carol has no plan alone"):
+        with_predicted(carol(None), {"carol": Condition((carol().facts.index("h-d"),))})
+
+
 def test_a_plan_that_is_in_carols_way_is_none() -> None:
     there = carol()
     moves = [there.named[f"move h {way}"][0] for way in ("a b", "b c", "c d")]
-    with pytest.raises(Exception, match="human plan"):
+    with pytest.raises(PlanError, match="human plan"):
         best(there, Options(discount=HALF), tuple(moves))
 
 
