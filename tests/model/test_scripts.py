@@ -33,6 +33,12 @@ def test_bystanders_are_neither_robots_nor_anybody_whose_actions_can_be_chosen()
     assert with_carol.needs_time
 
 
+def test_tasks_tell_of_time() -> None:
+    plans = {"carol": ["walk carol", "shop carol"]}
+    timed = street().with_script(Script(facts=[(9, "!open")], people=plans))
+    assert "actions of one epoch; a script of 1 facts and the plans of carol, until epoch 9" in str(timed)
+
+
 def test_a_bystander_who_does_nothing_is_one() -> None:
     idle = street().with_script(Script(people={"carol": []}))
     assert (idle.robots, idle.needs_time) == ((1,), False)

@@ -28,7 +28,7 @@ def horizon_of(task: Task, options: Options, plan: HumanPlan | None) -> Horizon:
         words = "the length of the human's plan" if replans else "as long as the human's plan"
         horizon = _long_enough(options.horizon, length, words)
         if plan is not None and task.script:
-            _require_lasting(task, plan, horizon)
+            _require_lasting(task, plan, horizon, strict=options.strict)
         return horizon
     if plan is None:
         if options.mode == "composite":
@@ -60,10 +60,10 @@ def _long_enough(horizon: Horizon, least: int, words: str) -> Horizon:
     return horizon
 
 
-def _require_lasting(task: Task, plan: HumanPlan, horizon: Horizon) -> None:
+def _require_lasting(task: Task, plan: HumanPlan, horizon: Horizon, *, strict: bool) -> None:
     """Check that the goal holds at the end, and nobody is disturbed, where robots do nothing."""
     if isinstance(horizon, int):
-        broken = outlasts(task, plan, horizon)
+        broken = outlasts(task, plan, horizon, strict=strict)
         if broken is not None:
             raise UsageError(f"horizon: the human's plan does not last until epoch {horizon}: {broken}")
 

@@ -39,7 +39,7 @@ def replayed(task: "Task", plan: "HumanPlan") -> list[frozenset[int]]:
     return human.states
 
 
-def outlasts(task: "Task", plan: "HumanPlan", epochs: int) -> str | None:
+def outlasts(task: "Task", plan: "HumanPlan", epochs: int, *, strict: bool = False) -> str | None:
     """The reason why what a human plan reaches does not last until an epoch, or None if it does.
 
     After the plan everybody is idle.
@@ -47,7 +47,7 @@ def outlasts(task: "Task", plan: "HumanPlan", epochs: int) -> str | None:
     Raises:
         PlanError: it is no plan in the first place.
     """
-    human = _done(task, plan)
+    human = _done(task, plan, strict=strict)
     try:
         human.wait_until(epochs)
     except PlanError as error:
@@ -55,8 +55,8 @@ def outlasts(task: "Task", plan: "HumanPlan", epochs: int) -> str | None:
     return None if task.goal.holds(human.course.state) else "the goal does not hold any more"
 
 
-def _done(task: "Task", plan: "HumanPlan") -> "_Human":
-    human = _Human(task)
+def _done(task: "Task", plan: "HumanPlan", *, strict: bool = False) -> "_Human":
+    human = _Human(task, strict=strict)
     for step, (epoch, action_id) in enumerate(zip(task.starts_of(plan), plan, strict=True), start=1):
         human.do(step, epoch, action_id)
     human.wait_until(task.epochs_of(plan))
@@ -73,9 +73,9 @@ def without_gaps(task: "Task", plan: TimedPlan) -> "HumanPlan":
 class _Human:
     """The human alone, at a plan."""
 
-    def __init__(self, task: "Task") -> None:
+    def __init__(self, task: "Task", *, strict: bool = False) -> None:
         self.task = task
-        self.course = Course(task.facts, task.init, task.script)
+        self.course = Course(task.facts, task.init, task.script, strict=strict)
         self.states = [task.init]
         self.actions: list[int] = []
         self.starts: list[int] = []

@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import accumulate
 
 from serendipity.model.errors import PlanError, UsageError
-from serendipity.model.numbers import total
+from serendipity.model.numbers import plain, total
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import NOOP, Condition, Disjunction, GroundAction, apply, fitted
 from serendipity.model.task.course import first_unmet
@@ -108,11 +108,23 @@ class Task(Told):
         yield Line(
             f"{len(self.facts)} facts in {len(self.variables)} variables, {len(self.actions)} ground actions"
         )
+        if self.needs_time:
+            yield Line(self._time_told())
         for who, goal in ((human, self.goal), ("robots", self.robot_goal)):
             literals = [self.facts[i] for i in goal.positive] + [f"!{self.facts[i]}" for i in goal.negative]
             if literals:
                 yield Line(f"goal of {who}: {', '.join(literals)}")
         yield from map(Line, self.warnings)
+
+    def _time_told(self) -> str:
+        longest = max((action.duration for action in self.actions), default=1)
+        told = f"actions of up to {longest} epochs" if longest > 1 else "actions of one epoch"
+        told += "" if self.epoch == 1 else f", an epoch being {plain(self.epoch)}"
+        if self.script:
+            people = [self.agents[i] for i in sorted(self.script.people)]
+            beside = f" and the plans of {', '.join(people)}" if people else ""
+            told += f"; a script of {len(self.script.facts)} facts{beside}, until epoch {self.script.last}"
+        return told
 
     def _in_short(self) -> Iterator[str]:
         yield repr(self.name)
