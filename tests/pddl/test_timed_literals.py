@@ -7,6 +7,7 @@ import pytest
 from serendipity.model import InputError, Task, TimedFact
 from serendipity.pddl.layouts import read_folder, read_pddl
 from serendipity.pddl.write import write_pddl
+from serendipity.testing.oracle import human_plans
 from tests.pddl.test_durative_actions import DOMAIN, PROBLEM
 
 SHOP = """(define (domain shop)
@@ -42,6 +43,16 @@ def test_a_literal_becomes_true_with_the_epoch_that_ends_then(tmp_path: Path) ->
     assert task.script.facts == (TimedFact(8, open_, True), TimedFact(30, open_, False))
     assert (task.epoch, task.script.last, task.needs_time) == (1, 30, True)
     assert "buy ann shop" in task.named  # though nobody ever opens it
+
+
+def test_a_goal_may_be_what_only_the_script_brings_about(tmp_path: Path) -> None:
+    domain = SHOP.replace("(has ?a - agent)", "(has ?a - agent) (dark)")
+    problem = DAY.replace("(:goal (has ann))", "(:goal (and (dark) (not (open shop))))")
+    task = read(tmp_path, domain, problem.replace("(at 8", "(at 40 (dark)) (at 8"))
+    dark = task.facts.index("dark")
+    assert (task.script.facts[-1], dark in task.goal.positive) == (TimedFact(40, dark, True), True)
+    plan = next(human_plans(task))
+    assert (tuple(plan), task.epochs_of(plan)) == ((), 40)
 
 
 def test_predicates_called_at_are_not_mistaken_for_times(tmp_path: Path) -> None:

@@ -89,8 +89,7 @@ def assemble(blueprint: Blueprint, work: Work) -> Task:
     if not goal:
         blueprint.warnings.append(_no_goal(blueprint))
     facts, blocks = _grounded(blueprint, relations, work)
-    script = script_of(blueprint.units, facts)
-    numbering = _numbered(facts, blocks, relations, goal, robot_goals, work, script)
+    numbering = _numbered(facts, blocks, relations, goal, robot_goals, work, blueprint.units)
     clock = Clock(blueprint.units, numbering.blocks, blueprint.epoch)
     actions = tuple(_actions(numbering, blueprint, clock))
     timeline = _timeline(numbering, blueprint, clock)
@@ -170,12 +169,13 @@ def _numbered(
     goal: Goal,
     robot_goals: Sequence[Goal],
     work: Work,
-    script: tuple[frozenset[int], frozenset[int]],
+    units: Iterable[Unit],
 ) -> Numbering:
     """The executable actions in their final order; goals lose what is known of them."""
     goals = (goal, *robot_goals)
     for literal in chain.from_iterable(one.named() for one in goals):
         _ = facts[literal.key]  # has an id from here on
+    script = script_of(units, facts)
     init = {facts[key] for key in relations.init if key in facts}
     work.stage("finding out which actions can be executed")
     left = executable(blocks, init, work, script)

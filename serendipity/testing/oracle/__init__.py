@@ -1,4 +1,4 @@
-"""A brute-force enumerator of composite plans: semantics 1-3, as literally as possible.
+"""A brute-force enumerator of composite plans: semantics 1-3 and 10, as literally as possible.
 
 It walks forward over epochs through every state and every applicable action set,
 for every window.  Nothing is pruned; equal (state, label) pairs are merged.  It is
