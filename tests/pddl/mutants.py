@@ -4,7 +4,7 @@ A mutant is made of its number alone, so whoever has the number has the mutant.
 """
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from random import Random
 from typing import NamedTuple
@@ -78,10 +78,10 @@ SECTION = re.compile(r":(precondition|goal)\b.*?(?=:effect|:metric|:precondition
 ATOM = re.compile(r"\((?!and\b|or\b|not\b|total-cost)[\w-]+(\s+[?\w-]+)*\)")
 
 
-def mutant(number: int) -> Mutant:
+def mutant(number: int, originals: Sequence[Original] = ORIGINALS) -> Mutant:
     """The mutant of a number: one to four changes, raw ones or such of whole tokens and groups."""
     random = Random(number)
-    original = random.choice(ORIGINALS)
+    original = random.choice(originals)
     texts = [original.domain, original.problem]
     changes = []
     for _ in range(random.choice((1, 1, 1, 2, 3, 4))):

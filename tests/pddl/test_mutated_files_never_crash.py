@@ -1,6 +1,7 @@
 """Whatever happens to a file, loading works or gives one line that names a file."""
 
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -8,10 +9,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity import Deadline, LimitReachedError, SerendipityError, Task, pddl
-from tests.pddl.mutants import Mutant, mutant
+from tests.pddl.mutants import ORIGINALS, Mutant, Original, mutant
+from tests.pddl.test_durative_actions import DOMAIN, PROBLEM
+from tests.pddl.test_timed_literals import DAY, SHOP
 from tests.pddl.texts import OFFICE
 
 SECONDS = 2.0
+
+IN_TIME = (
+    Original(DOMAIN, PROBLEM.replace("(:init", "(:init (at 14 (path hall bed))"), "ann", ("bob",)),
+    Original(SHOP, DAY, "ann", ("bob",)),
+)
 
 
 def outcome(changed: Mutant, folder: Path) -> Task | SerendipityError:
@@ -24,11 +32,12 @@ def outcome(changed: Mutant, folder: Path) -> Task | SerendipityError:
         return error
 
 
-def check(number: int) -> None:
+def check(number: int, originals: Sequence[Original] = ORIGINALS) -> None:
+    changed = mutant(number, originals)
     with tempfile.TemporaryDirectory() as folder:
-        result = outcome(mutant(number), Path(folder))
+        result = outcome(changed, Path(folder))
     if isinstance(result, Task):
-        assert result.agents[0] == mutant(number).human
+        assert result.agents[0] == changed.human
     else:
         text = str(result)
         assert text.isprintable()
@@ -42,6 +51,12 @@ def check(number: int) -> None:
 def test_mutated_files_load_or_fail_in_one_line(start: int) -> None:
     for number in range(start, start + 50):
         check(number)
+
+
+@pytest.mark.parametrize("start", range(0, 300, 50))
+def test_mutated_files_with_time_load_or_fail_in_one_line(start: int) -> None:
+    for number in range(start, start + 50):
+        check(number, IN_TIME)
 
 
 @pytest.mark.slow
