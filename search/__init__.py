@@ -10,7 +10,12 @@ from typing import Final
 from search.call.prepared_task import PreparedTask, prepare
 from search.human.plan_graph import PlanGraph
 from search.modes.tie_bound import least_over_ties
-from search.strategies.first_answer import FirstAnswer, first_answer, optimal_human_plans
+from search.strategies.first_answer import (
+    FirstAnswer,
+    canonical_human_plan,
+    first_answer,
+    optimal_human_plans,
+)
 from search.strategies.portfolio import solve
 from search.strategies.warm_start import WarmStart
 
@@ -19,6 +24,7 @@ __all__ = [
     "PlanGraph",
     "PreparedTask",
     "WarmStart",
+    "canonical_human_plan",
     "first_answer",
     "least_over_ties",
     "optimal_human_plans",

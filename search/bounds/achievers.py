@@ -9,9 +9,9 @@ from search.bounds.achiever_automaton import AchieverAutomaton
 from search.bounds.achiever_costs import AchieverCosts
 from search.bounds.interactions import Interactions
 from search.packed.cost_vector import INFINITE_KEY, NEVER
+from search.packed.joint_actions import Idle
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
-from search.packed.successor_generator import Idle
 from search.robots.transition_graphs import PositionVariables, TransitionGraphs
 from serendipity.model.resources.deadline import Deadline
 

@@ -19,7 +19,7 @@ from search.bounds.interactions import Interactions
 from search.bounds.private_distances import PrivateDistances
 from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import INFINITE_KEY, NEVER
-from search.packed.successor_generator import Idle
+from search.packed.joint_actions import Idle
 
 _MOST_TOUCHES = 4096
 """More surviving needs than this make the bound dearer than what it saves."""

@@ -6,8 +6,8 @@ from typing import Final, NamedTuple
 
 from search.bounds.achievers import Provided
 from search.packed.cost_vector import INFINITE_KEY
+from search.packed.joint_actions import Idle
 from search.packed.state_cache import StateCache
-from search.packed.successor_generator import Idle
 
 _MOST_KEPT: Final = 1_000_000
 """Offers in the lists that are kept: some 10 MiB."""

@@ -14,10 +14,11 @@ from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
 from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase
 from search.human.plan_graph import PlanGraph
 from search.packed.cost_vector import INFINITE_KEY, Weights
+from search.packed.joint_actions import JointAction, as_option
 from search.packed.operators import Operator, changed
 from search.packed.packed_task import PackedGoal
 from search.packed.packings import asked_facts, human_facts
-from search.packed.successor_generator import JointAction, Successors, as_option
+from search.packed.successor_generator import Successors
 from search.robots.decoupled import Decoupled, DecoupledSuccessors
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -103,7 +104,8 @@ class SearchContext:
     @property
     def relevant(self) -> int:
         """The fields that matter to the human alone, or to a goal."""
-        return self.packed.own_mask | self.packed.goal.mask | self.packed.robot_goal.mask
+        packed = self.packed
+        return packed.own_mask | packed.goal.mask | packed.robot_goal.mask | packed.at_rest.mask
 
     @cached_property
     def alone(self) -> IndividualPlanner:
@@ -157,7 +159,7 @@ class SearchContext:
 
     def walks(self, plan: HumanPlan) -> Decoupled | None:
         """Robots' walks where they can be folded, and it pays: with several robots."""
-        if len(self.task.robots) < 2 or self.options.preservation == "state":
+        if len(self.task.robots) < 2 or self.options.preservation == "state" or self.task.due:
             return None
         walks = self.tables.robots.decoupled(self.deadline)
         if not walks.foldable or walks.touched_by(map(self.packed.op, plan)):
@@ -225,8 +227,10 @@ class SearchContext:
 
     @property
     def goals(self) -> tuple[PackedGoal, ...]:
-        """``G_H`` and ``G_R``, packed."""
-        return self.packed.goal, self.packed.robot_goal
+        """``G_H``, ``G_R``, and robots at rest where they take time, packed."""
+        packed = self.packed
+        goals = packed.goal, packed.robot_goal
+        return (*goals, packed.at_rest) if packed.at_rest.mask else goals
 
     def canonical_plan(self) -> FoundPlan | None:
         """The human's canonical plan from ``I``, or None where they have none."""

@@ -9,12 +9,12 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from search.engine.astar import AStar
+from search.human.own_options import own_options
 from search.human.pattern_database import PatternDatabase
 from search.human.plan_graph import PlanGraph, edges_into
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
-from search.packed.successor_generator import Lookup
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan
@@ -46,7 +46,7 @@ class Memory:
     def __init__(self, packed: PackedTask, weight: Callable[[Operator], int] | None = None) -> None:
         own = own_weights(packed)
         self.weight = weight or (lambda op: own[op.cost])
-        self.lookup = Lookup(packed.own_index, self.weight)
+        self.lookup = own_options(packed, self.weight)
         self.known: dict[int, int] = {}
         self.at_least: dict[int, int] = {}
         self.expanded = 0
@@ -99,7 +99,7 @@ class IndividualPlanner:
         self._prices = prices
         self._projection = bound
         self._deadline = deadline
-        self._mask = goal.mask | bound.mask | packed.own_mask
+        self._mask = packed.all_ones if packed.clock_bit else goal.mask | bound.mask | packed.own_mask
         self._memory = memory
         self._lookup, self._known, self._at_least = memory.lookup, memory.known, memory.at_least
         self._blind = bool(goal.mask & ~bound.mask)
@@ -200,7 +200,7 @@ class IndividualPlanner:
 
     def _take_over(self) -> None:
         """Make the kernel ready to go on, where it can."""
-        if self._prices is not None and self._memory.classical is None:
+        if self._prices is not None and self._memory.classical is None and not self._packed.clock_bit:
             from search.human.own_problem import own_planner  # only here: most calls come by without
 
             self._memory.classical = own_planner(self._packed, self._goal, self._mask, self._deadline)

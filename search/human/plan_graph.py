@@ -54,6 +54,27 @@ class PlanGraph:
                 yield tuple(path)
                 path.pop()
 
+    def ending(self, fits: Callable[[int], bool]) -> tuple[int, ...] | None:
+        """The first plan whose last state fits; None where none does."""
+        useless: set[int] = set()
+        plan: list[int] = []
+        way, open_steps = [self.start], [iter(self.edges.get(self.start, ()))]
+        if self.start not in self.edges:
+            return () if fits(self.start) else None
+        while open_steps:
+            action, after = next(open_steps[-1], (-1, 0))
+            if action < 0:
+                useless.add(way.pop())
+                open_steps.pop()
+                del plan[-1:]
+            elif after not in useless:
+                plan.append(action)
+                if after not in self.edges and fits(after):
+                    return tuple(plan)
+                way.append(after)
+                open_steps.append(iter(self.edges.get(after, ())))
+        return None
+
     def drawn(self, choose: Callable[[Sequence[tuple[int, int]]], tuple[int, int]]) -> tuple[int, ...]:
         """One of them, put together step by step.
 

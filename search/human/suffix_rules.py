@@ -7,9 +7,10 @@ from typing import Protocol
 
 from search.human.individual_planner import IndividualPlanner, canonical
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
+from search.packed.due import Due
+from search.packed.joint_actions import JointAction
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal
-from search.packed.successor_generator import JointAction
 from serendipity.model.resources.deadline import Deadline
 
 PlannedSteps = Sequence[tuple[Operator, JointAction]]
@@ -45,17 +46,21 @@ class Replan:
         both: their optimal keys to ``G_H`` and the robots' goal, or None where they can't
             affect that goal.
         robot_goal: the robots' goal.
+        at_rest: what holds where no robot is at anything.
         keys: layout of keys.
     """
 
     alone: IndividualPlanner
     both: IndividualPlanner | None
     robot_goal: PackedGoal
+    at_rest: PackedGoal
     keys: CostLayout
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
         """See :class:`Suffix`."""
         if self.both is None and not self.robot_goal.holds(state):
+            return INFINITE_KEY
+        if self.at_rest.mask and not self.at_rest.holds(state):
             return INFINITE_KEY
         own = self.alone.key(state, limit)
         if own >= limit or self.keys.actions(own) > epochs:
@@ -72,6 +77,46 @@ class Replan:
     def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
         """See :class:`Suffix`."""
         return canonical(self.both or self.alone, state)
+
+
+@dataclass(eq=False)
+class Lasting:
+    """An optimal plan of the human's own whose end lasts: what happens anyway may undo it before the end.
+
+    Attributes:
+        replan: the rule without a script.
+        alone: the human alone, to all goals that they can affect.
+        goals: what holds in the end.
+        due: what happens anyway.
+    """
+
+    replan: Replan
+    alone: IndividualPlanner
+    goals: Sequence[PackedGoal]
+    due: Due
+
+    def key(self, state: int, epochs: int, start: int, limit: int) -> int:
+        """See :class:`Suffix`."""
+        found = self.replan.key(state, epochs, start, limit)
+        return INFINITE_KEY if found < limit and self._lasting(state, epochs) is None else found
+
+    def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
+        """See :class:`Suffix`."""
+        found = self._lasting(state, epochs)
+        assert found is not None, "asked for after its key"
+        return found
+
+    def _lasting(self, state: int, epochs: int) -> tuple[int, ...] | None:
+        """An optimal plan from a state whose end lasts."""
+        graph = self.alone.plans(state)
+        if graph is None:
+            return None
+        left = epochs - len(graph.canonical())
+
+        def holds(end: int) -> bool:
+            return all(goal.holds(end) for goal in self.goals)
+
+        return graph.ending(lambda end: self.due.lasting(end, left, holds))
 
 
 class Subplan:

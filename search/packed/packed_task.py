@@ -16,11 +16,12 @@ from functools import cached_property
 
 from search.packed.operator_index import by_most_asked
 from search.packed.operators import Operator, Signature, asked_by, forms_of, set_by, split
-from search.packed.relevance import relevant_to_goals
+from search.packed.relevance import deeds_of, relevant_to_goals
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition, conflicting
 from serendipity.model.task.task import Task
+from serendipity.model.task.unit_steps import CLOCK
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +86,7 @@ class PackedTask:
             self._build(task, extra, deadline, kept)
 
     def _build(self, task: Task, extra: frozenset[int], deadline: Deadline, kept: tuple[int, ...]) -> None:
-        relevant, useful = relevant_to_goals(task, extra, deadline, kept)
+        relevant, useful = relevant_to_goals(task, extra, deadline, (*kept, *deeds_of(task)))
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
         self.fields: list[int] = []
@@ -115,6 +116,7 @@ class PackedTask:
         self.init = self.pack(task.init)
         self.goal = self.condition(task.goal)
         self.robot_goal = self.condition(task.robot_goal)
+        self.at_rest = self.condition(Condition(tuple(f for f in task.at_rest if self.fact_bits[f])))
         self.costs = _distinct_costs(task)
         # By ratio: the hash of a rational takes four times as long as all else about a cost.
         self._cost_index = {cost.as_integer_ratio(): i for i, cost in enumerate(self.costs)}
@@ -154,14 +156,28 @@ class PackedTask:
         self.own_forms = forms_of(own, self.all_ones, deadline)
         self.joint_forms = forms_of(joint, self.all_ones, deadline)
         self.other_forms = forms_of(others, self.all_ones, deadline)
+        robots = sum(1 << robot for robot in self.task.robots)
         led: dict[int, list[Signature]] = {}
         for form in self.other_forms:
-            led.setdefault(form.agents & -form.agents, []).append(form)
+            if form.agents & -form.agents & robots:  # not bystanders, who follow the script
+                led.setdefault(form.agents & -form.agents, []).append(form)
         self.own_index = by_most_asked(self.own_forms, self.fields, deadline)
         self.joint_index = by_most_asked(self.joint_forms, self.fields, deadline)
         self.robot_indices = tuple(
             by_most_asked(forms, self.fields, deadline) for _, forms in sorted(led.items())
         )
+
+    @cached_property
+    def due(self) -> tuple[tuple[int, int, Operator], ...]:
+        """Fields and values, each with what has to be done in the next epoch where it is so."""
+        placed = ((self.fact_bits[fact], action) for fact, action in self.task.due)
+        return tuple((*bits, self.op(action)) for bits, action in placed if bits is not None)
+
+    @cached_property
+    def clock_bit(self) -> int:
+        """The clock's bit in sets of agents; 0 where there is no script."""
+        agents = self.task.agents
+        return 1 << agents.index(CLOCK) if CLOCK in agents else 0
 
     @cached_property
     def outside(self) -> int:

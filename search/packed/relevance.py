@@ -5,6 +5,13 @@ from itertools import compress
 
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
+from serendipity.model.task.unit_steps import CLOCK
+
+
+def deeds_of(task: Task) -> list[int]:
+    """Actions of bystanders, which nobody may make impossible (semantics "Time")."""
+    people = {agent for agent in task.script.people if task.agents[agent] != CLOCK}
+    return [i for _, i in task.due if not people.isdisjoint(task.actions[i].participants)]
 
 
 def relevant_to_goals(

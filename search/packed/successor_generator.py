@@ -6,36 +6,16 @@ of the leader's actions ask for (a position, as a rule).
 
 from collections.abc import Callable, Collection, Iterable, Iterator
 from itertools import chain
-from typing import Final, NamedTuple
+from typing import Final
 
+from search.packed.due import Due
+from search.packed.joint_actions import NOTHING, Idle, JointAction, as_option, together
 from search.packed.operator_index import OperatorIndex
 from search.packed.operators import Operator, applicable, asked_by
 from search.packed.packed_task import PackedTask
 from search.packed.state_cache import StateCache
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import disables
-
-
-class JointAction(NamedTuple):
-    """One agent's applicable action, or several robots' at once, in some state."""
-
-    weight: int
-    keep: int
-    put: int
-    actions: tuple[int, ...]
-    agents: int
-    """Bit set of the agents that are busy with it."""
-    due: tuple[tuple[int, int], ...] = ()
-    """Where walks are folded (``search.robots.decoupled``): slots of robots, and for how long they have
-    to have been idle."""
-
-
-Idle = tuple[int, ...]
-"""Per slot for how long a robot has been idle; empty where walks are not folded."""
-
-NOTHING = JointAction(0, -1, 0, (), 0)
-"""Everybody waits."""
-
 
 MOST_KEPT: Final = 50_000
 """Options that are kept for states: some 10 MiB, and more than the search for a building asks for."""
@@ -78,11 +58,6 @@ class Lookup:
         return found
 
 
-def as_option(op: Operator, weight: int) -> JointAction:
-    """One op as what an agent may do."""
-    return JointAction(weight, op.keep, op.put, (op.action,), op.agents)
-
-
 class Successors:
     """Applicable action sets of a task.
 
@@ -111,8 +86,21 @@ class Successors:
         self._own = Lookup(packed.own_index, weight)
         self._joint = Lookup(packed.joint_index, weight, barred) if packed.joint and not idle else None
         self._led = [] if idle else [Lookup(index, weight, barred) for index in packed.robot_indices]
+        self._due = Due(packed, weight)
         self._busy: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
         self._changing: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
+
+    @property
+    def due(self) -> Due:
+        """What happens whatever is chosen."""
+        return self._due
+
+    def going_on(self, state: int) -> tuple[JointAction, ...] | None:
+        """What the human is in the middle of, and has to go on with: nothing, where that is impossible.
+
+        None where they are free to wait, or to do what :meth:`human` and :meth:`joint` say.
+        """
+        return self._due.human(state)
 
     def human(self, state: int) -> list[JointAction]:
         """What the human can do alone in a packed state, cheapest first (not: wait)."""
@@ -128,17 +116,18 @@ class Successors:
 
     def with_robots(self, first: JointAction, state: int) -> Iterator[JointAction]:
         """``first`` (the human's part) alone and with each set of robots' actions that fits it."""
-        return self._combine(first, self.robots(state))
+        return self._due.with_last(self._combine(first, self.robots(state)), state)
 
     def with_changers(self, first: JointAction, state: int, fields: int) -> Iterator[JointAction]:
         """The same, of robots' actions only those that set some of the fields."""
-        return self._combine(first, self._changing.get(state) or self._sets(state, self._changing, fields))
+        sets = self._changing.get(state) or self._sets(state, self._changing, fields)
+        return self._due.with_last(self._combine(first, sets), state)
 
     def _sets(
         self, state: int, kept: StateCache[list[JointAction]], fields: int | None = None
     ) -> list[JointAction]:
         """Sets of robots' actions, cheapest first; of those only that set some fields, if any are named."""
-        found = [NOTHING]
+        found = self._due.others(state)
         for lookup in self._led:
             options = lookup.options(state)
             if fields is not None:
@@ -245,18 +234,6 @@ class Successors:
             return True
         mine = single.actions[0]
         return all(self._packed.compatible(mine, other, self._strict) for other in others.actions)
-
-
-def together(a: JointAction, b: JointAction) -> JointAction:
-    """Both in one epoch."""
-    return JointAction(
-        a.weight + b.weight,
-        a.keep & b.keep,
-        a.put | b.put,
-        a.actions + b.actions,
-        a.agents | b.agents,
-        a.due + b.due,
-    )
 
 
 def in_time(option: JointAction, idle: Idle) -> bool:

@@ -16,11 +16,12 @@ from search.bounds.private_distances import Corridor
 from search.call.context import SearchContext
 from search.engine.dominance import ParetoFront
 from search.human.pattern_database import NOTHING_KNOWN
-from search.human.suffix_rules import Preserved, Replan, Subplan, Suffix
+from search.human.suffix_rules import Lasting, Preserved, Replan, Subplan, Suffix
 from search.packed.cost_vector import INFINITE_KEY, NEVER, CostLayout
+from search.packed.due import Due
+from search.packed.joint_actions import JointAction
 from search.packed.operators import Operator
 from search.packed.packings import human_facts
-from search.packed.successor_generator import JointAction
 from search.spaces.unrestricted import Unrestricted
 from search.spaces.windowed import AnyOfPlan, InLayers, Prefix, PrefixBound, PrivateRest, Windowed
 from serendipity.model.options import Options
@@ -303,4 +304,8 @@ def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
         return Preserved(steps, context.goals, expected)
     if options.suffix == "subplan":
         return Subplan(steps, context.goals, context.deadline)
-    return Replan(context.alone, context.alone_to_both, packed.robot_goal, context.keys)
+    replan = Replan(context.alone, context.alone_to_both, packed.robot_goal, packed.at_rest, context.keys)
+    if not packed.clock_bit:
+        return replan
+    due = Due(packed, context.weights.team)
+    return Lasting(replan, context.alone_to_both or context.alone, context.goals, due)

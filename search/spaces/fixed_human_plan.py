@@ -6,9 +6,10 @@ from itertools import accumulate
 
 from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node, solve_space
+from search.packed.joint_actions import NOTHING, JointAction
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal
-from search.packed.successor_generator import NOTHING, JointAction, Successors
+from search.packed.successor_generator import Successors
 from serendipity.model.task.task import HumanPlan
 
 

@@ -8,8 +8,9 @@ from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
 from search.human.suffix_rules import Suffix
+from search.packed.joint_actions import NOTHING, JointAction
 from search.packed.operators import Operator, applicable
-from search.packed.successor_generator import NOTHING, JointAction, Successors
+from search.packed.successor_generator import Successors
 from search.spaces.factory import BoundsAlong, suffix_rule
 from search.spaces.windowed import PREFIX, TOUCHED, WINDOW
 from serendipity.model.task.plans import Window
@@ -98,7 +99,9 @@ class FixedWindow:
         self._end(node, best)
         if node.epoch + 1 < self._window.end:
             successors, state = self._weighed.successors, node.state
-            for part in (NOTHING, *successors.human(state), *successors.joint(state)):
+            going_on = successors.going_on(state)
+            free = (NOTHING, *successors.human(state), *successors.joint(state))
+            for part in free if going_on is None else going_on:
                 yield from self._act(node, part, best)
 
     def _follow(self, node: Node, part: JointAction, best: Incumbent) -> Iterator[tuple[int, Node]]:

@@ -7,8 +7,9 @@ from search.bounds.first_interaction import Bounds
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
 from search.packed.cost_vector import CostLayout
+from search.packed.joint_actions import NOTHING, JointAction
 from search.packed.packed_task import PackedGoal
-from search.packed.successor_generator import NOTHING, JointAction, Successors
+from search.packed.successor_generator import Successors
 
 UNTOUCHED, TOUCHED = 0, 1
 """Phases: before and after the human's first touch."""
@@ -54,7 +55,7 @@ class Unrestricted:
         """Successors of a node; those in which the goals hold are offered to ``best``."""
         if node.parent is None:
             self._offer(node, best)
-        epoch = node.epoch if self.horizon is None else node.epoch + 1
+        epoch = node.epoch if self._in_turn else node.epoch + 1
         if self.horizon is not None and epoch > self.horizon:
             return
         bounds = self.bounds
@@ -62,7 +63,7 @@ class Unrestricted:
             after = node.state & option.keep | option.put
             key = node.key + option.weight
             bound = key + bounds.private(after)
-            if bound >= best.key or self.keys.exceeds(bound, self.most_cost) or not option.actions:
+            if bound >= best.key or self.keys.exceeds(bound, self.most_cost) or self._is_idle(node, option):
                 continue
             if self.horizon is not None and epoch + bounds.steps(after) > self.horizon:
                 continue
@@ -77,19 +78,32 @@ class Unrestricted:
                 if not self._offer(child, best):
                     yield key + self.greed * (bound - key), child
 
+    @property
+    def _in_turn(self) -> bool:
+        """Whether epochs don't count: what happens in one could as well happen one after the other."""
+        return self.horizon is None and not self.successors.due
+
+    def _is_idle(self, node: Node, option: JointAction) -> bool:
+        """Whether an epoch changes nothing: nobody acts, and nothing happens by itself."""
+        return not option.actions and self.successors.due.is_calm(node.state)
+
     def _offer(self, node: Node, best: Incumbent) -> bool:
         """Whether a plan ends at the node (going on could only cost more)."""
         if node.key >= best.key or not all(goal.holds(node.state) for goal in self.goals):
             return False
+        if node.epoch != self.horizon and not self.successors.due.is_calm(node.state):
+            return False  # what is reached may be lost again, and will be offered later if it is not
         best.key, best.node = node.key, node
         return True
 
     def _together(self, state: int) -> Iterator[tuple[JointAction, JointAction]]:
         """The human's part of each action set, and the whole set."""
         successors = self.successors
-        if self.horizon is None:
+        if self._in_turn:
             yield from successors.in_turn(state)
             return
-        for part in (NOTHING, *successors.human(state), *successors.joint(state)):
+        going_on = successors.going_on(state)
+        free = (NOTHING, *successors.human(state), *successors.joint(state)) if going_on is None else going_on
+        for part in free:
             for option in successors.with_robots(part, state):
                 yield part, option

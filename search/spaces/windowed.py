@@ -16,8 +16,9 @@ from search.engine.dominance import ParetoFront
 from search.human.pattern_database import PatternDatabase
 from search.human.suffix_rules import Suffix
 from search.packed.cost_vector import CostLayout
+from search.packed.joint_actions import NOTHING, Idle, JointAction
 from search.packed.operators import Operator, applicable
-from search.packed.successor_generator import NOTHING, Idle, JointAction, Successors, in_time
+from search.packed.successor_generator import Successors, in_time
 from serendipity.model.task.task import HumanPlan, Task
 
 PREFIX, WINDOW, TOUCHED = 0, 1, 2
@@ -210,7 +211,9 @@ class Windowed:
         successors, state = self.successors, node.state
         sooner = _sooner(node.idle)
         is_last = not node.idle and not self._goes_on_from(node, best)
-        for part in (*successors.human(state), *successors.joint(state), NOTHING):
+        going_on = successors.going_on(state)
+        free = (*successors.human(state), *successors.joint(state), NOTHING) if going_on is None else going_on
+        for part in free:
             judged = self._judge(node, part, best)
             if judged is None:
                 continue

@@ -31,6 +31,16 @@ def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None
     return SearchContext(prepared, Options(), deadline or Deadline()).optimal_plans()
 
 
+def canonical_human_plan(prepared: PreparedTask, deadline: Deadline) -> HumanPlan | None:
+    """The canonical plan of the human alone (semantics 1), or None where they have none.
+
+    Raises:
+        LimitReachedError: the deadline ran out.
+    """
+    optimal = SearchContext(prepared, Options(), deadline).canonical_plan()
+    return None if optimal is None else optimal.actions
+
+
 class FirstAnswer:
     """Doing nothing beside some plan of the human's that is found soon, where an optimal one may take long.
 

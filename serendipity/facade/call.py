@@ -10,7 +10,6 @@ from serendipity.facade.memory import RememberedQuestion
 from serendipity.model import Deadline, HumanPlan, Options, Task, UsageError, Visible
 from serendipity.model.answers.answer import Answer
 from serendipity.model.resources.limits import limits_from
-from serendipity.model.task.gate import refuse_time
 
 _ANSWER_SHARE: Final = 0.05
 """The share of the time limit that is kept for the end: dropping what the search has made takes time, too."""
@@ -71,9 +70,7 @@ def options_from(given: Mapping[str, Any]) -> Options:
     for name in given:
         if name not in known:
             raise UsageError(f"unknown option '{name}': expected one of {', '.join(known)}")
-    options = Options(**given)
-    refuse_time(options=options)
-    return options
+    return Options(**given)
 
 
 def checked_call(

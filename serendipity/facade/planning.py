@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 from search import PreparedTask
 from serendipity.facade import one_plan, ties
 from serendipity.facade.call import Given, Request, Solver, checked_call, options_from
+from serendipity.facade.in_time import answers_in_time, takes_time
 from serendipity.facade.logs import record, recorded
 from serendipity.facade.memory import SessionMemory
 from serendipity.facade.prepared import HELD
@@ -192,6 +193,10 @@ def _begun(
         call = replace(call, question=memory.question(chosen, visible, about, plan))
     if call.known is not None:
         return call, iter((call.known,))
+    if takes_time(call):
+        if goals is not None:
+            raise UsageError("goals: are not planned for where actions take time")
+        return call, answers_in_time(call, solver)
     if goals is not None:
         call, solver = settled(call, goals, observed, beta)
     return call, solver(call)

@@ -14,7 +14,7 @@ from typing import Final
 
 from search import PreparedTask
 from serendipity.model import Task
-from serendipity.model.arguments import TASK, expect
+from serendipity.model.arguments import TASK_IN_TIME, expect
 
 _MOST: Final = 8
 """Tasks at once: more than a caller goes back and forth between."""
@@ -58,7 +58,7 @@ class LastPrepared:
         Raises:
             UsageError: it is no task.
         """
-        expect(TASK, task=task)
+        expect(TASK_IN_TIME, task=task)
         with self._lock:
             known = next((prepared for prepared in self._held if prepared.task is task), None)
             self._held = tuple(prepared for prepared in self._held if prepared is not known)

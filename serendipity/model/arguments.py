@@ -44,6 +44,7 @@ def _is_list(value: object) -> bool:
     return isinstance(value, Iterable) and not isinstance(value, str | bytes)
 
 
+TASK_IN_TIME: Final = Kind("a Task, such as serendipity.load gives", lambda value: isinstance(value, Task))
 TASK: Final = Kind("a Task, such as serendipity.load gives", lambda value: isinstance(value, Task))
 RESULT: Final = Kind("a Result, such as serendipity.plan gives", lambda value: isinstance(value, Result))
 PATH: Final = Kind("a path", _is_path)
@@ -65,7 +66,7 @@ def expect(kind: Kind, **given: object) -> None:
     for name, value in given.items():
         if not kind.fits(value):
             raise UsageError(f"{name}: expected {kind.words}, got {shown(value)}")
-        if isinstance(value, Task):
+        if kind is TASK and isinstance(value, Task):
             refuse_time(value)
 
 

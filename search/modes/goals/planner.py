@@ -23,8 +23,9 @@ from search.engine.paths import path_steps, plan_steps
 from search.modes.goals.expectation import Expectation, Rank
 from search.modes.goals.timeline import Ended, GoalTimeline, Situation
 from search.packed.cost_vector import INFINITE_KEY
+from search.packed.joint_actions import NOTHING, JointAction, as_option, together
 from search.packed.packings import asked_facts, human_facts
-from search.packed.successor_generator import NOTHING, JointAction, Successors, as_option, together
+from search.packed.successor_generator import Successors
 from search.strategies.portfolio import solve
 from serendipity.model.answers.answer import Answer, ServedGoal, Status, saved
 from serendipity.model.errors import LIMITS

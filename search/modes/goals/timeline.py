@@ -11,8 +11,9 @@ from typing import NamedTuple
 from search.call.context import SearchContext
 from search.engine.best_first import Node
 from search.packed.cost_vector import INFINITE_KEY
+from search.packed.joint_actions import NOTHING, JointAction
 from search.packed.operators import applicable
-from search.packed.successor_generator import NOTHING, JointAction, Successors
+from search.packed.successor_generator import Successors
 from search.spaces.factory import suffix_rule
 from search.spaces.windowed import PREFIX, WINDOW
 from serendipity.model.task.task import HumanPlan

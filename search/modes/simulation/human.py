@@ -10,10 +10,10 @@ from search.human.individual_planner import canonical
 from search.modes.simulation.eyes import AsTold, Everywhere, Eyes, Nearby
 from search.modes.simulation.intention import Intention, Intentions
 from search.packed.cost_vector import INFINITE_KEY
+from search.packed.joint_actions import NOTHING, JointAction, as_option
 from search.packed.operators import Operator, applicable, asked_by
 from search.packed.packed_task import PackedTask
 from search.packed.packings import asked_facts
-from search.packed.successor_generator import NOTHING, JointAction, as_option
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.visibility import Visible

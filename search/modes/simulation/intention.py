@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from search.packed.cost_vector import CostLayout
+from search.packed.joint_actions import NOTHING, JointAction, as_option
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal, PackedTask
-from search.packed.successor_generator import NOTHING, JointAction, as_option
 
 
 @dataclass(frozen=True, eq=False)

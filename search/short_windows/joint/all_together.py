@@ -4,7 +4,7 @@ Where robots take from one another all the time, what each can do by itself says
 the human follows ``pi_H`` robots are in their way, and there may be few enough states to look at all.
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from typing import Final
 
 from search.call.context import SearchContext
@@ -13,6 +13,7 @@ from search.engine.best_first import Progress
 from search.human.own_problem import own_planner
 from search.kernel.library import library
 from search.packed.cost_vector import ACTIONS_BITS, own_costs
+from search.packed.operators import Operator
 from search.short_windows.independent.conditions import lost_values
 from search.short_windows.joint.epochs import Epochs, Leaving
 from search.short_windows.question import ShortWindowQuestion
@@ -75,7 +76,7 @@ class AllTogether:
         if self._is_over:
             return
         fits = self._amount(self._best.key) < MOST_WEIGHT
-        self._epochs = self._epochs or (_epochs(self._context, deadline) if fits else None)
+        self._epochs = self._epochs or (_epochs(self._context, self._steps, deadline) if fits else None)
         if self._epochs is None:
             self._is_over = True
         else:
@@ -120,10 +121,11 @@ class AllTogether:
         return self._context.amount_from(limit, MOST_WEIGHT)
 
 
-def _epochs(context: SearchContext, deadline: Deadline) -> Epochs | None:
+def _epochs(context: SearchContext, steps: Iterable[Operator], deadline: Deadline) -> Epochs | None:
     """The kernel's layers of states; None where it can't."""
     packed, kernel = context.packed, library()
-    operators = (*packed.own, *packed.joint, *packed.others)
+    waiting = {op for op in steps if not packed.is_useful(op.action)}
+    operators = (*packed.own, *packed.joint, *packed.others, *waiting)
     if kernel is None or len(operators) > _MOST_ACTIONS or len(context.task.agents) > _MOST_AGENTS:
         return None
     after = own_planner(packed, packed.goal, context.relevant, deadline)

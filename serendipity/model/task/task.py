@@ -12,7 +12,6 @@ from serendipity.model.numbers import plain, total
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import NOOP, Condition, Disjunction, GroundAction, apply, fitted
 from serendipity.model.task.course import first_unmet
-from serendipity.model.task.gate import refuse_time
 from serendipity.model.task.names import ActionNames
 from serendipity.model.task.names import canonical_name as canonical_name
 from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries
@@ -67,6 +66,8 @@ class Task(Told):
             keep them true to it.
         script: what happens anyway (semantics 10.3); bystanders are among ``agents``, what they could do
             is not among ``actions``.
+        due: facts, each with an action that is done in the next epoch if it holds (:mod:`.unit_steps`).
+        at_rest: facts that say of each robot that it is at nothing, as all have to be at the end.
         epoch: of an epoch, how long it is in the unit of the input (of PDDL's durations), for people.
         variables: finite-domain variables behind the facts; each fact is in exactly one.  They
             follow from facts, initial state and actions.
@@ -89,6 +90,8 @@ class Task(Told):
     disjunctions: tuple[Disjunction, ...] = ()
     script: Timeline = field(default_factory=Timeline)
     epoch: Fraction = field(default=Fraction(1))
+    due: tuple[tuple[int, int], ...] = ()
+    at_rest: tuple[int, ...] = ()
     variables: tuple[Variable, ...] = field(init=False, repr=False, compare=False)
     known_variables: InitVar[tuple[Variable, ...] | None] = field(default=None, kw_only=True)
 
@@ -230,9 +233,7 @@ class Task(Told):
         entries = checked_entries(names, "human plan")
         untimed = [entry for entry in entries if isinstance(entry, str)]
         if self.needs_time or len(untimed) < len(entries):
-            chosen_plan = plan_in_time(self, entries)
-            refuse_time(plan=chosen_plan)
-            return chosen_plan
+            return plan_in_time(self, entries)
         plan: list[int] = []
         state = set(self.init)  # moved in place: such plans may be very long
         known: dict[str, tuple[int, ...]] = {}

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import Any
 
-from search.packed.successor_generator import NOTHING
+from search.packed.joint_actions import NOTHING
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 from tests.verify.planted.roles import part
 

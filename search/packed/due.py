@@ -1,0 +1,111 @@
+"""What happens whatever is chosen: actions that go on, bystanders, and the clock (semantics "Time")."""
+
+from collections.abc import Callable, Iterator, Sequence
+
+from search.packed.joint_actions import NOTHING, JointAction, as_option, together
+from search.packed.operators import Operator, applicable
+from search.packed.packed_task import PackedTask
+
+_Options = dict[int, dict[int, dict[str, list[JointAction]]]]
+"""By field and value what is due, by the names of actions: one of each name."""
+
+
+class Due:
+    """What is due in a packed state.
+
+    Args:
+        packed: the packed task.
+        weight: key increment of an op.
+    """
+
+    def __init__(self, packed: PackedTask, weight: Callable[[Operator], int]) -> None:
+        self._packed = packed
+        self._human: _Options = {}
+        self._others: _Options = {}
+        self._clock: dict[int, Operator] = {}
+        self._clock_field = 0
+        for field, value, op in packed.due:
+            if op.agents == packed.clock_bit:
+                self._clock_field = field
+                self._clock[value] = op
+            else:
+                kind = self._human if op.agents & packed.human_bit else self._others
+                by_name = kind.setdefault(field, {}).setdefault(value, {})
+                by_name.setdefault(packed.task.actions[op.action].name, []).append(as_option(op, weight(op)))
+
+    def __bool__(self) -> bool:
+        return bool(self._packed.due)
+
+    def human(self, state: int) -> tuple[JointAction, ...] | None:
+        """What the human has to go on with, if it is possible; None where they are free."""
+        for variants in self._in(self._human, state):
+            return self._possible(variants, state)
+        return None
+
+    def others(self, state: int) -> list[JointAction]:
+        """What others have to do, as one set; no set where that is impossible."""
+        found = NOTHING
+        for variants in self._in(self._others, state):
+            for option in self._possible(variants, state)[:1]:
+                if not self.fits(option, found):
+                    return []
+                found = together(found, option)
+                break
+            else:
+                return []
+        return [found]
+
+    def is_calm(self, state: int) -> bool:
+        """Whether nothing happens from a state on unless somebody does it."""
+        if self._clock and self.last(state) is not None:
+            return False
+        return next(self._in(self._others, state), None) is None and self.human(state) is None
+
+    def after_waiting(self, state: int) -> int | None:
+        """The state after an epoch in which nobody does what is not due; None where that is impossible."""
+        parts = self.human(state)
+        for others in self.others(state):
+            for part in (NOTHING,) if parts is None else parts:
+                if self.fits(part, others):
+                    (option,) = self.with_last(iter((together(part, others),)), state)
+                    return state & option.keep | option.put
+        return None
+
+    def lasting(self, state: int, epochs: int, holds: Callable[[int], bool]) -> bool:
+        """Whether something holds after some epochs of waiting from a state."""
+        for _ in range(epochs):
+            if self.is_calm(state):
+                break
+            after = self.after_waiting(state)
+            if after is None:
+                return False
+            state = after
+        return holds(state)
+
+    def last(self, state: int) -> Operator | None:
+        """What the clock changes after all that is done; None once it has stopped."""
+        return self._clock.get(state & self._clock_field)
+
+    def with_last(self, options: Iterator[JointAction], state: int) -> Iterator[JointAction]:
+        """Sets of actions, with what the clock changes after them."""
+        last = self.last(state)
+        if last is None:
+            return options
+        return (o._replace(keep=o.keep & last.keep, put=o.put & last.keep | last.put) for o in options)
+
+    def _possible(self, variants: Sequence[JointAction], state: int) -> tuple[JointAction, ...]:
+        return tuple(o for o in variants if applicable(self._packed.op(o.actions[0]), state))
+
+    def fits(self, option: JointAction, others: JointAction) -> bool:
+        """Whether an action may share an epoch with others."""
+        if option.agents & others.agents:
+            return False
+        if not option.actions:
+            return True
+        mine = option.actions[0]
+        return all(self._packed.compatible(mine, other, strict=False) for other in others.actions)
+
+    @staticmethod
+    def _in(options: _Options, state: int) -> Iterator[list[JointAction]]:
+        for field, by_value in options.items():
+            yield from by_value.get(state & field, {}).values()

@@ -1,0 +1,242 @@
+"""A task with time as one of single epochs: what takes longer is a chain of actions that have to go on.
+
+An action of ``d`` epochs becomes ``d`` actions of one, which have all the effects and ask for all the
+conditions of their epoch (semantics "Time"). A fact says which of them is due: while it holds, the action
+is done in the next epoch, whatever else is. The first has the name and the cost of the action itself, so a
+plan is told by those that begin in it. Agents at work are not *free*; all are at the end, but bystanders. A
+script is a chain, too: the epochs of a clock, each of which is due, with what bystanders begin in it.
+
+Search and verifier both work on these tasks.  That is no risk to their agreement: the verifier's rules judge
+the plan that is told, of the task that was given, and so does the brute force of the tests.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import chain, pairwise
+from typing import Final
+
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition, GroundAction, apply
+from serendipity.model.task.plans import Step, TimedPlan
+from serendipity.model.task.script import Timeline
+from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.variables import Variable, find_variables
+
+CLOCK: Final = "~clock"
+"""The agent that makes the script happen: what it does takes effect last, and is in nobody's way."""
+
+WAITING: Final = "~noop"
+"""The human's waiting as an action: the last of all, as who can act does."""
+
+_FREE: Final = Fraction(0)
+
+
+@dataclass(frozen=True)
+class UnitSteps:
+    """A task in which everything takes one epoch, and what it has to do with the one it was made of.
+
+    Attributes:
+        task: the task, with :attr:`.Task.due`.
+        original: the task that it was made of.
+        chains: by id of an original action its ids in the task, epoch by epoch.
+        waiting: id of the human's waiting, which given plans may have.
+    """
+
+    task: Task
+    original: Task
+    chains: tuple[tuple[int, ...], ...]
+    waiting: int
+
+    @cached_property
+    def _begins(self) -> dict[int, int]:
+        """By id in the task the original action that begins with it."""
+        return {chain[0]: action for action, chain in enumerate(self.chains)}
+
+    def plan(self, plan: HumanPlan) -> HumanPlan:
+        """A human plan of the original, one action for each epoch, waiting included."""
+        found: list[int] = []
+        for action, start in zip(plan, self.original.starts_of(plan), strict=True):
+            found += [self.waiting] * (start - 1 - len(found))
+            found += self.chains[action]
+        found += [self.waiting] * (self.original.epochs_of(plan) - len(found))
+        return tuple(found)
+
+    def after_waiting(self, plan: HumanPlan, epochs: int) -> HumanPlan:
+        """A plan in single epochs, with some of waiting before it."""
+        return (self.waiting,) * epochs + plan
+
+    def begun(self, plan: HumanPlan) -> HumanPlan:
+        """The plan of the original that a plan in single epochs is."""
+        begins = self._begins
+        starts = {epoch: begins[action] for epoch, action in enumerate(plan, start=1) if action in begins}
+        if self.waiting not in plan:
+            return tuple(starts.values())
+        return TimedPlan(starts.values(), starts, len(plan))
+
+    def waited(self, epochs: int) -> frozenset[int] | None:
+        """The state of the task after some epochs of what is due; None where that is impossible."""
+        task, state = self.task, self.task.init
+        clock = len(task.agents) - 1 if CLOCK in task.agents else -1
+        for _ in range(epochs):
+            actions = [task.actions[action] for fact, action in task.due if fact in state]
+            done = [action for action in actions if action.applicable(state)]
+            if {action.name for action in actions} != {action.name for action in done}:
+                return None
+            state = apply(state, *[action for action in done if action.participants != (clock,)])
+            state = apply(state, *[action for action in done if action.participants == (clock,)])
+        return state
+
+    def steps(self, steps: Iterable[Step]) -> tuple[Step, ...]:
+        """The steps in which an action of the original begins."""
+        begins = self._begins
+        return tuple(Step(step.epoch, begins[step.action]) for step in steps if step.action in begins)
+
+
+def unit_steps(task: Task, deadline: Deadline | None = None) -> UnitSteps:
+    """The task in single epochs.
+
+    Args:
+        task: a task.
+        deadline: polled.
+
+    Raises:
+        LimitReachedError: the deadline came.
+    """
+    deadline = deadline or Deadline()
+    steps = _Steps(task)
+    for action in task.actions:
+        deadline.tick()
+        steps.add(action)
+    if task.script:
+        steps.add_script(deadline)
+    return steps.finished(deadline)
+
+
+class _Steps:
+    """Facts and actions of the new task, as they are found.
+
+    Args:
+        task: the original.
+    """
+
+    def __init__(self, task: Task) -> None:
+        self._task = task
+        self._facts = [*task.facts]
+        self._agents = task.agents
+        self._due: list[tuple[int, GroundAction]] = []
+        self._chains: list[list[GroundAction]] = []
+        self._others: list[GroundAction] = []  # that nobody chooses
+        self._clock: list[int] = []
+        self._start: list[int] = []  # facts that hold at first
+        busy = {
+            agent for action in task.actions if action.timing is not None for agent in action.participants
+        }
+        self._free = {agent: self._fact(f"free {task.agents[agent]}") for agent in sorted(busy)}
+        self._start += self._free.values()
+
+    def _fact(self, name: str) -> int:
+        self._facts.append(name)
+        return len(self._facts) - 1
+
+    def add(self, action: GroundAction) -> None:
+        """Add an action of the task, epoch by epoch."""
+        asked = [self._free[agent] for agent in action.participants if agent in self._free]
+        self._chains.append(self._epochs(action, asked, asked))
+
+    def _epochs(self, action: GroundAction, asked: list[int], free: list[int]) -> list[GroundAction]:
+        """The epochs of an action.
+
+        Args:
+            action: the action.
+            asked: facts that it asks for at the start, besides its own.
+            free: facts that do not hold meanwhile.
+        """
+        begun = replace(action, pre=tuple(sorted((*action.pre, *asked))), timing=None)
+        timing = action.timing
+        if timing is None:
+            return [begun]
+        progress = [self._fact(f"{action.name} {epoch}") for epoch in range(2, action.duration + 1)]
+        add, delete = sorted((*timing.start_add, progress[0])), sorted((*timing.start_delete, *free))
+        epochs = [replace(begun, add=tuple(add), delete=tuple(delete))]
+        inside = timing.over_all
+        for number, (due, following) in enumerate(pairwise(progress), start=2):
+            pre, name = tuple(sorted((*inside.positive, due))), f"{action.name} {number}"
+            epochs.append(
+                GroundAction(name, action.participants, pre, inside.negative, (following,), (due,), _FREE)
+            )
+        end, last = action.moments[1], progress[-1]
+        epochs.append(
+            replace(
+                end,
+                name=f"{action.name} {action.duration}",
+                pre=tuple(sorted((*end.pre, last))),
+                add=tuple(sorted((*end.add, *free))),
+                delete=tuple(sorted((*end.delete, last))),
+                cost=_FREE,
+            )
+        )
+        self._due += zip(progress, epochs[1:], strict=True)
+        return epochs
+
+    def add_script(self, deadline: Deadline) -> None:
+        """Add the clock, the facts that change by it, and what bystanders do."""
+        task, script = self._task, self._task.script
+        clock = self._clock = [self._fact(f"epoch {epoch}") for epoch in range(script.last + 1)]
+        self._start.append(clock[0])
+        self._agents = (*task.agents, CLOCK)
+        for epoch, (before, after) in enumerate(pairwise(clock), start=1):
+            deadline.tick()
+            true, false = script.changes(epoch)
+            add, delete = tuple(sorted({*true, after})), tuple(sorted({*false, before}))
+            name, who = f"{CLOCK} {epoch}", (len(task.agents),)
+            tick = GroundAction(name, who, (before,), (), add, delete, _FREE)
+            self._due.append((before, tick))
+            self._others.append(tick)
+        for deed in script.deeds:
+            for action in deed.variants:
+                epochs = self._epochs(replace(action, cost=_FREE), [clock[deed.epoch - 1]], [])
+                self._due.append((clock[deed.epoch - 1], epochs[0]))
+                self._others += epochs
+
+    def _variables(self, found: Iterable[Variable]) -> tuple[Variable, ...]:
+        """Variables, with the clock as one of them."""
+        clock = {*self._clock}
+        kept = [one for one in found if clock.isdisjoint(one.facts)]
+        rest = [one for one in found if not clock.isdisjoint(one.facts)]
+        single = [Variable((fact,)) for one in rest for fact in one.facts if fact not in clock]
+        time = [Variable(tuple(self._clock))] if clock else []
+        return tuple(sorted((*kept, *single, *time), key=lambda one: one.facts))
+
+    def finished(self, deadline: Deadline) -> UnitSteps:
+        """The new task.
+
+        Raises:
+            LimitReachedError: the deadline came.
+        """
+        task = self._task
+        waiting = GroundAction(WAITING, (task.human,), (), (), (), (), _FREE)
+        # By key, as those of every task; equal ones (variants) stay in their order.
+        every = sorted(
+            (*chain.from_iterable(self._chains), *self._others, waiting), key=lambda action: action.key
+        )
+        numbers = {id(action): number for number, action in enumerate(every)}
+        init, facts = task.init | set(self._start), tuple(self._facts)
+        theirs = [self._free[task.human]] if task.human in self._free else []
+        goal = Condition((*task.goal.positive, *theirs), task.goal.negative)
+        people = task.script.people | set(range(len(task.agents), len(self._agents)))
+        unit = replace(
+            task,
+            agents=self._agents,
+            facts=facts,
+            init=init,
+            goal=goal,
+            actions=tuple(every),
+            at_rest=tuple(sorted(set(self._free.values()) - set(theirs))),
+            due=tuple((fact, numbers[id(action)]) for fact, action in self._due),
+            script=Timeline(people=frozenset(people)),
+            known_variables=self._variables(find_variables(facts, init, tuple(every), deadline)),
+        )
+        chains = tuple(tuple(numbers[id(action)] for action in one) for one in self._chains)
+        return UnitSteps(unit, task, chains, numbers[id(waiting)])
