@@ -14,6 +14,7 @@ from serendipity.model.arguments import FUNCTION, RESULT, TASK, expect, expect_o
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.keywords import AnswerOptions, InterruptionOptions, listing
 from serendipity.model.resources.limits import limits_from
+from serendipity.model.task.gate import refuse_time
 
 _MODES: Final = ("serendipity", "communication", "composite")
 _REPORTED: Final = tuple(InterruptionOptions.__annotations__)
@@ -62,6 +63,7 @@ def explain(
     if result is not None and (options or human_plan is not None):
         raise UsageError("explain: expected a result or options, got both")
     asked = result.options if result else options_from(options)
+    refuse_time(options=asked)
     chosen = asked.but(ties="fixed", time_limit=None, memory_limit=None)
     if chosen.mode not in _MODES or chosen.human_model != "omniscient":
         raise UsageError(

@@ -15,7 +15,9 @@ from serendipity.model.task.unit_steps import UnitSteps, unit_steps
 
 def takes_time(call: Request) -> bool:
     """Whether an action of a call takes more than one epoch, or the human waits."""
-    return call.task.needs_time or isinstance(call.given, TimedPlan) or bool(call.options.head_start)
+    options = call.options
+    waits = isinstance(call.given, TimedPlan) or bool(options.head_start or options.waiting_cost)
+    return waits or call.task.needs_time
 
 
 def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:

@@ -21,6 +21,7 @@ from serendipity.model.arguments import FUNCTION, expect_or_none
 from serendipity.model.keywords import listing
 from serendipity.model.numbers import Number
 from serendipity.model.resources.collection import no_collection
+from serendipity.model.task.gate import refuse_time
 from serendipity.model.task.plans import PlanEntry, checked_entries
 
 if TYPE_CHECKING:
@@ -196,6 +197,9 @@ def _begun(
     if takes_time(call):
         if goals is not None:
             raise UsageError("goals: are not planned for where actions take time")
+        refuse_time(plan=call.given)
+        if memory is not None:
+            refuse_time(options=chosen)
         return call, answers_in_time(call, solver)
     if goals is not None:
         call, solver = settled(call, goals, observed, beta)

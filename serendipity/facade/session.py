@@ -12,7 +12,7 @@ from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned,
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model import HumanPlan, PlanError, PlanStep, Result, Task, UsageError
-from serendipity.model.arguments import BY_NAME, expect
+from serendipity.model.arguments import BY_NAME, TASK, expect
 from serendipity.model.keywords import listing
 from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
 from serendipity.model.task.facts import Facts
@@ -35,6 +35,7 @@ class Session:
     def __init__(
         self, task: Task, *, human_plan: Iterable[str] | None = None, **options: Unpack[SessionOptions]
     ) -> None:
+        expect(TASK, task=task)
         self._prepared = HELD.take(task)
         weakref.finalize(self, HELD.hold, self._prepared).atexit = False
         self._options = options

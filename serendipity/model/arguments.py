@@ -68,6 +68,8 @@ def expect(kind: Kind, **given: object) -> None:
             raise UsageError(f"{name}: expected {kind.words}, got {shown(value)}")
         if kind is TASK and isinstance(value, Task):
             refuse_time(value)
+        elif kind is RESULT and isinstance(value, Result):
+            refuse_time(options=value.options)
 
 
 def expect_or_none(kind: Kind, **given: object) -> None:

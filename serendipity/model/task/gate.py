@@ -1,4 +1,4 @@
-"""The refusal of time where nothing plans or checks with it yet: every such call comes by here."""
+"""The refusal of time where nothing knows it yet, all but plan: every such call comes by here."""
 
 from typing import TYPE_CHECKING
 
@@ -26,4 +26,4 @@ def refuse_time(
         what = "the human waits in their plan"
     else:
         return
-    raise UsageError(f"time: {what}, which is read, but not planned for yet")
+    raise UsageError(f"time: {what}, which is known to plan only, not here yet")

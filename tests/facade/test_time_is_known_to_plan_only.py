@@ -1,4 +1,4 @@
-"""Calls that nothing can answer in time yet say so in one line."""
+"""Calls that can't be answered in time yet say so in one line."""
 
 from collections.abc import Callable
 from typing import Any
@@ -22,8 +22,6 @@ def plain() -> Task:
 
 
 CALLS: dict[str, Callable[[Task], Any]] = {
-    "plan": serendipity.plan,
-    "plan_anytime": lambda one: [*serendipity.plan_anytime(one)],
     "interruptions": serendipity.interruptions,
     "explain": serendipity.explain,
     "Session": serendipity.Session,
@@ -39,7 +37,7 @@ CALLS: dict[str, Callable[[Task], Any]] = {
 def test_tasks_that_need_time_are_refused(name: str) -> None:
     with pytest.raises(UsageError) as caught:
         CALLS[name](slow())
-    expected = "time: the task has actions of more than one epoch, which is read, but not planned for yet"
+    expected = "time: the task has actions of more than one epoch, which is known to plan only, not here yet"
     assert str(caught.value) == expected
     with pytest.raises(UsageError, match="time: the task has a script"):
         CALLS[name](plain().with_script(Script(facts=[(2, "done")])))
@@ -49,9 +47,24 @@ def test_waiting_is_refused() -> None:
     with pytest.raises(UsageError, match="time: the human waits in their plan"):
         serendipity.plan(plain(), human_plan=[(3, "do h")])
     assert serendipity.plan(plain(), human_plan=[(1, "do h")]).cost == 1
-    for options in ({"waiting_cost": 1}, {"head_start": 2}):
+    with pytest.raises(UsageError, match="waiting_cost: is read, but not planned for yet"):
+        serendipity.plan(plain(), waiting_cost=1)
+
+
+def test_what_has_a_head_start_is_refused_elsewhere() -> None:
+    begun = serendipity.plan(plain(), head_start=2)
+    assert (begun.status, begun.horizon) == ("optimal", 3)
+    for ask in (serendipity.verify, serendipity.explain, serendipity.check):
         with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
-            serendipity.plan(plain(), **options)
+            ask(plain(), begun)
+    with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
+        serendipity.Session(plain(), head_start=2).plan()
+
+
+def test_options_that_are_not_for_time_are_refused() -> None:
+    for name, value in {"suffix": "subplan", "ties": "robust", "human_model": "observant"}.items():
+        with pytest.raises(UsageError, match=f"{name}: where actions take time, expected"):
+            serendipity.plan(slow(), **{name: value})
 
 
 def test_options_of_time_are_written_down_only_where_they_are_in_force() -> None:
