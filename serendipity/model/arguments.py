@@ -6,6 +6,7 @@ from typing import Final, NamedTuple
 
 from serendipity.model.answers.result import Result
 from serendipity.model.errors import UsageError
+from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.gate import refuse_time
 from serendipity.model.task.task import Task
@@ -68,7 +69,7 @@ def expect(kind: Kind, **given: object) -> None:
             raise UsageError(f"{name}: expected {kind.words}, got {shown(value)}")
         if kind is TASK and isinstance(value, Task):
             refuse_time(value)
-        elif kind is RESULT and isinstance(value, Result):
+        elif kind is RESULT and isinstance(value, Result) and isinstance(value.options, Options):
             refuse_time(options=value.options)
 
 

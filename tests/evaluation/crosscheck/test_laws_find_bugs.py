@@ -22,11 +22,11 @@ def half_an_answer(patch: Patch) -> None:
     """The incumbent is there before what the human does at its end is."""
 
     def end(self: Any, node: Any, best: Any) -> None:
-        left, limit = self._horizon - node.epoch, best.key - node.key
-        rest = self._suffix.key(node.state, left, node.start, limit)
-        if rest < limit and not self._keys.exceeds(node.key + rest, self._most_cost):
+        left, limit = self.horizon - node.epoch, best.key - node.key
+        rest = self.suffix.key(node.state, left, node.start, limit)
+        if rest < limit and not self.keys.exceeds(node.key + rest, self.most_cost):
             best.key, best.node, best.end = node.key + rest, node, node.epoch + 1
-            best.tail = self._suffix.actions(node.state, left, node.start)
+            best.tail = self.suffix.actions(node.state, left, node.start)
 
     patch.setattr(Windowed, "_end", end)
 
