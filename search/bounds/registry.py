@@ -86,7 +86,7 @@ BOUNDS: Final = (
     ),
     LowerBound(
         "relaxed timeline of one robot",
-        "search.short_windows.independent.timeline:Timeline",
+        "search.short_windows.independent.timeline:RobotLayers",
         "decoupled search, Gnad and Hoffmann 2018: other robots provide for nothing what they can",
         "windows of one epoch that leave something behind",
         "mutexes (h2), the soonest epoch of each value",

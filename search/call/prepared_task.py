@@ -20,7 +20,7 @@ from search.human.tables import HumanTables
 from search.packed.cost_vector import scaled_costs
 from search.packed.packed_task import PackedTask
 from search.packed.packings import diversions, doubted, human_facts
-from search.packed.table import Table
+from search.packed.table import KeptTable
 from search.robots.tables import RobotTables
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
@@ -53,14 +53,14 @@ class TaskTables:
 
     def _set_private_distances(self) -> None:
         packed, human = self.packed, self.human
-        interactions = Table(lambda deadline: Interactions(packed, human.graph(deadline).mask))
+        interactions = KeptTable(lambda deadline: Interactions(packed, human.graph(deadline).mask))
 
         def private_distances(deadline: Deadline) -> OwnPrivateDistances:
             graph, to_goal = human.graph(deadline), human.projection(deadline)
             return OwnPrivateDistances(packed, interactions(deadline), to_goal.distances, graph.moves)
 
         self.interactions = interactions
-        self.private_distances = Table(private_distances)
+        self.private_distances = KeptTable(private_distances)
 
     def at(self, task: Task) -> "TaskTables":
         """The same for a task that differs in its initial state only."""
@@ -91,18 +91,18 @@ class PreparedTask:
 
     def __init__(self, task: Task) -> None:
         self.task = task
-        plain = Table(lambda deadline: _including(task, frozenset(), deadline))
-        kept = Table(lambda deadline: diversions(plain(deadline).packed, deadline))
-        diverted = Table(lambda deadline: _diverted(plain(deadline), kept(deadline), deadline))
-        seen = Table(lambda deadline: surroundings(task, deadline.tick))
+        plain = KeptTable(lambda deadline: _including(task, frozenset(), deadline))
+        kept = KeptTable(lambda deadline: diversions(plain(deadline).packed, deadline))
+        diverted = KeptTable(lambda deadline: _diverted(plain(deadline), kept(deadline), deadline))
+        seen = KeptTable(lambda deadline: surroundings(task, deadline.tick))
         self.plain, self.with_diversions, self.diversions, self.surroundings = plain, diverted, kept, seen
-        self.with_human_facts = Table(lambda deadline: _including(task, human_facts(task), deadline))
+        self.with_human_facts = KeptTable(lambda deadline: _including(task, human_facts(task), deadline))
 
         def doubting(facts: Iterable[int], deadline: Deadline) -> TaskTables:
             return _doubting(diverted(deadline), kept(deadline), frozenset(facts), deadline)
 
-        self.doubtful = Table(lambda deadline: doubting(seen(deadline).located, deadline))
-        self.complete = Table(lambda deadline: doubting(range(len(task.facts)), deadline))
+        self.doubtful = KeptTable(lambda deadline: doubting(seen(deadline).located, deadline))
+        self.complete = KeptTable(lambda deadline: doubting(range(len(task.facts)), deadline))
 
     def including(
         self, facts: frozenset[int], deadline: Deadline, actions: tuple[int, ...] = ()

@@ -14,7 +14,7 @@ from search.human.pattern_database import (
     whole_graph,
 )
 from search.packed.packed_task import PackedTask
-from search.packed.table import Table
+from search.packed.table import KeptTable
 from serendipity.model.resources.deadline import Deadline
 
 
@@ -36,17 +36,17 @@ class HumanTables:
         self, packed: PackedTask, project: Callable[[Deadline], PatternDatabase] | None = None
     ) -> None:
         self.memory = Memory(packed)
-        whole = Table(partial(whole_graph, packed))
-        graph = Table(lambda deadline: whole(deadline) or partial_graph(packed, deadline))
-        own = Table(lambda deadline: own_projection(packed, graph(deadline), deadline))
-        projection = own if project is None else Table(project)
+        whole = KeptTable(partial(whole_graph, packed))
+        graph = KeptTable(lambda deadline: whole(deadline) or partial_graph(packed, deadline))
+        own = KeptTable(lambda deadline: own_projection(packed, graph(deadline), deadline))
+        projection = own if project is None else KeptTable(project)
         self._whole = whole if project is None else None
-        self.graph: Table[Projected] = graph
-        self.projection: Table[PatternDatabase] = projection
+        self.graph: KeptTable[Projected] = graph
+        self.projection: KeptTable[PatternDatabase] = projection
         if len(packed.costs) == 1:  # every action costs the same: the cheapest way is the shortest
-            self.steps = Table(lambda deadline: steps_in(projection(deadline)))
+            self.steps = KeptTable(lambda deadline: steps_in(projection(deadline)))
         else:
-            self.steps = Table(lambda deadline: human_steps(packed, graph(deadline), deadline))
+            self.steps = KeptTable(lambda deadline: human_steps(packed, graph(deadline), deadline))
 
     def covers(self, state: int) -> bool:
         """Whether they are known to hold from a packed state: nothing else can be reached from there."""

@@ -8,7 +8,7 @@ from serendipity.model.resources.deadline import Deadline
 T = TypeVar("T")
 
 
-class Table(Generic[T]):
+class KeptTable(Generic[T]):
     """A table that is built under the deadline of who asks first; where that comes, nothing is half made.
 
     Args:

@@ -3,7 +3,7 @@
 from functools import partial
 
 from search.packed.packed_task import PackedTask
-from search.packed.table import Table
+from search.packed.table import KeptTable
 from search.robots.decoupled import Decoupled
 from search.robots.transition_graphs import PositionVariables, TransitionGraphs
 
@@ -21,7 +21,7 @@ class RobotTables:
     """
 
     def __init__(self, packed: PackedTask) -> None:
-        positions = Table(partial(PositionVariables, packed))
+        positions = KeptTable(partial(PositionVariables, packed))
         self.positions = positions
-        self.transitions = Table(lambda deadline: TransitionGraphs(packed, positions(deadline)))
-        self.decoupled = Table(lambda deadline: Decoupled(packed, positions(deadline), deadline))
+        self.transitions = KeptTable(lambda deadline: TransitionGraphs(packed, positions(deadline)))
+        self.decoupled = KeptTable(lambda deadline: Decoupled(packed, positions(deadline), deadline))

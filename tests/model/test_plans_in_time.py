@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from serendipity.model import GroundAction, PlanError, Script, Task, TimedPlan, Timing, UsageError
-from serendipity.model.task.course import BrokenError, Course
+from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.plans_in_time import outlasts, plan_in_time
 from serendipity.testing.builders import task
-from serendipity.testing.oracle.moments import Moment, World
+from serendipity.testing.oracle.moments import Moment, TimedWorld
 from serendipity.testing.strategies import tasks_in_time
 
 
@@ -110,8 +110,8 @@ def test_durations_are_of_whole_actions() -> None:
 def test_the_course_of_plans_is_that_of_brute_force(data: st.DataObject, strict: bool) -> None:
     """Both go through the same epochs, with any actions begun in them, and say the same of each."""
     built = data.draw(tasks_in_time())
-    course = Course(built.facts, built.init, built.script, strict=strict)
-    world, moment = World(built, strict=strict), Moment(built.init)
+    course = PlayedPlan(built.facts, built.init, built.script, strict=strict)
+    world, moment = TimedWorld(built, strict=strict), Moment(built.init)
     for epoch in range(1, data.draw(st.integers(1, 7)) + 1):
         begun = data.draw(st.lists(st.sampled_from(range(len(built.actions))), max_size=2, unique=True))
         wanted = tuple(sorted(begun))
@@ -121,7 +121,7 @@ def test_the_course_of_plans_is_that_of_brute_force(data: st.DataObject, strict:
         try:
             course.begin([built.actions[i] for i in wanted])
         except (
-            BrokenError
+            BrokenPlanError
         ):  # what goes on is asked for at once by the one, before the next epoch by the other
             assert following is None or not [*world.sets(following, epoch + 1, ())]
             return

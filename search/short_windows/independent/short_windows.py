@@ -17,7 +17,7 @@ from search.packed.packed_task import PackedTask
 from search.short_windows.independent.conditions import are_apart, lost_values
 from search.short_windows.independent.landmarks import Landmarks
 from search.short_windows.independent.provision import Provision, by_others, provisions
-from search.short_windows.independent.timeline import Timeline, TooManyStatesError
+from search.short_windows.independent.timeline import RobotLayers, TooManyStatesError
 from search.short_windows.independent.window import ACTION, Window
 from search.short_windows.question import ShortWindowQuestion
 from serendipity.model.errors import LimitReachedError
@@ -97,7 +97,7 @@ class _Pass:
         self._lost = lost_values(context.packed)
         self._landmarks = Landmarks(context.packed, self._amount, context.deadline)
         self._timelines = [
-            Timeline(context, robot, self._steps, given, self._amount) for robot, given in others.items()
+            RobotLayers(context, robot, self._steps, given, self._amount) for robot, given in others.items()
         ]
         self._windows: list[Window] = []
         self._ahead = 0

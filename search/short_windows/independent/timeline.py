@@ -70,7 +70,7 @@ class _Act(NamedTuple):
     forbids: list[_Literal]
 
 
-class Timeline:
+class RobotLayers:
     """A robot's states, epoch by epoch.
 
     Args:

@@ -12,7 +12,7 @@ from search.short_windows.independent.landmarks import Landmark, Landmarks, left
 from search.short_windows.independent.outcomes import Outcomes, Remaining, Together, outcomes, values
 from search.short_windows.independent.provision import Value
 from search.short_windows.independent.rows import Amounts, column, states
-from search.short_windows.independent.timeline import Timeline, TooManyStatesError
+from search.short_windows.independent.timeline import RobotLayers, TooManyStatesError
 
 ACTION: Final = 1 << ACTIONS_BITS
 """Amounts are costs in these units, and a number of actions."""
@@ -43,7 +43,7 @@ class Window:
     def __init__(
         self,
         context: SearchContext,
-        timelines: Sequence[Timeline],
+        timelines: Sequence[RobotLayers],
         landmarks: Landmarks,
         lost: Mapping[int, Collection[int]],
         base: int,

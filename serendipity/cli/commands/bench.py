@@ -145,13 +145,13 @@ def _side_by_side(
     time_limit: float,
 ) -> int:
     """Contenders on some modes and discounts of tasks; beside tasks that can't be read."""
-    from serendipity.evaluation.benchmark.measure import CONTENDERS, Timing, broken, measure
+    from serendipity.evaluation.benchmark.measure import CONTENDERS, MeasuredCall, broken, measure
     from serendipity.evaluation.benchmark.report import ratios, times
     from serendipity.evaluation.measuring.figures import machine, peak_memory
 
     modes, discounts, names = calls
     present, absent = _present(names, CONTENDERS)
-    timings: list[Timing] = []
+    timings: list[MeasuredCall] = []
     found = measure(tasks, modes, discounts, present, repeat=repeat, time_limit=time_limit)
     with progress.counting("tasks") as on_progress:
         for timing in found:
@@ -170,7 +170,7 @@ def _side_by_side(
     every = [*timings, *unread]
 
     text = rendered([*parts, times(timings)])
-    tell(text, table_of(Timing, every) if every else None, "side_by_side", timings)
+    tell(text, table_of(MeasuredCall, every) if every else None, "side_by_side", timings)
     return (
         broken_tasks({timing.task: timing.reason or "" for timing in unread}) if unread else ExitCode.ANSWERED
     )

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Final, TypeVar
 
-from serendipity.evaluation.measuring.tables import Answered
+from serendipity.evaluation.measuring.tables import Proved
 from serendipity.model.errors import UsageError
 from serendipity.model.options import INFINITE
 
@@ -22,7 +22,7 @@ MODES: Final[dict[str, dict[str, Any]]] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome(Answered):
+class Outcome(Proved):
     """A contender's answer, and the time and memory it took.
 
     Attributes:

@@ -11,7 +11,7 @@ from serendipity.evaluation.benchmark import contenders as every
 from serendipity.evaluation.benchmark import fast_downward
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome, chosen
 from serendipity.evaluation.measuring.figures import timed
-from serendipity.evaluation.measuring.tables import Answered
+from serendipity.evaluation.measuring.tables import Proved
 from serendipity.model.errors import DisagreementError, told
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -66,7 +66,7 @@ SEARCHES: Final = ("search", "in-turn", "again")
 
 
 @dataclass(frozen=True, slots=True)
-class Timing(Answered):
+class MeasuredCall(Proved):
     """One contender's answer to one call.
 
     Attributes:
@@ -104,7 +104,7 @@ def measure(
     *,
     repeat: int = 5,
     time_limit: float | None = None,
-) -> Iterator[Timing]:
+) -> Iterator[MeasuredCall]:
     """Time each contender on each call of a mode that it knows.
 
     Args:
@@ -144,9 +144,9 @@ def measure(
         gc.unfreeze()
 
 
-def broken(task: str, error: Exception) -> Timing:
+def broken(task: str, error: Exception) -> MeasuredCall:
     """The row that stands for all calls of a task that can't be read."""
-    return Timing(task, "", "", "", 0.0, 0.0, 0.0, 0, "error", None, None, None, told(error))
+    return MeasuredCall(task, "", "", "", 0.0, 0.0, 0.0, 0, "error", None, None, None, told(error))
 
 
 def _answers(
@@ -172,10 +172,10 @@ def _pass(contender: Contender, prepared: PreparedTask, calls: Sequence[Options]
     return [contender.answer(prepared, options) for options in calls]
 
 
-def _timing(call: tuple[str, str, str, str], answers: Sequence[Outcome]) -> Timing:
+def _timing(call: tuple[str, str, str, str], answers: Sequence[Outcome]) -> MeasuredCall:
     seconds = [answer.seconds for answer in answers]
     last = answers[-1]
-    return Timing(
+    return MeasuredCall(
         *call,
         seconds=statistics.median(seconds),
         fastest=min(seconds),
@@ -188,7 +188,7 @@ def _timing(call: tuple[str, str, str, str], answers: Sequence[Outcome]) -> Timi
     )
 
 
-def _compare(found: list[Timing]) -> None:
+def _compare(found: list[MeasuredCall]) -> None:
     costs = {timing.contender: timing.cost for timing in found if timing.proved}
     if len(set(costs.values())) > 1:
         told = ", ".join(f"{name} {cost}" for name, cost in costs.items())

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from serendipity.evaluation.benchmark.coverage.report import contenders_in, decision_times, plan_times
 from serendipity.evaluation.benchmark.coverage.rows import Row
-from serendipity.evaluation.benchmark.measure import Timing
+from serendipity.evaluation.benchmark.measure import MeasuredCall
 from serendipity.evaluation.benchmark.scaling import AXES, Sample
 from serendipity.evaluation.measuring.figures import power_law
 from serendipity.evaluation.measuring.plots import COLOURS, SUFFIXES, as_bytes, figure
@@ -34,7 +34,7 @@ def check_suffix(suffix: str) -> None:
     figure(1, 1)
 
 
-def side_by_side(timings: Sequence[Timing], suffix: str) -> bytes:
+def side_by_side(timings: Sequence[MeasuredCall], suffix: str) -> bytes:
     """Time of each contender over that of the search, a point a call; crosses met the limit."""
     modes = grouped(timings, lambda timing: timing.mode)
     drawn = figure(5 * len(modes), 4.6)
@@ -45,7 +45,7 @@ def side_by_side(timings: Sequence[Timing], suffix: str) -> bytes:
     return as_bytes(drawn, suffix)
 
 
-def _scatter(axes: "Axes", timings: Sequence[Timing]) -> None:
+def _scatter(axes: "Axes", timings: Sequence[MeasuredCall]) -> None:
     base = {(t.task, t.discount): t.seconds * 1000 for t in timings if t.contender == "search"}
     points = [(base[t.task, t.discount], t) for t in timings if (t.task, t.discount) in base]
     others = grouped((point for point in points if point[1].contender != "search"), lambda p: p[1].contender)

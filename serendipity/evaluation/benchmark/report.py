@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
-from serendipity.evaluation.benchmark.measure import SEARCHES, Timing
+from serendipity.evaluation.benchmark.measure import SEARCHES, MeasuredCall
 from serendipity.evaluation.measuring.figures import percentile
 from serendipity.evaluation.measuring.tables import grouped
 from serendipity.model.telling import Grid
@@ -27,7 +27,7 @@ class _Figure:
     cut: bool = False
 
 
-def ratios(timings: Sequence[Timing]) -> Grid:
+def ratios(timings: Sequence[MeasuredCall]) -> Grid:
     """Times of each contender as multiples of each way to call the search, on the same calls.
 
     First the ratios of medians and of 95th percentiles, then percentiles of the ratios of
@@ -44,7 +44,7 @@ def ratios(timings: Sequence[Timing]) -> Grid:
     return Grid(_RATIOS, rows)
 
 
-def _ratios(members: Sequence[Timing], searches: Sequence[Timing]) -> Iterator[str]:
+def _ratios(members: Sequence[MeasuredCall], searches: Sequence[MeasuredCall]) -> Iterator[str]:
     base = {(timing.task, timing.discount): timing.seconds for timing in searches if timing.proved}
     pairs = [(_figure(t), base[t.task, t.discount]) for t in members if (t.task, t.discount) in base]
     yield str(len(members)) if len(pairs) == len(members) else f"{len(pairs)} of {len(members)}"
@@ -60,12 +60,12 @@ def _ratios(members: Sequence[Timing], searches: Sequence[Timing]) -> Iterator[s
     yield from (_ratio(_percentile(single, share)) for share in (0.5, 0.95, 0.0))
 
 
-def times(timings: Sequence[Timing]) -> Grid:
+def times(timings: Sequence[MeasuredCall]) -> Grid:
     """A row for each mode and contender: of the median times of each call, but for min-max."""
     return Grid(_TIMES, [(*key, *_times(members)) for key, members in _groups(timings).items()])
 
 
-def _times(members: Sequence[Timing]) -> Iterator[str]:
+def _times(members: Sequence[MeasuredCall]) -> Iterator[str]:
     yield from (str(len(members)), str(sum(timing.proved for timing in members)))
     figures = [_figure(timing) for timing in members]
     for share in (0.5, 0.95, 1.0):
@@ -76,12 +76,12 @@ def _times(members: Sequence[Timing]) -> Iterator[str]:
     yield f"{least * 1000:.2f}-{most * 1000:.2f} ms"
 
 
-def _groups(timings: Sequence[Timing]) -> dict[tuple[str, str], list[Timing]]:
+def _groups(timings: Sequence[MeasuredCall]) -> dict[tuple[str, str], list[MeasuredCall]]:
     """Timings by mode and contender; an outside process is a contender beside what it says of itself."""
     return grouped(_with_processes(timings), lambda timing: (timing.mode, timing.contender))
 
 
-def _with_processes(timings: Sequence[Timing]) -> Iterator[Timing]:
+def _with_processes(timings: Sequence[MeasuredCall]) -> Iterator[MeasuredCall]:
     for timing in timings:
         yield timing
         seconds = timing.process_seconds
@@ -90,7 +90,7 @@ def _with_processes(timings: Sequence[Timing]) -> Iterator[Timing]:
             yield replace(timing, contender=name, seconds=seconds, fastest=seconds, slowest=seconds)
 
 
-def _figure(timing: Timing) -> _Figure:
+def _figure(timing: MeasuredCall) -> _Figure:
     return _Figure(timing.seconds, cut=not timing.proved)
 
 

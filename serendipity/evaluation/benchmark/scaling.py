@@ -13,7 +13,7 @@ from typing import Any, Final
 from serendipity.evaluation.benchmark.child import in_child
 from serendipity.evaluation.benchmark.measure import MODES
 from serendipity.evaluation.measuring.figures import power_law
-from serendipity.evaluation.measuring.tables import Answered, grouped, table
+from serendipity.evaluation.measuring.tables import Proved, grouped, table
 from serendipity.model.errors import SerendipityError, UsageError
 from serendipity.model.telling import Grid
 from serendipity.scenarios.generate import generate_usar
@@ -91,7 +91,7 @@ _MORE_SEEDS: Final = 4
 
 
 @dataclass(frozen=True, slots=True)
-class Sample(Answered):
+class Sample(Proved):
     """One task of a series.
 
     Attributes:

@@ -11,7 +11,7 @@ N = TypeVar("N", bound=tuple[str, ...])
 R = TypeVar("R")
 
 
-class Answered:
+class Proved:
     """A row about an answer, with the answer's status, which is as in results."""
 
     __slots__ = ()

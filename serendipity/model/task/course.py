@@ -13,7 +13,7 @@ from serendipity.model.task.actions import Condition, GroundAction, conflicting
 from serendipity.model.task.script import Timeline
 
 
-class BrokenError(Exception):
+class BrokenPlanError(Exception):
     """Something can't go on as it should; its text says why, for people.
 
     Args:
@@ -35,7 +35,7 @@ class _Going:
     left: int
 
 
-class Course:
+class PlayedPlan:
     """The states of a plan: each epoch is told what begins in it.
 
     Args:
@@ -63,7 +63,7 @@ class Course:
         """Let the next epoch go by, with some actions that begin in it.
 
         Raises:
-            BrokenError: an action can't begin, go on or end there, or two are in each other's way.
+            BrokenPlanError: an action can't begin, go on or end there, or two are in each other's way.
         """
         self.epoch += 1
         begun = [*actions, *self._deeds()]
@@ -74,7 +74,7 @@ class Course:
         changes = [self._change(going) for going in self._going]
         for a, b in combinations([change for change in changes if change.add or change.delete], 2):
             if conflicting(a, b, strict=False):
-                raise BrokenError(a, f"and '{b.name}' change the same fact in epoch {self.epoch}")
+                raise BrokenPlanError(a, f"and '{b.name}' change the same fact in epoch {self.epoch}")
         if self._strict:
             self._require_undisturbed(changes)
         self.state = self.state.difference(*[change.delete for change in changes])
@@ -105,7 +105,7 @@ class Course:
         for action in begun:
             for agent in action.participants:
                 if agent in busy:
-                    raise BrokenError(
+                    raise BrokenPlanError(
                         action, f"can't begin in epoch {self.epoch}: '{busy[agent].name}' goes on"
                     )
                 busy[agent] = action
@@ -127,12 +127,12 @@ class Course:
     def _require_undisturbed(self, changes: Iterable[GroundAction]) -> None:
         for a, b in combinations(changes, 2):
             if conflicting(a, b, strict=True):
-                raise BrokenError(a, f"and '{b.name}' disturb each other in epoch {self.epoch}")
+                raise BrokenPlanError(a, f"and '{b.name}' disturb each other in epoch {self.epoch}")
 
     def _ask(self, condition: Condition, action: GroundAction, words: str) -> None:
         unmet = first_unmet(condition, self.state, self._facts)
         if unmet is not None:
-            raise BrokenError(action, f"{words}: {unmet}")
+            raise BrokenPlanError(action, f"{words}: {unmet}")
 
 
 def first_unmet(condition: Condition, state: AbstractSet[int], facts: Sequence[str]) -> str | None:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from serendipity.model.errors import PlanError
 from serendipity.model.task.actions import GroundAction
-from serendipity.model.task.course import BrokenError, Course
+from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.names import canonical_name
 from serendipity.model.task.plans import PlanEntry, TimedPlan
 
@@ -75,7 +75,7 @@ class _Human:
 
     def __init__(self, task: "Task", *, strict: bool = False) -> None:
         self.task = task
-        self.course = Course(task.facts, task.init, task.script, strict=strict)
+        self.course = PlayedPlan(task.facts, task.init, task.script, strict=strict)
         self.states = [task.init]
         self.actions: list[int] = []
         self.starts: list[int] = []
@@ -116,6 +116,6 @@ class _Human:
     def _begin(self, actions: list[GroundAction], where: str, step: int | None) -> None:
         try:
             self.course.begin(actions)
-        except BrokenError as error:
+        except BrokenPlanError as error:
             raise PlanError(f"human plan, {where}: {error}", step=step) from None
         self.states.append(self.course.state)

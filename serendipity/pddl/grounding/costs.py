@@ -13,7 +13,15 @@ from typing import Final
 from serendipity.model import InputError
 from serendipity.pddl.grounding.product import Product
 from serendipity.pddl.grounding.quantifiers import ground_key
-from serendipity.pddl.parsing.lifted import Course, Expression, FunctionValue, Key, Operation, Schema, Unit
+from serendipity.pddl.parsing.lifted import (
+    DurativeParts,
+    Expression,
+    FunctionValue,
+    Key,
+    Operation,
+    Schema,
+    Unit,
+)
 from serendipity.pddl.parsing.scope import calculate, cost_fault
 from serendipity.pddl.parsing.tree import quoted
 
@@ -70,7 +78,7 @@ class Costs:
     def _cost(self, schema: Schema, unit: Unit, values: dict[str, str]) -> Cost:
         return self._checked("cost", lambda: self._sum(schema.increases, values), cost_fault, schema, unit)
 
-    def _duration(self, schema: Schema, course: Course, unit: Unit, values: dict[str, str]) -> Cost:
+    def _duration(self, schema: Schema, course: DurativeParts, unit: Unit, values: dict[str, str]) -> Cost:
         def fault(duration: Fraction) -> str | None:
             most = min([self._value(value, values) for value in course.most], default=duration)
             if most < duration:

@@ -23,7 +23,7 @@ from serendipity.pddl.grounding.quantifiers import (
 )
 from serendipity.pddl.parsing.lifted import (
     And,
-    Course,
+    DurativeParts,
     Effect,
     Formula,
     Literal,
@@ -118,7 +118,7 @@ def lifted_of(schema: Schema, unit: Unit, work: Work) -> Lifted:
     return lifted if schema.course is None else _with_course(lifted, schema.course, unit, work)
 
 
-def _with_course(lifted: Lifted, course: Course, unit: Unit, work: Work) -> Lifted:
+def _with_course(lifted: Lifted, course: DurativeParts, unit: Unit, work: Work) -> Lifted:
     """The lifted action with what its course needs and changes.
 
     Raises:

@@ -8,7 +8,7 @@ from typing import Final
 from serendipity.model import InputError
 from serendipity.pddl.parsing.lifted import (
     And,
-    Course,
+    DurativeParts,
     Effect,
     Expression,
     Formula,
@@ -36,7 +36,7 @@ class DurativeReader:
 
     def read(
         self, parts: Mapping[str, SExpression]
-    ) -> tuple[Formula, list[Effect], list[Expression], Course]:
+    ) -> tuple[Formula, list[Effect], list[Expression], DurativeParts]:
         """Conditions at start, effects at end, what is added to the total cost, and the rest.
 
         Raises:
@@ -53,7 +53,7 @@ class DurativeReader:
             effects[when] += found
             increases += costs
         start, inside, end = (And(tuple(conditions[when])) for when in (START, INSIDE, END))
-        course = Course(least, most, inside, end, tuple(effects[START]))
+        course = DurativeParts(least, most, inside, end, tuple(effects[START]))
         return start, effects[END], increases, course
 
     def _conditions(self, node: SExpression) -> Iterator[tuple[str, Formula]]:

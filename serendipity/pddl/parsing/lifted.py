@@ -92,7 +92,7 @@ Expression = Fraction | FunctionValue | Operation
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class DurativeParts:
     """What a durative action asks for and changes beside its conditions at start and its effects at end.
 
     Attributes:
@@ -139,7 +139,7 @@ class Schema:
     increases: tuple[Expression, ...]
     agent: bool = False
     quantified: bool = False
-    course: Course | None = None
+    course: DurativeParts | None = None
 
     @property
     def conditions(self) -> tuple[Formula, ...]:

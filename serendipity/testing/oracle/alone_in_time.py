@@ -8,13 +8,13 @@ from typing import NamedTuple
 
 from serendipity.model import Condition, HumanPlan, Script, Task, TimedPlan, UsageError
 from serendipity.testing.oracle.epochs import State, holds
-from serendipity.testing.oracle.moments import Moment, World
+from serendipity.testing.oracle.moments import Moment, TimedWorld
 
 Worth = tuple[Fraction, int, int]
 """Cost, number of epochs, number of actions."""
 
 
-class Way(NamedTuple):
+class OwnStep(NamedTuple):
     """What the human may do next; ``action`` is None where they wait for an epoch."""
 
     action: int | None
@@ -36,7 +36,7 @@ class AloneInTime:
 
     def __init__(self, task: Task, waiting_cost: Fraction = Fraction(0), *, strict: bool = False) -> None:
         self.task = task
-        self.world = World(task, strict=strict)
+        self.world = TimedWorld(task, strict=strict)
         self.waiting_cost = waiting_cost
         self._settled: dict[State, Worth | None] = {}
         self._acting: dict[tuple[Moment, int], Worth | None] = {}
@@ -73,25 +73,25 @@ class AloneInTime:
             self._acting[key] = min((worth for worth in found if worth is not None), default=None)
         return self._acting[key]
 
-    def best(self, moment: Moment, epoch: int) -> list[Way]:
+    def best(self, moment: Moment, epoch: int) -> list[OwnStep]:
         """The ways that begin a plan of the worth of :meth:`acting`, those that act in front."""
         worth = self.acting(moment, epoch)
         if worth is None:
             return []
         return [way for way in self.ways(moment, epoch) if _plus(way.price, self._rest(way)) == worth]
 
-    def ways(self, moment: Moment, epoch: int) -> Iterator[Way]:
+    def ways(self, moment: Moment, epoch: int) -> Iterator[OwnStep]:
         """Their own actions that can be done, in ascending order; then waiting, while the script lasts."""
         for i in self.task.human_actions:
             end = self._done(moment, epoch, i)
             if end is not None:
                 action = self.task.actions[i]
-                yield Way(i, (action.cost, action.duration, 1), end, epoch + action.duration)
+                yield OwnStep(i, (action.cost, action.duration, 1), end, epoch + action.duration)
         later = self.world.alone(moment, epoch + 1) if epoch < self.world.settled else None
         if later is not None:
-            yield Way(None, (self.waiting_cost, 1, 0), later, epoch + 1)
+            yield OwnStep(None, (self.waiting_cost, 1, 0), later, epoch + 1)
 
-    def _rest(self, way: Way) -> Worth | None:
+    def _rest(self, way: OwnStep) -> Worth | None:
         """After waiting there has to be an action: else it was the end of the plan."""
         return (self.acting if way.action is None else self.worth)(way.moment, way.epoch)
 

@@ -10,7 +10,7 @@ from serendipity.testing.oracle.alone_in_time import AloneInTime, human_plan
 from serendipity.testing.oracle.answers import Solver, WindowPlan
 from serendipity.testing.oracle.epochs import holds
 from serendipity.testing.oracle.labels import NOTHING, Label, Layer, Moves, advance, front, plus
-from serendipity.testing.oracle.moments import Moment, World
+from serendipity.testing.oracle.moments import Moment, TimedWorld
 from serendipity.testing.oracle.suffixes_in_time import SuffixesInTime
 
 
@@ -37,7 +37,7 @@ class SolverInTime(Solver):
     """
 
     def __init__(self, task: Task, options: Options, human_plan: HumanPlan | None, *, given: bool) -> None:
-        self.world = World(task, strict=options.strict)
+        self.world = TimedWorld(task, strict=options.strict)
         self.in_time = AloneInTime(task, options.waiting_cost, strict=options.strict)
         self._starts = (
             {} if human_plan is None else dict(zip(task.starts_of(human_plan), human_plan, strict=True))

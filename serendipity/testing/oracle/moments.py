@@ -48,7 +48,7 @@ def parts_of(action: GroundAction) -> tuple[GroundAction, ...]:
     )
 
 
-class World:
+class TimedWorld:
     """What may happen in an epoch of a task, bystanders and the script included.
 
     Args:

@@ -10,7 +10,7 @@ from serendipity.testing.oracle.labels import NOTHING, Front, Label, front, plus
 from serendipity.testing.oracle.moments import Moment
 
 
-class Prices(Protocol):
+class SuffixPrices(Protocol):
     """What labels and ends of suffixes depend on."""
 
     def price(self, i: int) -> Label:
@@ -41,7 +41,7 @@ class SuffixesInTime:
         options: Options,
         human_plan: HumanPlan,
         alone: AloneInTime,
-        prices: Prices,
+        prices: SuffixPrices,
         last: int,
     ) -> None:
         self.task = task

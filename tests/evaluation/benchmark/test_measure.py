@@ -7,7 +7,7 @@ import pytest
 from search import PreparedTask
 from serendipity import UsageError, example
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome
-from serendipity.evaluation.benchmark.measure import CONTENDERS, Timing, measure
+from serendipity.evaluation.benchmark.measure import CONTENDERS, MeasuredCall, measure
 from serendipity.evaluation.benchmark.report import ratios, times
 from serendipity.evaluation.measuring import figures
 from serendipity.model import Options
@@ -27,7 +27,7 @@ class Scripted:
         return Outcome(self.status, self.cost, seconds=self.seconds.pop(0))
 
 
-def timings(monkeypatch: pytest.MonkeyPatch, **contenders: Scripted) -> list[Timing]:
+def timings(monkeypatch: pytest.MonkeyPatch, **contenders: Scripted) -> list[MeasuredCall]:
     for name, contender in contenders.items():
         monkeypatch.setitem(CONTENDERS, name, Contender(contender))
     return list(measure([example("room2")], ["serendipity"], ["0.6"], contenders, repeat=3))
@@ -104,9 +104,9 @@ def test_in_turn_figures_are_medians_over_passes(monkeypatch: pytest.MonkeyPatch
     assert [(t.fastest, t.seconds, t.slowest) for t in found] == [(0.1, 0.2, 0.3), (0.01, 0.02, 0.03)]
 
 
-def timing(task: str, contender: str, seconds: float, **other: object) -> Timing:
+def timing(task: str, contender: str, seconds: float, **other: object) -> MeasuredCall:
     fixed = {"repeats": 1, "status": "optimal", "cost": 1.0, "process_seconds": None, "memory": None}
-    return Timing(task, "composite", "0", contender, seconds, seconds, seconds, **{**fixed, **other})  # type: ignore[arg-type]
+    return MeasuredCall(task, "composite", "0", contender, seconds, seconds, seconds, **{**fixed, **other})  # type: ignore[arg-type]
 
 
 def rows_of(grid: Grid) -> list[dict[str, str]]:

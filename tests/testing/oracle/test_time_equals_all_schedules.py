@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from serendipity.model import HumanPlan, Options, Task, UsageError
-from serendipity.model.task.course import BrokenError, Course
+from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.testing.oracle import best, human_plans
 from serendipity.testing.strategies import scripted_tasks, strips_tasks, timed_tasks
 
@@ -24,13 +24,13 @@ def tiny_tasks() -> st.SearchStrategy[Task]:
     return st.one_of(timed_tasks(of=few), scripted_tasks(of=few), scripted_tasks(of=timed_tasks(of=few)))
 
 
-def played(task: Task, schedule: Schedule, strict: bool) -> Course | None:
+def played(task: Task, schedule: Schedule, strict: bool) -> PlayedPlan | None:
     """The course of a schedule, or None where it can't be."""
-    course = Course(task.facts, task.init, task.script, strict=strict)
+    course = PlayedPlan(task.facts, task.init, task.script, strict=strict)
     try:
         for begun in schedule:
             course.begin([task.actions[i] for i in begun])
-    except BrokenError:
+    except BrokenPlanError:
         return None
     return course
 

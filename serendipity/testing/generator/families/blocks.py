@@ -24,7 +24,7 @@ def blocks(dice: Random, size: int, agents: tuple[str, ...]) -> Task:
         agents: the human first.
     """
     price, hands = prices(dice), dice.random() < 0.5
-    world = _World(dice, agents, size)
+    world = _Blocks(dice, agents, size)
     heavy = dice.choice(world.names) if not hands and dice.random() < 0.3 else ""
     for who in range(len(agents)):
         able = world.names if dice.random() < 0.7 else dice.sample(world.names, dice.randint(1, size))
@@ -54,7 +54,7 @@ def blocks(dice: Random, size: int, agents: tuple[str, ...]) -> Task:
     return with_goals(dice, world.builder, start, goal, wishes)
 
 
-class _World:
+class _Blocks:
     """Literals and actions; a fact says that nothing is on a block, or that something is."""
 
     def __init__(self, dice: Random, agents: tuple[str, ...], size: int) -> None:

@@ -78,9 +78,9 @@ def test_no_bound_is_above_the_optimum() -> None:
 def test_bounds_where_robots_have_too_many_states(monkeypatch: pytest.MonkeyPatch, most: int) -> None:
     """Then what they have for themselves is forgotten, or nothing is said of later windows."""
     forgotten = []
-    forget = timeline.Timeline._forget
+    forget = timeline.RobotLayers._forget
     monkeypatch.setattr(timeline, "MOST_STATES", most)
-    monkeypatch.setattr(timeline.Timeline, "_forget", lambda self: forget(self) or forgotten.append(self))
+    monkeypatch.setattr(timeline.RobotLayers, "_forget", lambda self: forget(self) or forgotten.append(self))
     for seed in range(40):
         task = _errands(1 + seed % 2, 3)
         if seed > 1:
