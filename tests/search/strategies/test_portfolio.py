@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 import serendipity
+from search.kernel.library import library
 from search.strategies.portfolio import STRATEGIES, TURNS, chosen
 from serendipity import Result, Task, UsageError
 from serendipity.testing.builders import usar
@@ -94,6 +95,7 @@ def test_all_but_one(name: str, optima: dict[tuple[int, int], Result]) -> None:
             assert (answer.status, answer.objective) == (optimum.status, optimum.objective)
 
 
+@pytest.mark.skipif(library() is None, reason="some turns need the kernel")
 @pytest.mark.parametrize("name", sorted({*OF} - BEGUN_BY_OTHERS))
 def test_some_call_takes_it(name: str, optima: dict[tuple[int, int], Result]) -> None:
     taken = {row["name"] for i, j in optima for row in _alone(name, i, j).statistics["strategies"]}
