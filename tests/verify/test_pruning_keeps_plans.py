@@ -66,6 +66,7 @@ def test_two_robots_that_hand_on_are_proved_without_a_solver(building: Task, ans
     assert optimal.method == "program"
 
 
+@pytest.mark.slow
 def test_a_dearer_answer_is_refuted_with_a_plan(building: Task, answer: Result) -> None:
     dearer = serendipity.plan(building, mode="serendipity", discount="0.9")
     assert dearer.cost is not None
