@@ -77,7 +77,7 @@ def test_bench(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
     room2 = serendipity.example("room2")
     timings = list(measure.measure([room2], ["communication"], ["0.9"], ["search"], repeat=1))
     monkeypatch.setattr(measure, "measure", lambda *_, **__: iter(timings))
-    table = table_of(measure.Timing, timings)
+    table = table_of(measure.MeasuredCall, timings)
     assert [row[1:4] for row in table.rows] == [("communication", "0.9", "search")]
     for rows in saved(run, f"{command} --quiet", table).values():
         assert rows == list(table.rows)

@@ -13,7 +13,7 @@ from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
 from serendipity.cli.streams.manner import is_verbose
 from serendipity.cli.streams.stderr import write_line
-from serendipity.model import Certificate, Deadline, Result, Task, UsageError
+from serendipity.model import Certificate, Claim, Deadline, Result, Task, UsageError
 from serendipity.model.numbers import plain
 from serendipity.model.telling import json_of
 
@@ -98,6 +98,9 @@ def _certificate(
     task: Task, result: Result, cancelled: threading.Event, deadline: Deadline, *, certify: bool
 ) -> tuple[Certificate, bool]:
     """What the checker says, and whether by a proof: whoever interrupts need not wait for one."""
+    if task.needs_time or result.options.head_start:
+        unchecked = Claim("replay", "undecided", "the checker does not know time yet (semantics 10)")
+        return Certificate((unchecked,), 0.0), False
     with progress.working("verifying"):
         if certify and not cancelled.is_set():
             try:

@@ -28,6 +28,7 @@ _TEXTS: Final[Mapping[str, tuple[str, str]]] = {
     "human_model": ("How the human reacts.", ""),
     "ties": ("Which of the human's optimal plans counts.", ""),
     "max_ties": ("The most of those plans that are tried.", "N"),
+    "head_start": ("Epochs of waiting before the human's plan (semantics 10.2).", "N"),
     "strategies": (
         "Search with these strategies only, or with all but some; -v tells what came of each.",
         "NAME,-NAME",
@@ -63,7 +64,7 @@ _OTHERS: Final[Mapping[str, Any]] = {
 _ALL: Final = (
     *("mode", "discount", "horizon", "human_plan", "window_weight", "max_window", "suffix", "preservation"),
     *("interference", "max_cost", "communication_weight", "keep_prefix", "human_model", "ties", "max_ties"),
-    *("no_block", "strategies"),
+    *("no_block", "head_start", "strategies"),
 )
 """In the order of help."""
 
@@ -71,7 +72,8 @@ WINDOWS: Final = tuple(name for name in _ALL if name in (*InterruptionOptions.__
 """What makes a difference to windows."""
 EXPLAINED: Final = _ALL[: _ALL.index("keep_prefix")]
 """What can be explained."""
-PROGRAMS: Final = tuple(name for name in _ALL if name not in ("human_model", "no_block", "strategies"))
+_UNKNOWN: Final = ("human_model", "no_block", "head_start", "strategies")
+PROGRAMS: Final = tuple(name for name in _ALL if name not in _UNKNOWN)
 """What integer programs know."""
 
 

@@ -238,9 +238,10 @@ def _least_cost(result: Result) -> str:
 def _columns(result: Result, robots: Sequence[str]) -> Grid:
     """Epochs down, agents across; a joint action stands in each participant's column."""
     agents = [result.human, *robots]
-    former = result.human_plan or ()
+    former = ("",) * result.options.head_start + (result.human_plan or ())
     steps = {(step.epoch, agent): step.action for step in result.plan or () for agent in step.agents}
-    changed = tuple(step.action for step in result.plan or () if result.human in step.agents) != former
+    theirs = tuple(step.action for step in result.plan or () if result.human in step.agents)
+    changed = theirs != (result.human_plan or ())
     inside = range(0) if result.window is None else range(result.window.start, result.window.end)
     epochs = range(1, max([epoch for epoch, _ in steps] + [len(former)]) + 1)
     rows = []
