@@ -192,7 +192,7 @@ def _is_shared(task: Task) -> bool:
 
 
 def _opportunity_faults(early: Result, final: Result) -> Iterator[str]:
-    if early.saving_alone != final.saving_alone:
+    if early.saving_alone not in (None, final.saving_alone):  # None: not known yet
         yield f"an opportunity with saving_alone {early.saving_alone}, which is {final.saving_alone}"
     if early.saving is not None and early.saving <= (final.saving_alone or 0):
         yield f"an opportunity that saves {early.saving}, without robots {final.saving_alone}"
