@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Final
 
 from serendipity.model import GroundAction, InputError, Task, Timing
+from serendipity.model.task.names import unused
 from serendipity.pddl.classical import ClassicalFiles
 from serendipity.pddl.parsing.scope import RESERVED
 from serendipity.pddl.participants import agents_named
@@ -96,7 +97,7 @@ def composite_files(task: Task, discount: Fraction) -> ClassicalFiles:
 def composite_names(task: Task) -> list[str]:
     """The names of a task's actions in :func:`composite_files`, in their order."""
     used: set[str] = set()
-    return [_unique(_legal(action.name), used) for action in task.actions]
+    return [unused(_legal(action.name), used) for action in task.actions]
 
 
 def _mentioned(actions: Iterable[GroundAction]) -> set[int]:
@@ -189,7 +190,7 @@ def _number(cost: Fraction) -> str:
 
 def _fact_names(task: Task) -> list[str]:
     used: set[str] = set()
-    return [_unique(_legal(name), used) for name in task.facts]
+    return [unused(_legal(name), used) for name in task.facts]
 
 
 def _action_names(task: Task) -> list[str]:
@@ -198,11 +199,11 @@ def _action_names(task: Task) -> list[str]:
     names: dict[int, str] = {}
     for i, action in enumerate(task.actions):
         if not action.joint:
-            names[i] = _unique(_legal(action.name), used[action.participants[0]])
+            names[i] = unused(_legal(action.name), used[action.participants[0]])
     taken: set[str] = set().union(*used.values())
     for i, action in enumerate(task.actions):
         if action.joint:
-            names[i] = _unique(_joint_name(action, task.agents, f"joint{i}"), taken)
+            names[i] = unused(_joint_name(action, task.agents, f"joint{i}"), taken)
     return [names[i] for i in range(len(task.actions))]
 
 
@@ -219,12 +220,3 @@ def _legal(name: str) -> str:
     """The name as a single word that is no keyword and no number."""
     word = _ILLEGAL.sub("_", name.lower())
     return word if word[:1].isalpha() and word not in RESERVED else f"x_{word}"
-
-
-def _unique(name: str, used: set[str]) -> str:
-    candidate, number = name, 1
-    while candidate in used:
-        number += 1
-        candidate = f"{name}_v{number}"
-    used.add(candidate)
-    return candidate

@@ -15,6 +15,7 @@ from unified_planning.plans import ActionInstance
 
 from serendipity.model import UsageError
 from serendipity.model.task.actions import NOOP
+from serendipity.model.task.names import unused
 from serendipity.pddl.parsing.types import OBJECT, Type, Types
 from serendipity.up.kinds import refusal
 
@@ -48,16 +49,6 @@ class UniqueWords:
 def legal(name: str) -> str:
     """A name as one word, in lower case."""
     return _ILLEGAL.sub("_", name.lower()) or "_"
-
-
-def unused(word: str, used: set[str]) -> str:
-    """The word, or if it is used already one like it; it is used from now on."""
-    candidate, number = word, 1
-    while candidate in used:
-        number += 1
-        candidate = f"{word}_v{number}"
-    used.add(candidate)
-    return candidate
 
 
 UPProblem: TypeAlias = Problem | MultiAgentProblem

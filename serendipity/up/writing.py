@@ -12,7 +12,8 @@ from unified_planning.model.multi_agent import Agent, MultiAgentProblem
 
 from serendipity.model import Condition, GroundAction, Task, UsageError, exact
 from serendipity.model.numbers import Number
-from serendipity.up.vocabulary import UPProblem, legal, unused
+from serendipity.model.task.names import unused
+from serendipity.up.vocabulary import UPProblem, legal
 
 
 def to_problem(

@@ -15,6 +15,16 @@ def canonical_name(text: str) -> str:
     return " ".join(text.lower().split())
 
 
+def unused(name: str, used: set[str]) -> str:
+    """The name, or if it is used already one like it; it is used from now on."""
+    candidate, number = name, 1
+    while candidate in used:
+        number += 1
+        candidate = f"{name}_v{number}"
+    used.add(candidate)
+    return candidate
+
+
 class ActionNames(Mapping[str, tuple[int, ...]]):
     """Ids of actions by name, looked up where the actions stand: in the order of their keys.
 
