@@ -66,6 +66,9 @@ class PlayedPlan:
             BrokenPlanError: an action can't begin, go on or end there, or two are in each other's way.
         """
         self.epoch += 1
+        for going in self._going:
+            assert going.action.timing is not None
+            self._ask(going.action.timing.over_all, going.action, "can't go on")
         begun = [*actions, *self._deeds()]
         for action in begun:
             self._ask(action.precondition, action, "is not applicable")
@@ -84,9 +87,6 @@ class PlayedPlan:
         for going in self._going:
             going.left -= 1
         self._going = [going for going in self._going if going.left]
-        for going in self._going:
-            assert going.action.timing is not None
-            self._ask(going.action.timing.over_all, going.action, "can't go on")
 
     def under_way(self) -> Iterator[GroundAction]:
         """The actions of the plan's that have not ended yet; those of bystanders don't count."""
