@@ -115,11 +115,12 @@ class SearchContext:
         packed, human = self.packed, self.tables.human
         bound = NOTHING_KNOWN if self._has_kernel else human.projection(self.deadline)
         # What it finds serves calls that weigh otherwise.
-        return IndividualPlanner(packed, packed.goal, bound, human.memory, self.deadline, prices=self.weights)
+        memory = human.memory(strict=self.options.strict)
+        return IndividualPlanner(packed, packed.goal, bound, memory, self.deadline, prices=self.weights)
 
     def _alone_to(self, goal: PackedGoal) -> IndividualPlanner:
         """The human alone, to a goal that this call asks about."""
-        memory = Memory(self.packed, self.weights.alone)
+        memory = Memory(self.packed, self.weights.alone, strict=self.options.strict)
         return IndividualPlanner(self.packed, goal, self.bound, memory, self.deadline)
 
     @cached_property

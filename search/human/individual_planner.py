@@ -32,6 +32,7 @@ class Memory:
     Args:
         packed: the packed task.
         weight: of one of their own ops; None: as :func:`.own_weights` has it.
+        strict: strict interference, which matters beside bystanders.
 
     Attributes:
         weight: the same.
@@ -43,10 +44,12 @@ class Memory:
         plans: the optimal plans from the state that was asked about last.
     """
 
-    def __init__(self, packed: PackedTask, weight: Callable[[Operator], int] | None = None) -> None:
+    def __init__(
+        self, packed: PackedTask, weight: Callable[[Operator], int] | None = None, *, strict: bool = False
+    ) -> None:
         own = own_weights(packed)
         self.weight = weight or (lambda op: own[op.cost])
-        self.lookup = own_options(packed, self.weight)
+        self.lookup = own_options(packed, self.weight, strict=strict)
         self.known: dict[int, int] = {}
         self.at_least: dict[int, int] = {}
         self.expanded = 0

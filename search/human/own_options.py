@@ -9,14 +9,17 @@ from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Lookup
 
 
-def own_options(packed: PackedTask, weight: Callable[[Operator], int]) -> Lookup:
+def own_options(packed: PackedTask, weight: Callable[[Operator], int], *, strict: bool) -> Lookup:
     """What the human can do alone in a packed state; with a script also waiting, as long as it runs.
 
     Args:
         packed: the packed task.
         weight: of one of their own ops.
+        strict: strict interference, which matters beside bystanders.
     """
-    return BesideScript(packed, weight) if packed.clock_bit else Lookup(packed.own_index, weight)
+    return (
+        BesideScript(packed, weight, strict=strict) if packed.clock_bit else Lookup(packed.own_index, weight)
+    )
 
 
 class BesideScript(Lookup):
@@ -25,11 +28,12 @@ class BesideScript(Lookup):
     Args:
         packed: the packed task.
         weight: of one of the human's own ops.
+        strict: strict interference.
     """
 
-    def __init__(self, packed: PackedTask, weight: Callable[[Operator], int]) -> None:
+    def __init__(self, packed: PackedTask, weight: Callable[[Operator], int], *, strict: bool) -> None:
         super().__init__(packed.own_index, weight)
-        self._due = Due(packed, weight)
+        self._due = Due(packed, weight, strict=strict)
         waiting = packed.op(len(packed.task.actions) - 1)  # the last of all, see unit_steps
         self._waiting = as_option(waiting, weight(waiting))
 

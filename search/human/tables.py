@@ -29,13 +29,13 @@ class HumanTables:
         graph: the human's actions, projected onto their private variables, or onto as many as stay tractable.
         projection: their private distances to the goal, in the unit of :func:`.own_weights`.
         steps: the same, counting their actions.
-        memory: what calls have found out about the human alone.
     """
 
     def __init__(
         self, packed: PackedTask, project: Callable[[Deadline], PatternDatabase] | None = None
     ) -> None:
-        self.memory = Memory(packed)
+        self._packed = packed
+        self._memories: dict[bool, Memory] = {}
         whole = KeptTable(partial(whole_graph, packed))
         graph = KeptTable(lambda deadline: whole(deadline) or partial_graph(packed, deadline))
         own = KeptTable(lambda deadline: own_projection(packed, graph(deadline), deadline))
@@ -47,6 +47,13 @@ class HumanTables:
             self.steps = KeptTable(lambda deadline: steps_in(projection(deadline)))
         else:
             self.steps = KeptTable(lambda deadline: human_steps(packed, graph(deadline), deadline))
+
+    def memory(self, *, strict: bool) -> Memory:
+        """What calls have found out about the human alone; interference matters beside a script only."""
+        strict = strict and bool(self._packed.clock_bit)
+        if strict not in self._memories:
+            self._memories[strict] = Memory(self._packed, strict=strict)
+        return self._memories[strict]
 
     def covers(self, state: int) -> bool:
         """Whether they are known to hold from a packed state: nothing else can be reached from there."""

@@ -16,10 +16,12 @@ class Due:
     Args:
         packed: the packed task.
         weight: key increment of an op.
+        strict: strict interference (semantics 2).
     """
 
-    def __init__(self, packed: PackedTask, weight: Callable[[Operator], int]) -> None:
+    def __init__(self, packed: PackedTask, weight: Callable[[Operator], int], *, strict: bool) -> None:
         self._packed = packed
+        self._strict = strict
         self._human: _Options = {}
         self._others: _Options = {}
         self._clock: dict[int, Operator] = {}
@@ -57,9 +59,12 @@ class Due:
 
     def is_calm(self, state: int) -> bool:
         """Whether nothing happens from a state on unless somebody does it."""
-        if self._clock and self.last(state) is not None:
-            return False
-        return next(self._in(self._others, state), None) is None and self.human(state) is None
+        happens = (self.last(state), self.human(state), next(self._in(self._others, state), None))
+        return happens == (None, None, None)
+
+    def may_end(self, state: int, epoch: int, horizon: int | None) -> bool:
+        """Whether a plan may end with an epoch: what has been reached is not lost again before ``T``."""
+        return epoch == horizon or self.is_calm(state)
 
     def after_waiting(self, state: int) -> int | None:
         """The state after an epoch in which nobody does what is not due; None where that is impossible."""
@@ -97,13 +102,13 @@ class Due:
         return tuple(o for o in variants if applicable(self._packed.op(o.actions[0]), state))
 
     def fits(self, option: JointAction, others: JointAction) -> bool:
-        """Whether an action may share an epoch with others."""
+        """Whether an action (or none) may share an epoch with others (semantics 2)."""
         if option.agents & others.agents:
             return False
         if not option.actions:
             return True
         mine = option.actions[0]
-        return all(self._packed.compatible(mine, other, strict=False) for other in others.actions)
+        return all(self._packed.compatible(mine, other, self._strict) for other in others.actions)
 
     @staticmethod
     def _in(options: _Options, state: int) -> Iterator[list[JointAction]]:

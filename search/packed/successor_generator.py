@@ -86,7 +86,8 @@ class Successors:
         self._own = Lookup(packed.own_index, weight)
         self._joint = Lookup(packed.joint_index, weight, barred) if packed.joint and not idle else None
         self._led = [] if idle else [Lookup(index, weight, barred) for index in packed.robot_indices]
-        self._due = Due(packed, weight)
+        self._due = Due(packed, weight, strict=strict)
+        self._fits = self._due.fits
         self._busy: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
         self._changing: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
 
@@ -216,7 +217,7 @@ class Successors:
         for chosen in sets:
             self._deadline.tick()
             for option in more:
-                if not chosen.agents & option.agents and self._fits(option, chosen):
+                if self._fits(option, chosen):
                     yield together(chosen, option)
 
     def _combine(self, first: JointAction, sets: list[JointAction]) -> Iterator[JointAction]:
@@ -225,15 +226,8 @@ class Successors:
                 self._deadline.check()
             if not chosen.actions:
                 yield first
-            elif not chosen.agents & first.agents and self._fits(first, chosen):
+            elif self._fits(first, chosen):
                 yield together(first, chosen)
-
-    def _fits(self, single: JointAction, others: JointAction) -> bool:
-        """Whether ``single`` (of at most one action) may share an epoch with ``others``."""
-        if not single.actions:
-            return True
-        mine = single.actions[0]
-        return all(self._packed.compatible(mine, other, self._strict) for other in others.actions)
 
 
 def in_time(option: JointAction, idle: Idle) -> bool:

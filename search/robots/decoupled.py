@@ -242,13 +242,7 @@ class DecoupledSuccessors(Successors):
         """See :class:`Successors`."""
         found = [first]
         for options in self._in_time(state, idle):
-            more = [
-                deed
-                for deed in options
-                if not deed.agents & first.agents
-                and self._fits(deed, first)
-                and promising(together(first, deed))
-            ]
+            more = [deed for deed in options if self._fits(deed, first) and promising(together(first, deed))]
             found += [together(chosen, deed) for deed in more for chosen in self._beside(deed, found)]
         found.sort(key=lambda option: option.weight)
         return found
@@ -256,7 +250,7 @@ class DecoupledSuccessors(Successors):
     def _beside(self, deed: JointAction, sets: list[JointAction]) -> list[JointAction]:
         """The sets that a deed fits."""
         self._deadline.tick()
-        return [chosen for chosen in sets if not deed.agents & chosen.agents and self._fits(deed, chosen)]
+        return [chosen for chosen in sets if self._fits(deed, chosen)]
 
     def rested(self, idle: Idle, option: JointAction, state: int) -> Idle:
         """See :class:`Successors`."""

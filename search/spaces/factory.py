@@ -304,8 +304,10 @@ def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
         return Preserved(steps, context.goals, expected)
     if options.suffix == "subplan":
         return Subplan(steps, context.goals, context.deadline)
-    replan = Replan(context.alone, context.alone_to_both, packed.robot_goal, packed.at_rest, context.keys)
+    # Beside a script robots' goals may be reached, or lost, once the human is done: Lasting asks for them.
+    theirs = packed.condition(Condition()) if packed.clock_bit else packed.robot_goal
+    replan = Replan(context.alone, context.alone_to_both, theirs, packed.at_rest, context.keys)
     if not packed.clock_bit:
         return replan
-    due = Due(packed, context.weights.team)
+    due = Due(packed, context.weights.team, strict=options.strict)
     return Lasting(replan, context.alone_to_both or context.alone, context.goals, due)

@@ -48,7 +48,8 @@ class FixedHumanPlan:
     def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors of a node; it is offered to ``best`` where ``pi_H`` is over and goals hold."""
         done = node.epoch >= len(self.steps)
-        if done and node.key < best.key and all(goal.holds(node.state) for goal in self.goals):
+        reached = done and node.key < best.key and all(goal.holds(node.state) for goal in self.goals)
+        if reached and self.successors.due.may_end(node.state, node.epoch, self.horizon):
             best.key, best.node = node.key, node
         if node.epoch == self.horizon:
             return

@@ -91,8 +91,8 @@ class Unrestricted:
         """Whether a plan ends at the node (going on could only cost more)."""
         if node.key >= best.key or not all(goal.holds(node.state) for goal in self.goals):
             return False
-        if node.epoch != self.horizon and not self.successors.due.is_calm(node.state):
-            return False  # what is reached may be lost again, and will be offered later if it is not
+        if not self.successors.due.may_end(node.state, node.epoch, self.horizon):
+            return False  # it will be offered later
         best.key, best.node = node.key, node
         return True
 

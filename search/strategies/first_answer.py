@@ -31,13 +31,13 @@ def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None
     return SearchContext(prepared, Options(), deadline or Deadline()).optimal_plans()
 
 
-def canonical_human_plan(prepared: PreparedTask, deadline: Deadline) -> HumanPlan | None:
+def canonical_human_plan(prepared: PreparedTask, deadline: Deadline, options: Options) -> HumanPlan | None:
     """The canonical plan of the human alone (semantics 1), or None where they have none.
 
     Raises:
         LimitReachedError: the deadline ran out.
     """
-    optimal = SearchContext(prepared, Options(), deadline).canonical_plan()
+    optimal = SearchContext(prepared, options, deadline).canonical_plan()
     return None if optimal is None else optimal.actions
 
 

@@ -111,6 +111,7 @@ def solve(
     options: Options,
     *,
     human_plan: HumanPlan | None = None,
+    predicts: bool = True,
     deadline: Deadline | None = None,
     warm: WarmStart | None = None,
     turns: Sequence[Turn] = TURNS,
@@ -121,6 +122,7 @@ def solve(
         prepared: the task.
         options: options in force; ``mode`` is not ``assistance``.
         human_plan: ``pi_H``, already replayed, or None to predict it.
+        predicts: False: without ``human_plan`` the human is known to have no plan alone.
         deadline: deadline and cancellation.
         warm: what is known before.
         turns: those that may be taken; of these, those that the options name.
@@ -136,7 +138,7 @@ def solve(
         return
     call = Call(context, human_plan, warm or WarmStart())
     try:
-        begin(call)
+        begin(call, predicts=predicts)
         for turn in chosen_ones:
             if _is_due(call, turn.stage) and turn.applies(call):
                 for _ in _taken(call, turn):
@@ -156,12 +158,14 @@ def _is_due(call: Call, stage: CallStage) -> bool:
     return (call.is_done or call.is_settled) == (stage is CallStage.FINISH)
 
 
-def begin(call: Call) -> None:
+def begin(call: Call, *, predicts: bool = True) -> None:
     """Go on beside a given plan, or without one where the answer does not have to wait for it."""
     if calls.is_for_team_first(call):
         call.begin_without_plan()
     elif call.given is not None and call.options.mode != "individual":
         call.follow(call.given, optimal=False)
+    elif not predicts:
+        call.follow(None, optimal=True)
 
 
 def _taken(call: Call, turn: Turn) -> Iterator[None]:

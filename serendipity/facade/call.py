@@ -23,6 +23,7 @@ class Request:
         prepared: the task.
         options: in force.
         given: ``pi_H`` where the caller gave it; None predicts it.
+        predicts: False: the human is known to have no plan alone, where none is given.
         visible: what a human of ``human_model="local"`` sees; None for the default.
         limits: of the whole call.
         deadline: of the search: the same without the time that is kept for the end.
@@ -36,6 +37,7 @@ class Request:
     limits: Deadline
     deadline: Deadline
     question: RememberedQuestion | None = None
+    predicts: bool = True
 
     @property
     def task(self) -> Task:

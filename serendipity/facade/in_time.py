@@ -9,15 +9,8 @@ from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.task.horizon import horizon_of
-from serendipity.model.task.plans import Step, TimedPlan
+from serendipity.model.task.plans import Step
 from serendipity.model.task.unit_steps import UnitSteps, unit_steps
-
-
-def takes_time(call: Request) -> bool:
-    """Whether an action of a call takes more than one epoch, or the human waits."""
-    options = call.options
-    waits = isinstance(call.given, TimedPlan) or bool(options.head_start or options.waiting_cost)
-    return waits or call.task.needs_time
 
 
 def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
@@ -32,37 +25,48 @@ def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
         UsageError: the call asks for something that is not answered for such tasks.
     """
     _require_plain(call.options)
-    epochs, alone = call.options.head_start, call.options.mode == "individual"
     try:
         units = unit_steps(call.task, call.deadline)
-        prepared = PreparedTask(units.task)
-        given = None if call.given is None else units.plan(call.given)
-        if epochs:
-            if given is not None:  # it may come too late
-                call.task.replay_alone(units.begun(units.after_waiting(given, epochs)))
-            state = units.waited(epochs)
-            if state is None:
-                yield Answer("infeasible", reason="no-human-plan")
-                return
-            later = PreparedTask(units.task.at(state))
-            plan = canonical_human_plan(later, call.deadline) if given is None and not alone else given
-            given = None if plan is None else plan if alone else units.after_waiting(plan, epochs)
-            prepared = later if alone else prepared
+        inner = _in_units(call, units)
     except LIMITS as limit:
         yield Answer("unknown", reason=limit_reason(limit))
         return
-    if epochs and given is None and call.task.script and not alone:
-        if call.options.mode != "serendipity":
-            raise UsageError("head_start: the human has no plan alone after it")
+    if not inner.predicts and call.options.mode in ("individual", "serendipity"):
         yield Answer("infeasible", reason="no-human-plan")
         return
-    inner = replace(call, prepared=prepared, given=given, options=call.options.but(head_start=0))
+    epochs = call.options.head_start if call.options.mode == "individual" else 0
     horizon = call.options.horizon
     for number, answer in enumerate(solver(inner)):
-        told = _told(units, _later(units, answer, epochs) if alone else answer)
+        told = _told(units, _later(units, answer, epochs))
         if not number and told.human_plan is not None and horizon is not None:
             horizon_of(call.task, call.options, told.human_plan)  # which says whether what it reaches lasts
         yield told
+
+
+def _in_units(call: Request, units: UnitSteps) -> Request:
+    """The call in single epochs.
+
+    Raises:
+        LimitReachedError: the deadline came.
+        PlanError: as :func:`answers_in_time`.
+    """
+    prepared, given = PreparedTask(units.task), None if call.given is None else units.plan(call.given)
+    options, epochs = call.options.but(head_start=0), call.options.head_start
+    if given is not None:  # it may come too late, or be in a bystander's way
+        call.task.replay_alone(units.begun(units.after_waiting(given, epochs)), strict=options.strict)
+    inner = replace(call, prepared=prepared, given=given, options=options)
+    if not epochs:
+        return inner
+    state = units.waited(epochs, strict=options.strict)
+    if state is None:
+        return replace(inner, predicts=False)
+    later = PreparedTask(units.task.at(state))
+    if options.mode == "individual":
+        return replace(inner, prepared=later)
+    plan = canonical_human_plan(later, call.deadline, options) if given is None else given
+    if plan is None:
+        return replace(inner, predicts=False)
+    return replace(inner, given=units.after_waiting(plan, epochs))
 
 
 def _require_plain(options: Options) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 from search import PreparedTask
 from serendipity.facade import one_plan, ties
 from serendipity.facade.call import Given, Request, Solver, checked_call, options_from
-from serendipity.facade.in_time import answers_in_time, takes_time
+from serendipity.facade.in_time import answers_in_time
 from serendipity.facade.logs import record, recorded
 from serendipity.facade.memory import SessionMemory
 from serendipity.facade.prepared import HELD
@@ -21,7 +21,7 @@ from serendipity.model.arguments import FUNCTION, expect_or_none
 from serendipity.model.keywords import listing
 from serendipity.model.numbers import Number
 from serendipity.model.resources.collection import no_collection
-from serendipity.model.task.gate import refuse_time
+from serendipity.model.task.gate import needs_time, refuse_time
 from serendipity.model.task.plans import PlanEntry, checked_entries
 
 if TYPE_CHECKING:
@@ -194,7 +194,7 @@ def _begun(
         call = replace(call, question=memory.question(chosen, visible, about, plan))
     if call.known is not None:
         return call, iter((call.known,))
-    if takes_time(call):
+    if needs_time(call.task, options=chosen, plan=call.given):
         if goals is not None:
             raise UsageError("goals: are not planned for where actions take time")
         refuse_time(plan=call.given)

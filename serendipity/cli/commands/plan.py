@@ -15,6 +15,7 @@ from serendipity.cli.streams.manner import is_verbose
 from serendipity.cli.streams.stderr import write_line
 from serendipity.model import Certificate, Claim, Deadline, Result, Task, UsageError
 from serendipity.model.numbers import plain
+from serendipity.model.task.gate import needs_time
 from serendipity.model.telling import json_of
 
 _CHECK_SHARE: Final = 0.05
@@ -98,7 +99,7 @@ def _certificate(
     task: Task, result: Result, cancelled: threading.Event, deadline: Deadline, *, certify: bool
 ) -> tuple[Certificate, bool]:
     """What the checker says, and whether by a proof: whoever interrupts need not wait for one."""
-    if task.needs_time or result.options.head_start:
+    if needs_time(task, options=result.options):
         unchecked = Claim("replay", "undecided", "the checker does not know time yet (semantics 10)")
         return Certificate((unchecked,), 0.0), False
     with progress.working("verifying"):

@@ -10,20 +10,25 @@ if TYPE_CHECKING:
     from serendipity.model.task.task import HumanPlan, Task
 
 
+def needs_time(
+    task: "Task | None" = None, *, options: Options | None = None, plan: "HumanPlan | None" = None
+) -> str | None:
+    """The reason why a call can't do without time, in words; None where it can."""
+    if task is not None and task.needs_time:
+        return "the task has a script" if task.script else "the task has actions of more than one epoch"
+    if options is not None and (options.waiting_cost or options.head_start):
+        return "waiting_cost and head_start are given"
+    return "the human waits in their plan" if isinstance(plan, TimedPlan) else None
+
+
 def refuse_time(
     task: "Task | None" = None, *, options: Options | None = None, plan: "HumanPlan | None" = None
 ) -> None:
     """Return if a call can do without time.
 
     Raises:
-        UsageError: an action takes more than one epoch, there is a script, or the human waits in their plan.
+        UsageError: it can't.
     """
-    if task is not None and task.needs_time:
-        what = "the task has a script" if task.script else "the task has actions of more than one epoch"
-    elif options is not None and (options.waiting_cost or options.head_start):
-        what = "waiting_cost and head_start are given"
-    elif isinstance(plan, TimedPlan):
-        what = "the human waits in their plan"
-    else:
-        return
-    raise UsageError(f"time: {what}, which is known to plan only, not here yet")
+    what = needs_time(task, options=options, plan=plan)
+    if what is not None:
+        raise UsageError(f"time: {what}, which is known to plan only, not here yet")

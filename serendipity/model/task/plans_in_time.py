@@ -28,13 +28,13 @@ def plan_in_time(task: "Task", entries: Iterable[PlanEntry]) -> "HumanPlan":
     return without_gaps(task, TimedPlan(human.actions, human.starts, human.course.epoch))
 
 
-def replayed(task: "Task", plan: "HumanPlan") -> list[frozenset[int]]:
+def replayed(task: "Task", plan: "HumanPlan", *, strict: bool = False) -> list[frozenset[int]]:
     """The state after each epoch of a human plan that reaches the goal, the initial one first.
 
     Raises:
         PlanError: a step is not theirs or can't be done, or the goal is missed.
     """
-    human = _done(task, plan)
+    human = _done(task, plan, strict=strict)
     task.require_goal(human.course.state, plan)
     return human.states
 

@@ -171,14 +171,18 @@ class Task(Told):
         """The length of a human plan in epochs, waiting included."""
         return plan.length if isinstance(plan, TimedPlan) else sum(self.actions[i].duration for i in plan)
 
-    def replay_alone(self, plan: HumanPlan) -> list[frozenset[int]]:
+    def replay_alone(self, plan: HumanPlan, *, strict: bool = False) -> list[frozenset[int]]:
         """States ``s_0 .. s_n`` after each epoch while the human executes ``plan`` and robots idle.
+
+        Args:
+            plan: the plan.
+            strict: whether interference is strict, which matters beside bystanders.
 
         Raises:
             PlanError: an action is not theirs alone or not applicable, or ``G_H`` is missed.
         """
         if self.needs_time or isinstance(plan, TimedPlan):
-            return replayed(self, plan)
+            return replayed(self, plan, strict=strict)
         states = [self.init]
         for step, action_id in enumerate(plan, start=1):
             states.append(self._after(states[-1], action_id, step))

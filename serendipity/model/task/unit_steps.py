@@ -6,19 +6,19 @@ is done in the next epoch, whatever else is. The first has the name and the cost
 plan is told by those that begin in it. Agents at work are not *free*; all are at the end, but bystanders. A
 script is a chain, too: the epochs of a clock, each of which is due, with what bystanders begin in it.
 
-Search and verifier both work on these tasks.  That is no risk to their agreement: the verifier's rules judge
-the plan that is told, of the task that was given, and so does the brute force of the tests.
+The search works on these tasks, and nobody who judges it does: the brute force of the tests reads the task
+that was given.
 """
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import chain, pairwise
+from itertools import chain, combinations, pairwise
 from typing import Final
 
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.actions import Condition, GroundAction, apply
+from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
 from serendipity.model.task.plans import Step, TimedPlan
 from serendipity.model.task.script import Timeline
 from serendipity.model.task.task import HumanPlan, Task
@@ -75,17 +75,19 @@ class UnitSteps:
             return tuple(starts.values())
         return TimedPlan(starts.values(), starts, len(plan))
 
-    def waited(self, epochs: int) -> frozenset[int] | None:
+    def waited(self, epochs: int, *, strict: bool) -> frozenset[int] | None:
         """The state of the task after some epochs of what is due; None where that is impossible."""
         task, state = self.task, self.task.init
         clock = len(task.agents) - 1 if CLOCK in task.agents else -1
         for _ in range(epochs):
-            actions = [task.actions[action] for fact, action in task.due if fact in state]
-            done = [action for action in actions if action.applicable(state)]
-            if {action.name for action in actions} != {action.name for action in done}:
+            due = [task.actions[action] for fact, action in task.due if fact in state]
+            done = {action.name: action for action in reversed(due) if action.applicable(state)}
+            theirs = [action for action in done.values() if action.participants != (clock,)]
+            clash = any(conflicting(a, b, strict=strict) for a, b in combinations(theirs, 2))
+            if clash or any(action.name not in done for action in due):
                 return None
-            state = apply(state, *[action for action in done if action.participants != (clock,)])
-            state = apply(state, *[action for action in done if action.participants == (clock,)])
+            ticks = [action for action in done.values() if action.participants == (clock,)]
+            state = apply(apply(state, *theirs), *ticks)
         return state
 
     def steps(self, steps: Iterable[Step]) -> tuple[Step, ...]:

@@ -1,5 +1,6 @@
 """Small tasks and calls with time: durations, scripts, bystanders, plans with waiting (semantics 10)."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import accumulate
@@ -37,8 +38,13 @@ def timed_tasks(draw: st.DrawFn, *, of: st.SearchStrategy[Task] | None = None) -
         of: tasks of one epoch each, or None for small ones.
     """
     built = draw(small_tasks() if of is None else of)
-    actions = tuple(draw(_timed(action)) for action in built.actions)
-    return replace(built, actions=actions)
+    times = Counter((action.name, action.participants) for action in built.actions)
+    # Which variant of one action is meant is known when it begins: they stay as they are.
+    actions = [
+        draw(_timed(action)) if times[action.name, action.participants] == 1 else action
+        for action in built.actions
+    ]
+    return replace(built, actions=tuple(actions))
 
 
 @st.composite

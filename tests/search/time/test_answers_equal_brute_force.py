@@ -3,7 +3,7 @@
 from hypothesis import assume, given
 
 import serendipity
-from serendipity.model import Options, PlanError, TimedPlan, UsageError
+from serendipity.model import PlanError, TimedPlan, UsageError
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies.time import calls_in_time
@@ -13,17 +13,11 @@ _PLAIN = {"suffix": "replan", "preservation": "kernel", "keep_prefix": False, "w
 
 def answered(call: Call) -> tuple[object, ...]:
     """Status and figures, or that the call is refused."""
-    plan = call.human_plan
-    names = None if plan is None else [call.task.actions[i].name for i in plan]
     try:
-        found = serendipity.plan(call.task, human_plan=names, **given_options(call.options))
+        found = serendipity.plan(call.task, human_plan=call.human_plan_names, **call.keywords())
     except (UsageError, PlanError):
         return ("refused",)
     return found.status, found.cost, found.objective, found.window, found.opportunity
-
-
-def given_options(options: Options) -> dict[str, object]:
-    return {name: getattr(options, name) for name in Options.__dataclass_fields__}
 
 
 def expected(call: Call) -> tuple[object, ...]:

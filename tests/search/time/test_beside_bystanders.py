@@ -1,0 +1,61 @@
+"""Small tasks beside a bystander: what they undo, whom they are in the way of, and when they can't go on."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+import serendipity
+from serendipity import Task
+from serendipity.model import Condition, Options, Script
+from serendipity.testing.builders import task
+from serendipity.testing.oracle import best
+
+AGENTS = {"agents": "h r q", "human": "h"}
+
+
+def test_robots_goals_that_a_bystander_undoes_later_are_not_reached() -> None:
+    built = task(**AGENTS, goal="f", actions={"a h": "-> f", "b r": "-> g", "c q": "-> !g"})
+    wanted = replace(built, robot_goal=Condition((built.facts.index("g"),)))
+    undone = wanted.with_script(Script(people={"q": [(2, "c q")]}))
+    assert serendipity.plan(wanted, horizon=2).status == "optimal"
+    answer = serendipity.plan(undone, horizon=2)
+    assert answer.status == best(undone, Options(horizon=2)).status == "infeasible"
+
+
+def test_robots_goals_that_a_bystander_reaches_once_the_human_is_done() -> None:
+    built = task(**AGENTS, init="k", goal="f", actions={"a h": "-> f @ 3", "b r": "k -> f !k", "c q": "-> g"})
+    later = replace(built, robot_goal=Condition((built.facts.index("g"),)))
+    later = later.with_script(Script(people={"q": [(3, "c q")]}))
+    options = {"horizon": 3, "discount": "0.5", "window_weight": 0}
+    found, expected = serendipity.plan(later, **options), best(later, Options(**options))
+    assert (found.status, found.cost, found.opportunity) == (
+        expected.status,
+        float(expected.cost or 0),
+        expected.opportunity,
+    )
+
+
+def blocked() -> Task:
+    """A human whose only way is where a bystander is at first, under strict interference."""
+    built = task(
+        **AGENTS, goal="f", actions={"a h": "!k -> f", "b r": "-> g", "c q": "-> k", "d q": "k -> !k"}
+    )
+    return built.with_script(Script(people={"q": [(1, "c q"), (2, "d q")]}))
+
+
+@pytest.mark.parametrize(("interference", "epochs"), [("paper", 1), ("strict", 3)])
+def test_under_strict_interference_nobody_acts_on_what_a_bystander_changes(
+    interference: str, epochs: int
+) -> None:
+    assert serendipity.plan(blocked(), mode="individual", interference=interference).horizon == epochs
+
+
+def test_without_a_plan_after_a_head_start_the_team_may_have_one() -> None:
+    built = task(**AGENTS, init="k", goal="f", actions={"a h": "k -> f", "b r": "-> f", "c q": "-> !k"})
+    gone = built.with_script(Script(people={"q": [(1, "c q")]}))
+    assert serendipity.plan(gone, head_start=1).status == "infeasible"
+    options = Options(mode="composite", horizon=3, head_start=1, discount="0.5")
+    answer = serendipity.plan(gone, mode="composite", horizon=3, head_start=1, discount="0.5")
+    assert (answer.status, answer.cost, answer.human_plan) == ("optimal", 0.5, None)
+    assert best(gone, options).cost == Fraction(1, 2)
