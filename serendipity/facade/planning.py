@@ -197,9 +197,8 @@ def _begun(
     if needs_time(call.task, options=chosen, plan=call.given):
         if goals is not None:
             raise UsageError("goals: are not planned for where actions take time")
-        refuse_time(plan=call.given)
         if memory is not None:
-            refuse_time(options=chosen)
+            refuse_time(options=chosen, plan=call.given)
         return call, answers_in_time(call, solver)
     if goals is not None:
         call, solver = settled(call, goals, observed, beta)

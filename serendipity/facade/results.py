@@ -11,6 +11,8 @@ from serendipity.model.answers.answer import Answer, ServedGoal, Tried
 from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
 from serendipity.model.numbers import figure, rounded
 from serendipity.model.task.execution import actions_of, participants, shares
+from serendipity.model.task.plans import PlanTimes
+from serendipity.model.task.plans_in_time import times_of
 
 
 def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> Result:
@@ -31,6 +33,8 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
         human=task.agents[task.human],
         options=options,
         human_plan=_names(task, answer.human_plan),
+        human_plan_times=_times(task, answer.human_plan),
+        bystanders=_bystanders(task),
         human_cost=rounded(human_cost),
         opportunity=answer.opportunity,
         cost=rounded(answer.cost),
@@ -74,12 +78,28 @@ def named_steps(task: Task, discount: Fraction, steps: Iterable[Step]) -> tuple[
         price = prices.get(kind)
         if price is None:
             price = prices[kind] = figure(task.team_cost(action, discount))
-        named.append(PlanStep(step.epoch, participants(task, action), action.name, price))
+        who = participants(task, action)
+        named.append(PlanStep(step.epoch, who, action.name, price, action.duration))
     return tuple(named)
 
 
 def _names(task: Task, plan: HumanPlan | None) -> tuple[str, ...] | None:
     return None if plan is None else tuple(task.actions[i].name for i in plan)
+
+
+def _times(task: Task, plan: HumanPlan | None) -> PlanTimes | None:
+    """The times of a human plan; None where its actions follow one another, an epoch each."""
+    times = None if plan is None else times_of(task, plan)
+    return None if times is None or times.plain else times
+
+
+def _bystanders(task: Task) -> dict[str, tuple[PlanStep, ...]]:
+    """What bystanders do, by name; it costs nobody anything."""
+    found: dict[str, list[PlanStep]] = {task.agents[i]: [] for i in sorted(task.script.people)}
+    for deed in task.script.deeds:
+        who = task.agents[deed.agent]
+        found[who].append(PlanStep(deed.epoch, (who,), deed.name, 0.0, deed.variants[0].duration))
+    return {who: tuple(steps) for who, steps in found.items()}
 
 
 def _plan(task: Task, discount: Fraction, steps: tuple[Step, ...] | None) -> tuple[PlanStep, ...] | None:
@@ -110,7 +130,8 @@ def _tried(row: Tried) -> dict[str, Any]:
 def _tied(task: Task, discount: Fraction, answer: Answer, status: str) -> TiedAnswer:
     """One of the answers over ties; with its plan where not all is proved, as evidence."""
     names = _names(task, answer.human_plan) or ()
-    found = TiedAnswer(names, rounded(answer.cost), answer.opportunity, dict(answer.realised or {}))
+    verdicts, times = dict(answer.realised or {}), _times(task, answer.human_plan)
+    found = TiedAnswer(names, rounded(answer.cost), answer.opportunity, verdicts, human_plan_times=times)
     if status != "feasible":
         return found
     return replace(found, plan=_plan(task, discount, answer.steps), window=answer.window)
@@ -124,4 +145,5 @@ def _goal(task: Task, discount: Fraction, goal: ServedGoal) -> GoalAnswer:
         rounded(goal.cost),
         goal.window,
         _plan(task, discount, goal.steps),
+        _times(task, goal.human_plan),
     )

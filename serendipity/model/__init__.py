@@ -20,7 +20,7 @@ from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.table import Table
 from serendipity.model.task.actions import Condition, GroundAction, Timing
-from serendipity.model.task.plans import PlanStep, Step, TimedPlan, Window
+from serendipity.model.task.plans import PlanStep, PlanTimes, Step, TimedPlan, Window
 from serendipity.model.task.script import Deed, Script, TimedFact, Timeline
 from serendipity.model.task.task import HumanPlan, Task
 from serendipity.model.task.visibility import Surroundings, Visible, surroundings
@@ -46,6 +46,7 @@ __all__ = [
     "PlanError",
     "PlanOptions",
     "PlanStep",
+    "PlanTimes",
     "Policy",
     "ProofCheck",
     "RefutedProgram",

@@ -70,7 +70,7 @@ def expect(kind: Kind, **given: object) -> None:
         if kind is TASK and isinstance(value, Task):
             refuse_time(value)
         elif kind is RESULT and isinstance(value, Result) and isinstance(value.options, Options):
-            refuse_time(options=value.options)
+            refuse_time(options=value.options, plan=value.human_plan_times)
 
 
 def expect_or_none(kind: Kind, **given: object) -> None:

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from serendipity.model import HumanPlan, Options, Task
+from serendipity.model.task.plans import PlanEntry
+from serendipity.model.task.plans_in_time import times_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +22,13 @@ class Call:
         if self.human_plan is None:
             return None
         return [self.task.actions[i].name for i in self.human_plan]
+
+    @property
+    def human_entries(self) -> tuple[PlanEntry, ...] | None:
+        """The given plan as the facade takes it, with the epoch in which each action begins."""
+        if self.human_plan is None:
+            return None
+        return times_of(self.task, self.human_plan).entries(self.human_plan_names or ())
 
     def keywords(self, **changes: Any) -> dict[str, Any]:
         """The options as the facade takes them, each of them, with some changed."""

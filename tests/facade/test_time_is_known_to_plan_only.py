@@ -43,10 +43,12 @@ def test_tasks_that_need_time_are_refused(name: str) -> None:
         CALLS[name](plain().with_script(Script(facts=[(2, "done")])))
 
 
-def test_waiting_is_refused() -> None:
-    with pytest.raises(UsageError, match="time: the human waits in their plan"):
-        serendipity.plan(plain(), human_plan=[(3, "do h")])
-    assert serendipity.plan(plain(), human_plan=[(1, "do h")]).cost == 1
+def test_waiting_is_refused_elsewhere() -> None:
+    waiting = serendipity.plan(plain(), human_plan=[(3, "do h")])
+    assert (waiting.status, waiting.horizon) == ("optimal", 3)
+    for ask in (serendipity.verify, serendipity.explain, serendipity.check):
+        with pytest.raises(UsageError, match="time: the human waits in their plan"):
+            ask(plain(), waiting)
     with pytest.raises(UsageError, match="waiting_cost: is read, but not planned for yet"):
         serendipity.plan(plain(), waiting_cost=1)
 

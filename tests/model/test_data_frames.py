@@ -41,12 +41,12 @@ def test_a_plan_has_a_row_a_step(library: str) -> None:
     result = serendipity.plan(serendipity.example("room2"), discount=0.6)
     rows = rows_of(result.to_dataframe(library))
     assert rows == [
-        {"epoch": s.epoch, "agents": ", ".join(s.agents), "action": s.action, "cost": s.cost}
+        {"epoch": s.epoch, "agents": ", ".join(s.agents), "action": s.action, "cost": s.cost, "duration": 1}
         for s in result.plan
     ]
     assert sum(row["cost"] for row in rows) == pytest.approx(12.6)
     nothing = serendipity.Result("serendipity", "unknown", "commx", result.options).to_dataframe(library)
-    assert list(nothing.columns) == ["epoch", "agents", "action", "cost"] and len(nothing) == 0
+    assert list(nothing.columns) == ["epoch", "agents", "action", "cost", "duration"] and len(nothing) == 0
 
 
 def test_an_execution_has_a_row_an_epoch() -> None:
@@ -81,7 +81,7 @@ def test_without_a_library_there_is_one_line(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_columns_are_the_fields_that_hold_one_value() -> None:
-    assert columns_of(serendipity.PlanStep) == {"epoch": int, "action": str, "cost": float}
+    assert columns_of(serendipity.PlanStep) == {"epoch": int, "action": str, "cost": float, "duration": int}
     assert columns_of(Run)["alone"] is float and columns_of(Run)["reached"] is bool
     step = serendipity.PlanStep(2, ("a",), "move a", 1.0)
-    assert table_of(serendipity.PlanStep, [step]).rows == ((2, "move a", 1.0),)
+    assert table_of(serendipity.PlanStep, [step]).rows == ((2, "move a", 1.0, 1),)

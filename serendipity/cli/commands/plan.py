@@ -43,9 +43,9 @@ def plan(
     loaded = task.load(deadline)
     asked = options.given | limited.given | {"deadline": deadline.sooner(_CHECK_SHARE)}
     if options.human_plan is not None:
-        from serendipity.cli.files.plans import checked_plan
+        from serendipity.cli.files.plans import timed_plan
 
-        asked["human_plan"] = checked_plan(options.human_plan, loaded)
+        asked["human_plan"] = timed_plan(options.human_plan, loaded)
     if goals is not None:
         if save_plan is not None:
             raise UsageError("--save-plan: there is no single plan with --goals")
@@ -99,7 +99,7 @@ def _certificate(
     task: Task, result: Result, cancelled: threading.Event, deadline: Deadline, *, certify: bool
 ) -> tuple[Certificate, bool]:
     """What the checker says, and whether by a proof: whoever interrupts need not wait for one."""
-    if needs_time(task, options=result.options):
+    if needs_time(task, options=result.options, plan=result.human_plan_times):
         unchecked = Claim("replay", "undecided", "the checker does not know time yet (semantics 10)")
         return Certificate((unchecked,), 0.0), False
     with progress.working("verifying"):

@@ -9,39 +9,68 @@ from serendipity.cli.files.reading import read_text
 from serendipity.model import GroundAction, PlanError, PlanStep, Result, Task
 from serendipity.model.numbers import plain
 from serendipity.model.printable import printable
-from serendipity.model.task.actions import disables
+from serendipity.model.task.actions import NOOP, disables
+from serendipity.model.task.gate import refuse_time
+from serendipity.model.task.plans import PlanEntry
 from serendipity.model.telling import team
-from serendipity.pddl.parsing.timed_plans import entries, plan_lines
+from serendipity.pddl.parsing.timed_plans import PlanLine, entries, plan_lines, timed_line
 
 _PLAN: Final = "human plan: "
 
 
 def checked_plan(path: Path | None, task: Task) -> tuple[str, ...] | None:
-    """The names of the actions in a file, if there is one; waiting is part of it where actions have times.
+    """The names of the actions in a file, if there is one, for what does not know waiting.
 
     Raises:
         InputError: ``file:line`` and what was expected.
         PlanError: ``file:line`` and the first action that is wrong in the task, or the goal missed.
         UsageError: the human waits in it.
     """
-    if path is None:
+    listed = None if path is None else timed_plan(path, task)
+    if listed is None:
         return None
-    found = [one._replace(name=one.name.strip()) for one in plan_lines(read_text(path), path, _PLAN)]
-    kept = [one for one in found if one.timed or one.name.lower() not in ("", "noop")]
-    listed = entries(kept, task, path, _PLAN)
+    refuse_time(plan=task.plan_from_names(listed))
+    return tuple(entry if isinstance(entry, str) else entry[1] for entry in listed)
+
+
+def timed_plan(path: Path, task: Task) -> tuple[PlanEntry, ...]:
+    """The human's plan in a file; waiting is part of it where actions have times.
+
+    Raises:
+        InputError: ``file:line`` and what was expected.
+        PlanError: ``file:line`` and the first action that is wrong in the task, or the goal missed.
+    """
+    lines = _actions_in(path, _PLAN)
+    listed = entries(lines, task, path, _PLAN)
     try:
         task.plan_from_names(listed)
     except PlanError as error:
-        line = None if error.step is None else kept[error.step - 1].line
+        line = None if error.step is None else lines[error.step - 1].line
         raise PlanError(error.message, path, line) from None
-    return tuple(entry if isinstance(entry, str) else entry[1] for entry in listed)
+    return tuple(listed)
+
+
+def bystanders_plan(path: Path, task: Task, person: str) -> tuple[PlanEntry, ...]:
+    """The plan of a bystander in a file; waiting is part of it where actions have times.
+
+    Raises:
+        InputError: ``file:line`` and what was expected.
+    """
+    what = f"plan of {person}: "
+    return tuple(entries(_actions_in(path, what), task, path, what))
+
+
+def _actions_in(path: Path, what: str) -> list[PlanLine]:
+    found = [one._replace(name=one.name.strip()) for one in plan_lines(read_text(path), path, what)]
+    return [one for one in found if one.timed or one.name.lower() not in ("", "noop")]
 
 
 def plan_file(task: Task, result: Result) -> str:
     """A plan, epoch by epoch: ``(move commx room13 hall8)``, comments apart.
 
     Within an epoch an action comes before those that would undo what it needs, so that the
-    lines can also be executed one after another; a comment says where no order does.
+    lines can also be executed one after another; a comment says where no order does.  In time
+    each line says when it begins and how long it takes: ``12.000: (walk ann bed sink) [4.000]``.
 
     Args:
         task: that the result answers.
@@ -54,10 +83,25 @@ def _lines(task: Task, result: Result) -> Iterator[str]:
     robots = [task.agents[i] for i in task.robots]
     yield f"; {printable(f'{task.name}: {team(result.human, robots)}')}"
     steps = sorted(result.plan or (), key=lambda step: step.epoch)
+    in_time = task.needs_time or result.in_time
+    yield from _timed_lines(task, result, steps) if in_time else _lines_by_epoch(task, steps)
+    yield f"; cost = {plain(result.cost)} (general cost)"
+
+
+def _timed_lines(task: Task, result: Result, steps: list[PlanStep]) -> Iterator[str]:
+    """The lines of a plan in time; a last ``noop`` says until when a human who is alone waits."""
+    for who, theirs in result.bystanders.items():
+        yield from (f"; {who}: {timed_line(task, s.epoch, s.action, s.duration)}" for s in theirs)
+    yield from (timed_line(task, s.epoch, s.action, s.duration) for s in steps)
+    times = result.human_plan_times
+    if result.mode == "individual" and times is not None and times.waits_at_end:
+        yield timed_line(task, times.epochs, NOOP, 1)
+
+
+def _lines_by_epoch(task: Task, steps: list[PlanStep]) -> Iterator[str]:
     for epoch, group in groupby(steps, key=lambda step: step.epoch):
         yield f"; epoch {epoch}"
         yield from _ordered(task, list(group))
-    yield f"; cost = {plain(result.cost)} (general cost)"
 
 
 def _ordered(task: Task, steps: list[PlanStep]) -> Iterator[str]:

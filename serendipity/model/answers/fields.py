@@ -29,7 +29,7 @@ from typing import Any, Final, Literal, NamedTuple, TypeVar, Union, get_args, ge
 from serendipity.model.errors import UsageError
 from serendipity.model.numbers import MOST_IN_RESULTS, Figure, as_written, exact, rounded
 from serendipity.model.options import MAX_EPOCH
-from serendipity.model.task.plans import PlanStep, Window
+from serendipity.model.task.plans import PlanStep, PlanTimes, Window
 
 T = TypeVar("T")
 
@@ -100,7 +100,7 @@ def read(kind: Callable[..., T], value: Any, where: str) -> T:
         MalformedError: naming a field that is missing or of another form.
     """
     given, forms = mapping(value, where), _forms(kind)
-    if kind in _CLOSED and given.keys() != forms.keys():
+    if kind in _CLOSED and not (given.keys() <= forms.keys() and given.keys() >= {*_needed(kind)}):
         raise MalformedError(f"{where}: expected an object with {', '.join(forms)} only, got {value!r:.50}")
     names = forms if given.keys() >= forms.keys() else [n for n in forms if n in given or n in _needed(kind)]
     try:
@@ -193,6 +193,12 @@ EPOCH: Final = Form(
     )
 )
 
+EPOCHS: Final = Form(
+    lambda value, where: checked(
+        value, where, f"a number of epochs from 1 to {MAX_EPOCH}", is_whole(value, least=1, most=MAX_EPOCH)
+    )
+)
+
 _SIMPLE: Final[dict[Any, Form]] = {
     str: Form(lambda value, where: checked(value, where, "a text", isinstance(value, str))),
     bool: Form(lambda value, where: checked(value, where, "true or false", isinstance(value, bool))),
@@ -256,5 +262,6 @@ def optional(inner: Form) -> Form:
     )
 
 
-form(PlanStep, {"epoch": EPOCH}, closed=True)
+form(PlanStep, {"epoch": EPOCH, "duration": EPOCHS}, closed=True)
+form(PlanTimes, {"starts": list_of(EPOCH), "durations": list_of(EPOCHS), "epochs": EPOCHS}, closed=True)
 form(Window, {"start": EPOCH, "end": EPOCH}, closed=True)

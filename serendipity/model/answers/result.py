@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
+from itertools import chain
 from typing import Any, Final
 
 from serendipity._version import __version__
@@ -17,10 +18,10 @@ from serendipity.model.keywords import Horizon, Mode
 from serendipity.model.numbers import as_written, plain, plain_seconds
 from serendipity.model.options import Options
 from serendipity.model.table import Table, Tabular
-from serendipity.model.task.plans import PlanStep, Window
+from serendipity.model.task.plans import PlanEntry, PlanStep, PlanTimes, Window
 from serendipity.model.telling import Grid, Line, Output, team
 
-_COLUMNS: Final = {"epoch": int, "agents": str, "action": str, "cost": float}
+_COLUMNS: Final = {"epoch": int, "agents": str, "action": str, "cost": float, "duration": int}
 
 _REASONS: Final = {
     "no-human-plan": "the human can't reach the goal alone, so there is no plan to preserve",
@@ -41,6 +42,9 @@ class Result(Tabular, Output):
     and ``optimal_plans`` (how many there are), ``goals`` and ``recognition`` (where their goal is not
     known), ``bounds`` (mode ``assistance``), ``gap`` (how the answer got better).  A part of a file that
     is of another form stays in ``statistics``, and ``malformed`` says what is wrong with it.
+
+    ``human_plan_times`` says when the human's actions begin, where these take several epochs or the human
+    waits; None: one after another.  ``bystanders`` are the plans of these, by name (semantics 10.3).
 
     ``version`` is that of the program that made it; None where its file does not say.
     """
@@ -73,6 +77,23 @@ class Result(Tabular, Output):
     gap: tuple[GapEntry, ...] | None = field(default=None, compare=False)  # it depends on the clock
     malformed: dict[str, str] = field(default_factory=dict)
     version: str | None = field(default_factory=lambda: __version__, compare=False)
+    human_plan_times: PlanTimes | None = None
+    bystanders: dict[str, tuple[PlanStep, ...]] = field(default_factory=dict)
+
+    @property
+    def human_entries(self) -> tuple[PlanEntry, ...] | None:
+        """The human's plan as :func:`serendipity.plan` takes it: names, with their epochs where it has times.
+
+        A head start is part of it.
+        """
+        times, names = self.human_plan_times, self.human_plan
+        return names if times is None or names is None else times.entries(names)
+
+    @property
+    def in_time(self) -> bool:
+        """Whether it says more of times than which epoch each action is for."""
+        longer = any(step.duration > 1 for step in self.plan or ())
+        return longer or self.human_plan_times is not None or bool(self.bystanders)
 
     def figure(self, name: str) -> int | float | None:
         """A number of the statistics; None where there is none of that name."""
@@ -81,7 +102,10 @@ class Result(Tabular, Output):
 
     def table(self) -> Table:
         """The plan, a step a row; no row without a plan."""
-        rows = tuple((step.epoch, ", ".join(step.agents), step.action, step.cost) for step in self.plan or ())
+        rows = tuple(
+            (step.epoch, ", ".join(step.agents), step.action, step.cost, step.duration)
+            for step in self.plan or ()
+        )
         return Table(_COLUMNS, rows)
 
     def says(self, part: str) -> bool:
@@ -152,7 +176,7 @@ form(Result, FORMS)
 def _robots(result: Result) -> list[str]:
     """The robots that a result names."""
     named = [*result.agent_costs, *(agent for step in result.plan or () for agent in step.agents)]
-    return [agent for agent in dict.fromkeys(named) if agent != result.human]
+    return [agent for agent in dict.fromkeys(named) if agent not in (result.human, *result.bystanders)]
 
 
 def opening(result: Result, robots: Sequence[str]) -> Iterator[Line | Grid]:
@@ -236,25 +260,53 @@ def _least_cost(result: Result) -> str:
 
 
 def _columns(result: Result, robots: Sequence[str]) -> Grid:
-    """Epochs down, agents across; a joint action stands in each participant's column."""
-    agents = [result.human, *robots]
-    former = ("",) * result.options.head_start + (result.human_plan or ())
-    steps = {(step.epoch, agent): step.action for step in result.plan or () for agent in step.agents}
-    theirs = tuple(step.action for step in result.plan or () if result.human in step.agents)
-    changed = theirs != (result.human_plan or ())
+    """Epochs down, agents across; a joint action stands in each participant's column.
+
+    In time they stand where they begin, with their lengths, and epochs in which nothing begins are left out.
+    """
+    agents = [result.human, *robots, *result.bystanders]
+    plan = [*(result.plan or ()), *chain.from_iterable(result.bystanders.values())]
+    steps = {(step.epoch, agent): _cell(step.action, step.duration) for step in plan for agent in step.agents}
+    former, changed = _former(result), _changed(result)
     inside = range(0) if result.window is None else range(result.window.start, result.window.end)
-    epochs = range(1, max([epoch for epoch, _ in steps] + [len(former)]) + 1)
+    begun = {epoch for epoch, _ in steps} | {*former}
+    epochs: Sequence[int] = range(1, max(begun, default=0) + 1)
+    if result.in_time:
+        epochs = sorted({*begun, *inside[:1], *inside[-1:]})
     rows = []
     for epoch in epochs:
         row = [f"{'* ' if epoch in inside else ''}{epoch}", *(steps.get((epoch, a), "") for a in agents)]
-        if changed:
-            row += former[epoch - 1 : epoch]
-        rows.append(row)
+        rows.append([*row, former.get(epoch, "")] if changed and epoch <= max(former, default=0) else row)
     costs = ["cost", *(plain(result.agent_costs[a]) if a in result.agent_costs else "" for a in agents)]
     if changed and result.human_cost is not None:
         costs.append(plain(result.human_cost))
-    header = ["epoch", *agents, *([f"{result.human}'s former plan"] if changed else [])]
-    return Grid(header, [*rows, costs], frozenset(epoch - 1 for epoch in inside), numbered=True)
+    header = [
+        "epoch",
+        *(f"{a} (bystander)" if a in result.bystanders else a for a in agents),
+        *([f"{result.human}'s former plan"] if changed else []),
+    ]
+    marked = frozenset(row for row, epoch in enumerate(epochs) if epoch in inside)
+    return Grid(header, [*rows, costs], marked, numbered=True)
+
+
+def _cell(action: str, duration: int) -> str:
+    return action if duration == 1 else f"{action} [{duration}]"
+
+
+def _former(result: Result) -> dict[int, str]:
+    """What the human's plan begins, by epoch."""
+    names, times = result.human_plan or (), result.human_plan_times
+    if times is None:
+        return dict(enumerate(names, start=1))
+    return dict(zip(times.starts, map(_cell, names, times.durations), strict=True))
+
+
+def _changed(result: Result) -> bool:
+    """Whether the human does something else than their plan, or at another time, which only times tell."""
+    theirs = [step for step in result.plan or () if result.human in step.agents]
+    if result.human_plan_times is None:
+        return tuple(step.action for step in theirs) != (result.human_plan or ())
+    return {step.epoch: _cell(step.action, step.duration) for step in theirs} != _former(result)
 
 
 def closing(result: Result) -> Iterator[str]:

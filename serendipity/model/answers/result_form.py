@@ -28,6 +28,7 @@ from serendipity.model.errors import UsageError
 from serendipity.model.numbers import MOST_IN_RESULTS, Figure, exact
 from serendipity.model.options import MAX_EPOCH, Options
 from serendipity.model.schemas import schema_fault
+from serendipity.model.task.plans import PlanStep
 
 SCHEMA: Final = "serendipity.result/1"
 
@@ -59,14 +60,18 @@ _IN_JSON: Final = (
 _PARTS: Final = ("gap", "ties", "optimal_plans", "bounds", "recognition", "goals")
 """The fields that stand in ``statistics`` there, if they are known."""
 
-_LATER: Final = {"version": None, "policy": None}
-"""Fields that results of the first versions do not have, and what they stand for."""
+_IN_TIME: Final = ("human_plan_times", "bystanders")
+"""The fields that stand there behind these, where they say something."""
+
+_LATER: Final[dict[str, Any]] = {"version": None, "policy": None, "human_plan_times": None, "bystanders": {}}
+"""Fields that results of the first versions, or without time, do not have, and what they stand for."""
 
 
 def object_of(result: Any) -> dict[str, Any]:
     """The JSON object of a result; see :meth:`serendipity.model.Result.to_dict`."""
     parts = written(result, (name for name in _PARTS if getattr(result, name) is not None))
-    data = {"schema": SCHEMA, **written(result, _IN_JSON)}
+    timed = (name for name in _IN_TIME if getattr(result, name))
+    data = {"schema": SCHEMA, **written(result, (*_IN_JSON, *timed))}
     data["statistics"] = {**result.statistics, **parts}
     texts = exact_texts(data)
     return data if texts is None else {**data, "exact": texts}
@@ -82,9 +87,13 @@ def fields_of(kind: type, data: Any) -> dict[str, Any]:
         raise MalformedError(f"expected a JSON object, got {type(data).__name__}")
     if fault := schema_fault(data.get("schema"), SCHEMA):
         raise MalformedError(fault)
-    found = read_fields(kind, _LATER | with_exact(data, data.get("exact", {}), "exact"), _IN_JSON)
+    given = _LATER | with_exact(data, data.get("exact", {}), "exact")
+    found = read_fields(kind, given, (*_IN_JSON, *_IN_TIME))
     if found["mode"] != found["options"].mode:
         raise MalformedError(f"mode: is {found['mode']!r:.50}, but '{found['options'].mode}' in the options")
+    times, names = found["human_plan_times"], found["human_plan"]
+    if times is not None and len(times.starts) != len(names or ()):
+        raise MalformedError(f"human_plan_times: expected {len(names or ())} starts, got {len(times.starts)}")
     statistics = found["statistics"]
     parts: dict[str, Any] = {}
     malformed = {}
@@ -115,7 +124,18 @@ def _read_count(value: Any, where: str) -> Any:
     return checked(value, where, "a number of plans", is_whole(value))
 
 
+def _read_bystanders(value: Any, where: str) -> dict[str, tuple[PlanStep, ...]]:
+    return {name: _STEPS.read(steps, f"{where}.{name}") for name, steps in mapping(value, where).items()}
+
+
+def _write_bystanders(people: dict[str, tuple[PlanStep, ...]]) -> dict[str, Any]:
+    return {name: [step.to_dict() for step in steps] for name, steps in people.items()}
+
+
+_STEPS: Final = form_of(tuple[PlanStep, ...])
+
 FORMS: Final = {
+    "bystanders": Form(_read_bystanders, _write_bystanders),
     "options": Form(_read_options, Options.to_dict),
     "saving": optional(Form(number)),
     "horizon": Form(_read_horizon),

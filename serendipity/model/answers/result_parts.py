@@ -6,8 +6,8 @@ In JSON they stand in ``statistics`` (see :class:`serendipity.model.Result`).
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from serendipity.model.answers.fields import Written, written
-from serendipity.model.task.plans import PlanStep, Window
+from serendipity.model.answers.fields import written
+from serendipity.model.task.plans import PlanStep, PlanTimes, Window
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +21,7 @@ class TiedAnswer:
         realised: verdicts on humans who replan, by model; None where nobody has looked.
         plan: what everybody does, where it is not proved that nothing is better; else None.
         window: of that plan.
+        human_plan_times: of ``pi_H``, as in :class:`serendipity.model.Result`.
     """
 
     human_plan: tuple[str, ...]
@@ -29,17 +30,19 @@ class TiedAnswer:
     realised: dict[str, bool] | None = None
     plan: tuple[PlanStep, ...] | None = None
     window: Window | None = None
+    human_plan_times: PlanTimes | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object, without what is not known of the answer."""
         names = ["human_plan", "cost", "opportunity"]
         names += [] if self.realised is None else ["realised"]
         names += [] if self.plan is None else ["window", "plan"]
+        names += [] if self.human_plan_times is None else ["human_plan_times"]
         return written(self, names)
 
 
 @dataclass(frozen=True, slots=True)
-class GoalAnswer(Written):
+class GoalAnswer:
     """The answer for one goal that the human may have (semantics 8).
 
     Attributes:
@@ -49,6 +52,7 @@ class GoalAnswer(Written):
         cost: what it costs the team, or None without a plan.
         window: in which that plan is interrupted, or None.
         plan: what everybody does, or None.
+        human_plan_times: of the human's plan, as in :class:`serendipity.model.Result`.
     """
 
     name: str
@@ -57,6 +61,12 @@ class GoalAnswer(Written):
     cost: float | None
     window: Window | None
     plan: tuple[PlanStep, ...] | None
+    human_plan_times: PlanTimes | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object; plain values only."""
+        names = ["name", "probability", "human_plan", "cost", "window", "plan"]
+        return written(self, names + ([] if self.human_plan_times is None else ["human_plan_times"]))
 
 
 class GapEntry(NamedTuple):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from serendipity.model.errors import UsageError
+from serendipity.model.task.actions import NOOP
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -47,21 +48,77 @@ class PlanStep:
         agents: names of the participants.
         action: its PDDL text without brackets.
         cost: what it costs the team, discounted, in the domain's unit.
+        duration: epochs that it takes; in JSON only where it is not 1.
     """
 
     epoch: int
     agents: tuple[str, ...]
     action: str
     cost: float
+    duration: int = 1
+
+    @property
+    def end(self) -> int:
+        """The epoch with which it ends."""
+        return self.epoch + self.duration - 1
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of a step; plain values only."""
+        longer = {} if self.duration == 1 else {"duration": self.duration}
         return {
             "epoch": self.epoch,
             "agents": list(self.agents),
             "action": self.action,
             "cost": self.cost,
+            **longer,
         }
+
+
+@dataclass(frozen=True, slots=True)
+class PlanTimes:
+    """The times of a reported human plan, where actions take several epochs or the human waits.
+
+    Attributes:
+        starts: the epoch in which each action begins, from 1.
+        durations: epochs that each takes.
+        epochs: the length of the plan, waiting at its end included.
+
+    Raises:
+        UsageError: the lists differ in length, an action begins before the one before has ended, or the plan
+            is shorter than what is in it.
+    """
+
+    starts: tuple[int, ...]
+    durations: tuple[int, ...]
+    epochs: int
+
+    def __post_init__(self) -> None:
+        if len(self.starts) != len(self.durations):
+            numbers = f"{len(self.starts)} and {len(self.durations)}"
+            raise UsageError(f"times: expected as many starts as durations, got {numbers}")
+        over = 0
+        for start, duration in zip(self.starts, self.durations, strict=True):
+            if start <= over:
+                raise UsageError(f"times: expected an epoch from {over + 1} on, got {start}")
+            over = start + duration - 1
+        if self.epochs < over:
+            raise UsageError(f"times: expected at least {over} epochs, got {self.epochs}")
+
+    @property
+    def plain(self) -> bool:
+        """Whether they say no more than the order of the actions: each takes one epoch, none is left out."""
+        count = len(self.starts)
+        return self.starts == (*range(1, count + 1),) and self.epochs == sum(self.durations) == count
+
+    @property
+    def waits_at_end(self) -> bool:
+        """Whether the human waits after the last action."""
+        return self.epochs > (self.starts[-1] + self.durations[-1] - 1 if self.starts else 0)
+
+    def entries(self, names: "Iterable[str]") -> "tuple[PlanEntry, ...]":
+        """The plan as callers give it: names with epochs; a last ``noop`` says until when they wait."""
+        found = zip(self.starts, names, strict=True)
+        return (*found, *([(self.epochs, NOOP)] if self.waits_at_end else []))
 
 
 class TimedPlan(tuple[int, ...]):

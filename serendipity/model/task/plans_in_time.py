@@ -7,7 +7,7 @@ from serendipity.model.errors import PlanError
 from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.names import canonical_name
-from serendipity.model.task.plans import PlanEntry, TimedPlan
+from serendipity.model.task.plans import PlanEntry, PlanTimes, TimedPlan
 
 if TYPE_CHECKING:
     from serendipity.model.task.task import HumanPlan, Task
@@ -26,6 +26,12 @@ def plan_in_time(task: "Task", entries: Iterable[PlanEntry]) -> "HumanPlan":
         human.step(step, epoch, canonical_name(name))
     task.require_goal(human.course.state, tuple(human.actions))
     return without_gaps(task, TimedPlan(human.actions, human.starts, human.course.epoch))
+
+
+def times_of(task: "Task", plan: "HumanPlan") -> PlanTimes:
+    """The times of a human plan."""
+    durations = tuple(task.actions[i].duration for i in plan)
+    return PlanTimes(task.starts_of(plan), durations, task.epochs_of(plan))
 
 
 def replayed(task: "Task", plan: "HumanPlan", *, strict: bool = False) -> list[frozenset[int]]:

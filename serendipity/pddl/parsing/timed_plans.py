@@ -96,6 +96,24 @@ def entries(lines: Sequence[PlanLine], task: Task, path: object, what: str = "")
     return found
 
 
+def timed_line(task: Task, epoch: int, name: str, duration: int) -> str:
+    """A line that says when an action begins and how long it takes: ``12.000: (walk ann bed sink) [4.000]``.
+
+    Where an epoch is no round number its times are, within a hundredth of one.
+
+    Args:
+        task: whose epochs these are.
+        epoch: in which it begins, from 1.
+        name: of the action.
+        duration: epochs that it takes.
+    """
+    digits = 3
+    while task.epoch * 10**digits < 100:
+        digits += 1
+    start, length = (f"{float(number * task.epoch):.{digits}f}" for number in (epoch - 1, duration))
+    return f"{start}: ({name}) [{length}]"
+
+
 def _line(bare: str, path: object, number: int, what: str) -> PlanLine:
     time = _TIME.match(bare)
     duration = _DURATION.search(bare)
