@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 from serendipity.facade.logs import recorded
 from serendipity.model import Certificate, Deadline, Result, Task
-from serendipity.model.arguments import PATH, RESULT, TASK, expect, expect_or_none
+from serendipity.model.arguments import PATH, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
 from verify.certificate.by_rules import check_by_rules
@@ -44,8 +44,8 @@ def check(
     """
     start = perf_counter()
     limits = limits_from(time_limit, None, deadline)
-    expect(TASK, task=task)
-    expect(RESULT, result=result)
+    expect(TASK_IN_TIME, task=task)
+    expect(RESULT_IN_TIME, result=result)
     result = result.checked()
     require_same_task(task, result)
     with no_collection():
@@ -95,8 +95,8 @@ def verify(
         OSError: the file can't be written.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
-    expect(TASK, task=task)
-    expect(RESULT, result=result)
+    expect(TASK_IN_TIME, task=task)
+    expect(RESULT_IN_TIME, result=result)
     expect_or_none(PATH, proof=proof)
     from verify.certificate.certify import certify  # loads the solvers
     from verify.proofs.book import ProofWriter

@@ -5,7 +5,7 @@ from pathlib import Path
 from time import perf_counter
 
 from serendipity.model import Deadline, InputError, ProofCheck, RefutedProgram, Result, Task, UsageError
-from serendipity.model.arguments import PATH, RESULT, TASK, expect, expect_or_none
+from serendipity.model.arguments import PATH, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.resources.limits import limits_from
 from verify.proofs import checker
 
@@ -40,8 +40,8 @@ def check_proof(
     """
     started = perf_counter()
     expect(PATH, path=path)
-    expect_or_none(TASK, task=task)
-    expect_or_none(RESULT, result=result)
+    expect_or_none(TASK_IN_TIME, task=task)
+    expect_or_none(RESULT_IN_TIME, result=result)
     file = Path(path)
     if (task is None) != (result is None):
         raise UsageError("check_proof: expected a task and a result, or neither")

@@ -48,6 +48,7 @@ def _is_list(value: object) -> bool:
 TASK_IN_TIME: Final = Kind("a Task, such as serendipity.load gives", lambda value: isinstance(value, Task))
 TASK: Final = Kind("a Task, such as serendipity.load gives", lambda value: isinstance(value, Task))
 RESULT: Final = Kind("a Result, such as serendipity.plan gives", lambda value: isinstance(value, Result))
+RESULT_IN_TIME: Final = Kind(RESULT.words, RESULT.fits)
 PATH: Final = Kind("a path", _is_path)
 TEXT: Final = Kind("a text", lambda value: isinstance(value, str))
 PAIR: Final = Kind("the paths of a domain and of a problem", _is_pair)

@@ -8,11 +8,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from serendipity.model import Condition, Options, PlanStep, Policy, Result, Task, Window
+import serendipity
+from serendipity.model import Condition, Deadline, Options, PlanStep, Policy, Result, Task, Window
 from serendipity.model.answers.result_parts import TiedAnswer
 from serendipity.testing.builders import task as build
 from serendipity.testing.by_hand import moved, result, step, with_steps
 from serendipity.testing.cases import case_7, case_8, case_9
+from tests.verify.edits.corpus import walk
 from tests.verify.untrue import UNTRUE
 from tests.verify.valid import (
     CASE_4_PI_H,
@@ -26,6 +28,7 @@ from tests.verify.valid import (
     lifted,
     together,
 )
+from verify.calls.single_epochs import SingleEpochs
 from verify.calls.solve import solve
 from verify.rules import RULES
 
@@ -93,6 +96,17 @@ WAITING = {
     6: "move h d g",
     7: "conduct_triage h g",
 }
+
+
+def _unfinished() -> Given:
+    """A robot is still at something at the end."""
+    task = walk()
+    found = serendipity.plan(task, mode="composite")
+    longer = replace(found, plan=(*(found.plan or ()), PlanStep(4, ("r",), "lay r", 1.0, 2)))
+    epochs = SingleEpochs(task, longer, Deadline())
+    return Given(epochs.task, epochs.result())
+
+
 RULE_BROKEN: dict[str, tuple[str, Callable[[], Given]]] = {
     "another human": ("mode-and-human", lambda: _set(helped, human="rob")),
     "mode changed after the fact": ("mode-and-human", lambda: _set(helped, mode="communication")),
@@ -104,6 +118,7 @@ RULE_BROKEN: dict[str, tuple[str, Callable[[], Given]]] = {
     "pi_H kept back where max_cost rests on it": ("human-plan", lambda: endless(max_cost="human")),
     "a plan left out": ("status-and-plan", lambda: _set(helped, plan=None)),
     "infeasible with a plan": ("status-and-plan", lambda: _set(helped, status="infeasible")),
+    "a robot at work at the end": ("at-rest", _unfinished),
     "no cost": ("status-and-plan", lambda: _set(helped, cost=None)),
     "infeasible though pi_H is an answer": (
         "infeasible",

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from serendipity.model import Deadline, GroundAction, PlanStep, Step, Task
 from serendipity.model.numbers import figure
+from serendipity.model.task.unit_steps import CLOCK
 
 State = frozenset[int]
 """The facts that are true."""
@@ -42,9 +43,18 @@ def applicable(action: GroundAction, state: State) -> bool:
     return state.issuperset(action.pre) and state.isdisjoint(action.neg)
 
 
+def is_last(action: GroundAction) -> bool:
+    """Whether an action is the script's own: it takes effect last, in nobody's way (semantics 10.3)."""
+    return action.name.startswith(CLOCK)
+
+
 def after(state: State, *actions: GroundAction) -> State:
     """The state after an epoch in which these actions take place: all deletes, then all adds."""
-    return state.difference(*(a.delete for a in actions)).union(*(a.add for a in actions))
+    state = state.difference(*(a.delete for a in actions)).union(*(a.add for a in actions))
+    for action in actions:
+        if is_last(action):
+            state = state.difference(action.delete).union(action.add)
+    return state
 
 
 def clash(a: GroundAction, b: GroundAction, *, strict: bool) -> int | None:
@@ -53,7 +63,7 @@ def clash(a: GroundAction, b: GroundAction, *, strict: bool) -> int | None:
     if strict:
         clashes |= set(a.delete) & set(b.pre) | set(a.add) & set(b.neg)
         clashes |= set(b.delete) & set(a.pre) | set(b.add) & set(a.neg)
-    return min(clashes, default=None)
+    return None if clashes and (is_last(a) or is_last(b)) else min(clashes, default=None)
 
 
 def conflicting(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
@@ -67,6 +77,26 @@ def fits(action: GroundAction, others: Iterable[GroundAction], *, strict: bool) 
         if conflicting(action, other, strict=strict):
             return False
     return True
+
+
+def due(task: Task, state: State) -> list[tuple[int, ...]]:
+    """What happens in the next epoch, whatever is chosen (semantics 10): of each of these variants one."""
+    return [variants for fact in sorted(state & task.due_for.keys()) for variants in task.due_for[fact]]
+
+
+def is_calm(task: Task, state: State) -> bool:
+    """Whether nothing happens from a state on unless somebody does it."""
+    return state.isdisjoint(task.due_for)
+
+
+def met(task: Task, state: State, chosen: Iterable[int]) -> tuple[int, ...]:
+    """Actions, and what is due besides them: of variants the first that is applicable, or else the first."""
+    found = [*chosen]
+    done = set(found)
+    for variants in due(task, state):
+        if done.isdisjoint(variants):
+            found.append(next((i for i in variants if applicable(task.actions[i], state)), variants[0]))
+    return tuple(found)
 
 
 def executed(state: State, actions: Sequence[GroundAction], *, strict: bool) -> State | None:
@@ -101,9 +131,11 @@ def by_epoch(steps: Iterable[Step]) -> dict[int, list[int]]:
 
 
 def states_along(task: Task, epochs: Iterable[Sequence[int]], *, strict: bool) -> list[State] | None:
-    """States ``s_0 .. s_T``, by what takes place in each epoch; None if one of them can't take place."""
+    """States ``s_0 .. s_T``, by what takes place in each epoch; None if one can't, or lacks what is due."""
     states = [task.init]
     for chosen in epochs:
+        if any(set(variants).isdisjoint(chosen) for variants in due(task, states[-1])):
+            return None
         state = executed(states[-1], [task.actions[i] for i in chosen], strict=strict)
         if state is None:
             return None
@@ -115,7 +147,8 @@ def states_of_pi_h(task: Task, plan: Iterable[int], deadline: Deadline) -> list[
     """``delta(I, pi_H[1..j])`` for each j from 0: the states that an executable human plan leads through."""
     states = [task.init]
     for i in deadline.each(plan):
-        states.append(after(states[-1], task.actions[i]))
+        beside = met(task, states[-1], (i,)) if task.of_bystanders else (i,)
+        states.append(after(states[-1], *(task.actions[k] for k in beside)))
     return states
 
 

@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from serendipity.model import Deadline, HumanPlan, Task
-from verify.base.execution import states_of_pi_h
+from verify.base.execution import after, applicable, states_of_pi_h
 from verify.base.fact_bits import BitOperator
 from verify.base.operators import OwnActions
 from verify.base.projection import ProjectedCosts
@@ -50,6 +50,23 @@ class IndividualOptimum:
     @cached_property
     def _projection(self) -> ProjectedCosts:
         return ProjectedCosts(self._task, self.own, self.deadline)
+
+    @property
+    def start(self) -> State | None:
+        """The state from which the human's plan is predicted, after the head start; None: it ends before."""
+        return self._task.init
+
+    def predicted(self) -> tuple[Fraction, int] | None:
+        """:meth:`optimum` from there; None too where there is no such state."""
+        state = self.start
+        return None if state is None else self.optimum(state)
+
+    def moves(self, state: State) -> Iterator[tuple[int, State]]:
+        """What the human can begin alone, by ids, each with the state after the epoch."""
+        for i in self.deadline.each(self._task.human_actions):
+            action = self._task.actions[i]
+            if applicable(action, state):
+                yield i, after(state, action)
 
     def optimum(self, state: State) -> tuple[Fraction, int] | None:
         """Least (cost, number of actions) from ``state``; None if the human can't reach ``G_H`` alone.

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from serendipity.model import HumanPlan, Task
-from verify.base.execution import State, after, applicable
+from verify.base.execution import State
 from verify.base.individual import IndividualOptimum
 
 Worth = tuple[Fraction, int]
@@ -52,13 +52,13 @@ class OptimalPlans:
             return
         cost, length = worth
         last = None
-        for i in self.deadline.each(self._task.human_actions):
+        for i, successor in self.alone.moves(state):
             action = self._task.actions[i]
-            if applicable(action, state) and action.name != last and action.cost <= cost:
-                successor = after(state, action)
-                if self.alone.within(successor, cost - action.cost, length - 1):
-                    last = action.name
-                    yield i, successor
+            if action.name == last or action.cost > cost:
+                continue
+            if self.alone.within(successor, cost - action.cost, length - 1):
+                last = action.name
+                yield i, successor
 
     def _continue(self, plan: HumanPlan, state: State) -> Iterator[HumanPlan]:
         worth = self.worth(state)

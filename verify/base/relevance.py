@@ -8,7 +8,8 @@ making a precondition, a goal or another action's applicability false.
 from collections.abc import Iterable, Sequence, Set
 from dataclasses import dataclass, replace
 
-from serendipity.model import Deadline, GroundAction, Task
+from serendipity.model import Deadline, Task
+from verify.base.execution import is_last
 from verify.base.subproblem import Subproblem
 
 
@@ -46,11 +47,14 @@ def relevant_part(question: Subproblem, extra: Iterable[int] = ()) -> Relevant |
     if not positive <= true or not negative <= false:
         return None
     forced = [i for i in question.human_plan if i in usable]
-    seeds = positive | negative | set(extra)
+    seeds = (positive - set(task.at_rest)) | negative | set(extra)
+    # Nobody disturbs a bystander: what they need matters, and when they begin.
+    forced += [i for i in task.of_bystanders if i in usable and not is_last(task.actions[i])]
+    seeds.update(fact for fact, i in task.due if i in task.of_bystanders and not is_last(task.actions[i]))
     for i in forced:
         seeds.update(task.actions[i].pre, task.actions[i].neg)
     changing = true & false
-    kept, facts = closure(task.actions, usable, seeds & changing, changing, deadline)
+    kept, facts = closure(task, usable, seeds & changing, changing, deadline)
     kept |= set(forced)
     return Relevant(
         tuple(sorted(kept)),
@@ -104,13 +108,14 @@ def _reachable(task: Task, allowed: Sequence[int], deadline: Deadline) -> tuple[
 
 
 def closure(
-    actions: Sequence[GroundAction],
+    task: Task,
     usable: Iterable[int],
     seeds: set[int],
     changing: set[int],
     deadline: Deadline,
 ) -> tuple[set[int], set[int]]:
-    """Facts that matter for the seeds, and the actions that change one of them."""
+    """Facts that matter for the seeds, and the actions that change one of them; what is begun goes on."""
+    actions, due = task.actions, task.due_for
     changers: dict[int, list[int]] = {}
     for i in deadline.each(usable):
         for f in (*actions[i].add, *actions[i].delete):
@@ -122,7 +127,8 @@ def closure(
             if i in kept:
                 continue
             kept.add(i)
-            for f in (*actions[i].pre, *actions[i].neg):
+            going_on = (f for f in actions[i].add if f in due) if due else ()
+            for f in (*actions[i].pre, *actions[i].neg, *going_on):
                 if f in changing and f not in facts:
                     facts.add(f)
                     pending.append(f)

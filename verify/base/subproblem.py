@@ -134,14 +134,14 @@ class Subproblem:
 
     @cached_property
     def goal(self) -> Condition:
-        """All that has to hold in the end: ``G_H``, and ``G_R`` where it is asked for."""
+        """What has to hold in the end: ``G_H``, ``G_R`` where it is asked for, and nobody is at anything."""
         his, theirs = self.task.goal, self.task.robot_goal if self.robots_goal else Condition()
-        return Condition(his.positive + theirs.positive, his.negative + theirs.negative)
+        return Condition(his.positive + theirs.positive + self.task.at_rest, his.negative + theirs.negative)
 
     def allowed(self) -> list[int]:
         """Ids of the actions that may occur at all."""
         if self.rule == ALONE or not self.robots:
-            return list(self.task.human_actions)
+            return sorted({*self.task.human_actions, *self.task.of_bystanders})
         return list(range(len(self.task.actions)))
 
     def measure(self, steps: Iterable[Step], window: Window | None) -> tuple[int, int]:

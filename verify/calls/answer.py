@@ -79,7 +79,7 @@ def best_plan(call: ExaminedCall, *, robots: bool = True) -> PricedPlan | None:
     question = call.endless.but(robots=robots)
     if call.do_nothing is not None:
         question = question.below(call.do_nothing[0] - 1)
-    return call.decided(decide_without_horizon(question, call.effort))
+    return call.decided(decide_without_horizon(question, call.effort, call.plans))
 
 
 def is_help(call: ExaminedCall, score: Score) -> bool:
@@ -104,7 +104,7 @@ def idle_cost(call: ExaminedCall) -> int | None:
     """Cost of the answer with all robots idle; see :attr:`Call.idle`."""
     if call.horizon != INFINITE or call.baseline is None or call.robots_goal:
         return call.idle
-    worth = call.plans.worth(call.task.init)
+    worth = call.plans.alone.predicted()
     assert worth is not None
     best = call.prices.units(worth[0])
     limit = call.endless.most_cost

@@ -149,7 +149,7 @@ class ExaminedCall:
     @cached_property
     def is_optimal(self) -> bool:
         """Whether ``pi_H`` costs no more than the human's optimal plan."""
-        worth = self.plans.worth(self.task.init)
+        worth = self.plans.alone.predicted()
         return (
             worth is not None
             and self.human_plan is not None

@@ -8,6 +8,7 @@ from time import perf_counter
 from typing import Final
 
 from serendipity.model import Deadline, UsageError, Window
+from serendipity.model.options import MAX_EPOCH
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.small_numbers import with_small_numbers
 from verify.base.subproblem import FREE, PricedPlan, Subproblem
@@ -40,13 +41,13 @@ def _is_packed(question: Subproblem) -> bool:
 
 
 def _has_short_windows(question: Subproblem) -> bool:
-    """True if windows have one epoch, nothing is joint, and the human replans after it."""
-    return _is_packed(question) and is_short(question)
+    """True if windows have one epoch, nothing is joint or happens anyway, and the human replans after it."""
+    return _is_packed(question) and is_short(question) and not question.task.of_bystanders
 
 
 def _has_many_plans(question: Subproblem) -> bool:
     """True if windows open beside any optimal plan, and the human replans after them."""
-    return question.has_plain_windows and not question.is_free
+    return question.has_plain_windows and not question.is_free and not question.task.due
 
 
 def _is_without_windows(question: Subproblem) -> bool:
@@ -183,10 +184,15 @@ def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum
     return replace(found, found=replace(found.found, objective=objective, cost=cost))
 
 
-def decide_without_horizon(question: Subproblem, effort: Effort) -> Minimum:
-    """The least cost of a plan with any number of epochs: no program says that, an exhaustive search does."""
+def decide_without_horizon(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
+    """The least cost of a plan with any number of epochs: no program says that, an exhaustive search does.
+
+    Where anything is due, which may be late without epochs, they are counted until nothing new comes.
+    """
     started = perf_counter()
     found = cheapest(question, effort)
+    if found.status == "found" and question.task.due:
+        found = _exhaustively(question.but(horizon=MAX_EPOCH), effort, plans)
     _note(effort, "without-epochs", found, perf_counter() - started)
     return found
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from serendipity.model import Claim, Deadline, Result, Task
+from serendipity.model.task.gate import needs_time
 from verify.base import wording
 from verify.base.obligations import complete
 from verify.limits import limits
@@ -22,6 +23,13 @@ def check_by_rules(task: Task, result: Result, deadline: Deadline) -> tuple[Clai
 
 
 def _claims(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
+    if needs_time(task, options=result.options) or result.in_time:
+        from verify.calls.single_epochs import examined_in_time
+
+        def by_rules(unit: Task, said: Result) -> tuple[Claim, ...]:
+            return tuple(_for_plan(unit, said, deadline))
+
+        return examined_in_time(task, result, deadline, by_rules)
     if result.says("goals"):
         return _for_goals(task, result, deadline)
     if result.mode == "assistance":

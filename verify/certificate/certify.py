@@ -19,13 +19,15 @@ from serendipity.model import (
 )
 from serendipity.model.numbers import agrees, excess
 from serendipity.model.resources.collection import no_collection
+from serendipity.model.task.gate import needs_time
 from verify.base import wording
-from verify.base.individual import IndividualOptimum
+from verify.base.beside_script import alone_of
 from verify.base.obligations import BY_RULES, complete, is_mean, is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
 from verify.calls.call import ExaminedCall
 from verify.calls.methods import require_known
+from verify.calls.single_epochs import examined_in_time
 from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.humans import HumanExaminer
 from verify.certificate.provable import require_programs
@@ -104,17 +106,35 @@ def _certify(task: Task, result: Result, effort: Effort) -> Certificate:
         claims = complete(result, check_policy(task, result, effort.deadline))
         return Certificate(claims, perf_counter() - started)
     version = solver_version(effort.solver)
-    several = result.says("goals")
-    claims = _for_goals(task, result, effort) if several else _Certifier(task, result, effort).claims()
-    claims, calls = complete(result, claims), len(effort.calls)
+    examine = _Certifier.examined
+    if needs_time(task, options=result.options) or result.in_time:
+        examine = _in_time
+    elif result.says("goals"):
+        examine = _for_goals
+    claims, calls = complete(result, examine(task, result, effort)), len(effort.calls)
     return Certificate(claims, perf_counter() - started, version, effort.encoding, effort.size, calls)
+
+
+def _in_time(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
+    """Semantics 10.
+
+    Raises:
+        UsageError: the paper's encoding is asked for.
+    """
+    if effort.encoding != "automata":
+        raise UsageError("encoding: the paper's equations know no time; expected automata")
+
+    def examine(unit: Task, said: Result) -> tuple[Claim, ...]:
+        return _Certifier.examined(unit, said, effort)
+
+    return examined_in_time(task, result, effort.deadline, examine)
 
 
 def _for_goals(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
     """Semantics 8: where one goal is left, the answer is one of section 3."""
     examined = examine(task, result, effort.deadline)
     if examined.single is not None:
-        return _Certifier(*examined.single, effort).claims()
+        return _Certifier.examined(*examined.single, effort)
     if not examined.lines:
         return examined.claims
     claims = claims_by_rules(result, examined.lines)
@@ -127,9 +147,14 @@ class _Certifier:
         self.task = task
         self.result = result
         self.effort = effort
-        self.alone = IndividualOptimum(task, effort.deadline)
+        self.alone = alone_of(task, effort.deadline, result.options)
         self.plans = OptimalPlans(task, self.alone)
         self.checker = Checker(task, self.alone)
+
+    @classmethod
+    def examined(cls, task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
+        """The claims of a result."""
+        return cls(task, result, effort).claims()
 
     def claims(self) -> tuple[Claim, ...]:
         """All claims, in order; what rules refute is not handed to a solver.
@@ -292,7 +317,7 @@ class _Certifier:
     def _least_alone(self) -> Fraction | None:
         if self.effort.method == "program":
             return least_alone(self.task, self.result.options, self.effort)
-        worth = self.plans.worth(self.task.init)
+        worth = self.alone.predicted()
         return None if worth is None else worth[0]
 
     def _ties(self, wanted: list[str]) -> Iterator[Claim]:

@@ -205,7 +205,7 @@ class Examiner:
         call = self.call
         if call.effort.method == "program":
             return least_alone(call.task, call.options, call.effort) is not None
-        return call.plans.worth(call.task.init) is not None
+        return call.plans.alone.predicted() is not None
 
     # -- helpers
 
@@ -242,7 +242,7 @@ class Examiner:
     def _decide(self, question: Subproblem) -> Minimum:
         call = self.call
         if self._endless:
-            return decide_without_horizon(question, call.effort)
+            return decide_without_horizon(question, call.effort, call.plans)
         return decide(question, call.effort, call.plans)
 
     def _score(self) -> Score:

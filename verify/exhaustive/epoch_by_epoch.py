@@ -22,6 +22,7 @@ import numpy as np
 from serendipity.model import LimitReachedError, Step, Window
 from serendipity.model.errors import LIMITS, limit_reason
 from verify.base.control import ALL, INSIDE, OWN, PREFIX, SUFFIX, Control, HumanControl, Leg
+from verify.base.due import filled
 from verify.base.execution import State, by_epoch, states_along
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant
@@ -40,6 +41,9 @@ from verify.programs.effort import Minimum
 from verify.programs.mending import best_suffix, replay
 
 _NO_REPLAY: Final = "a plan of the exhaustive search does not replay"
+
+
+_IN_TIME: Final = "what goes on by itself is not searched for without a horizon"
 
 
 class OtherMethodError(UndecidedError):
@@ -87,7 +91,8 @@ class EpochSearch:
         self._unit = question.horizon + 1  # weighs more than all actions that there is time for
         own = [as_operator((task.actions[i],), prices.team[i] * self._unit + 1) for i in self._own]
         goal = task.goal.positive, task.goal.negative
-        self._alone = self._alike(own, goal) if question.replans else None
+        self._beside_script = bool(task.of_bystanders)
+        self._alone = self._alike(own, goal) if question.replans and not self._beside_script else None
         self._most = question.largest
         self._epoch = prices.epoch if question.rule == WINDOW else 0
         self._talk = prices.talk if any(prices.talk) else None
@@ -136,6 +141,8 @@ class EpochSearch:
         return Minimum("none") if self._best is None else Minimum("found", self._best, self._best.objective)
 
     def _run_on(self) -> Minimum:
+        if self._question.task.due:
+            raise OtherMethodError(_IN_TIME)
         self._most, task = self._table.far, self._question.task
         start = self._problem.pack([task.init])
         assert start is not None, "the initial state is reached"
@@ -284,6 +291,8 @@ class EpochSearch:
         if epoch < self._question.horizon and not self._may_rest(control):
             return
         there = self._problem.goal(layer.states)
+        if epoch < self._question.horizon:
+            there &= self._team.is_calm(layer.states)
         for needs in self._control.accepts(control):
             test = self._table.test(sorted(needs & self._facts), ())
             reached = np.flatnonzero(there & test(layer.states))
@@ -292,7 +301,9 @@ class EpochSearch:
 
     def _complete(self, places: list[tuple[int, int]], extra: int) -> None:
         """The cheapest of all ends with what the human pays from there on, alone."""
-        assert self._alone is not None, "the human replans"
+        if self._alone is None:
+            self._complete_one_by_one(places)
+            return
         layers = [(self._layers[number], number, epoch) for number, epoch in places]
         states = np.concatenate([layer.states for layer, _, _ in layers])
         paid = np.concatenate([layer.paid for layer, _, _ in layers])
@@ -323,11 +334,28 @@ class EpochSearch:
                 self._offer(number, place, epoch, suffix)
         raise UndecidedError("too many ends of windows from which the human's plan takes too long")
 
+    def _complete_one_by_one(self, places: list[tuple[int, int]]) -> None:
+        """The same beside a script, where the human's way depends on the epoch: one end after the other."""
+        for number, epoch in places:
+            layer = self._layers[number]
+            for row in (
+                np.argsort(layer.paid, kind="stable").tolist() if epoch < self._question.horizon else ()
+            ):
+                self._deadline.check()
+                if int(layer.paid[row]) > self._limit():
+                    break
+                suffix = best_suffix(self._question, self._whole_state(number, row), epoch + 1, self._plans)
+                if suffix is not None:
+                    self._offer(number, row, epoch, suffix)
+
     def _whole_state(self, number: int, row: int) -> State:
         """All facts that are true in a state of a layer."""
-        sets = by_epoch(self._steps(number, row))
+        task, steps, strict = self._question.task, self._steps(number, row), self._question.options.strict
+        if self._beside_script:
+            steps = filled(task, steps, len(self._way(number, row)), strict=strict)
+        sets = by_epoch(steps)
         epochs = (sets.get(epoch, ()) for epoch in range(1, max(sets, default=0) + 1))
-        states = states_along(self._question.task, epochs, strict=self._question.options.strict)
+        states = states_along(task, epochs, strict=strict)
         if states is None:
             raise UndecidedError(_NO_REPLAY)
         return states[-1]
@@ -353,7 +381,10 @@ class EpochSearch:
         """A plan, which may be better than the best so far; it is executed once more with sets of facts."""
         question = self._question
         steps = self._steps(number, row) + tuple(Step(epoch + 1 + k, i) for k, i in enumerate(suffix))
-        if replay(question, steps) is None:
+        if self._beside_script:
+            steps = filled(question.task, steps, question.horizon, strict=question.options.strict)
+        last = max([epoch + len(suffix), *(step.epoch for step in steps)])
+        if replay(question.but(horizon=min(last, question.horizon)), steps) is None:
             raise UndecidedError(_NO_REPLAY)
         window = self._window(number, row)
         objective, cost = question.measure(steps, window)

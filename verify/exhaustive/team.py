@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from serendipity.model import Deadline, GroundAction, Task
+from verify.base.execution import is_last
 from verify.limits import limits
-from verify.packed.layout import Words
+from verify.packed.layout import PackedLayout, Words
 from verify.packed.operators import Ints, OperatorTable
 
 Bools = NDArray[np.bool_]
@@ -49,7 +50,7 @@ class TeamEpochs:
         deadline: polled.
 
     Attributes:
-        order: the human, then the robots.
+        order: the human, then the robots, then bystanders, and the clock last, as its actions take effect.
         of_human: the actions in which the human takes part, by the table's numbers.
     """
 
@@ -58,13 +59,19 @@ class TeamEpochs:
     ) -> None:
         self._table = table
         self._deadline = deadline
-        self.order = (task.human, *task.robots)
+        self.order = (task.human, *task.robots, *sorted(task.script.people))
         chosen = [task.actions[i] for i in actions]
+        self._due = DueEpochs(task, actions, table.layout) if task.due else None
+        self._free = np.array([i in task.of_bystanders for i in actions], bool)
         self._with_human = np.array([task.human in action.participants for action in chosen], bool)
         self.of_human = np.flatnonzero(self._with_human)
         rank = {agent: k for k, agent in enumerate(self.order)}
         self._first = np.array([min(rank[a] for a in action.participants) for action in chosen], np.int64)
         self._apart = excluding(chosen, len(task.facts), len(task.agents), strict=strict)
+
+    def is_calm(self, states: Words) -> Bools:
+        """By state whether nothing happens from it on unless somebody does it."""
+        return np.ones(len(states), bool) if self._due is None else self._due.is_calm(states)
 
     def steps(
         self, states: Words, of_human: Ints | None = None, *, wait: bool = True, robots: bool = True
@@ -75,7 +82,7 @@ class TeamEpochs:
             states: rows.
             of_human: what the human may take part in, by the table's numbers; None: anything.
             wait: whether the human may do nothing.
-            robots: whether robots may act without the human.
+            robots: whether robots may act without the human; bystanders do in any case.
 
         Raises:
             LimitReachedError: the deadline came first.
@@ -91,7 +98,7 @@ class TeamEpochs:
         rows, operators = self._table.applicable(states)
         if of_human is not None or not robots:
             his = self._with_human[operators] if of_human is None else np.isin(operators, of_human)
-            fits = his | ~self._with_human[operators] if robots else his
+            fits = his | (~self._with_human[operators] if robots else self._free[operators])
             rows, operators = rows[fits], operators[fits]
         lists = []
         product = np.ones(len(states), np.int64)
@@ -134,7 +141,55 @@ class TeamEpochs:
             acts = own != NOBODY
             after[acts] = self._table.after(after[acts], own[acts])
             cost[acts] += self._table.weight[own[acts]]
-        return Steps(before, sets, after, cost)
+        steps = Steps(before, sets, after, cost)
+        return steps if self._due is None else self._due.only_met(states, steps)
+
+
+class DueEpochs:
+    """What is due in packed states (semantics 10): epochs without it are none.
+
+    Args:
+        task: the task, in single epochs.
+        actions: ids of its actions that may occur.
+        layout: where facts stand; what is due for another fact does not matter.
+    """
+
+    def __init__(self, task: Task, actions: Sequence[int], layout: PackedLayout) -> None:
+        number = {i: k for k, i in enumerate(actions)}
+        self._lasting: dict[int, Bools] = {}
+        self._fields = layout.fields
+        self._begun: list[tuple[int, int, Ints]] = []
+        for fact, groups in task.due_for.items():
+            place = layout.place.get(fact)
+            if place is None:
+                continue
+            values = self._lasting.setdefault(place.field, np.zeros(self._fields[place.field].size, bool))
+            values[place.value] = True
+            for variants in groups:
+                if fact not in task.actions[variants[0]].delete:  # it begins beside what takes the fact away
+                    numbers = np.array([number[i] for i in variants if i in number], np.int64)
+                    self._begun.append((place.field, place.value, numbers))
+
+    def only_met(self, states: Words, steps: Steps) -> Steps:
+        """The epochs that contain what is due: the facts that it is due for do not last."""
+        before, kept = states[steps.before], np.ones(len(steps.before), bool)
+        for field, due in self._lasting.items():
+            values = self._values(field, before)
+            kept &= ~due[values] | (values != self._values(field, steps.after))
+        for field, value, numbers in self._begun:
+            kept &= (self._values(field, before) != value) | np.isin(steps.sets, numbers).any(axis=1)
+        return Steps(steps.before[kept], steps.sets[kept], steps.after[kept], steps.cost[kept])
+
+    def is_calm(self, states: Words) -> Bools:
+        """By state whether nothing is due in it."""
+        calm = np.ones(len(states), bool)
+        for field, due in self._lasting.items():
+            calm &= ~due[self._values(field, states)]
+        return calm
+
+    def _values(self, field: int, states: Words) -> Ints:
+        at = self._fields[field]
+        return ((states[:, at.word] & np.uint64(at.mask)) >> np.uint64(at.shift)).astype(np.int64)
 
 
 def excluding(actions: Sequence[GroundAction], facts: int, agents: int, *, strict: bool) -> Bools:
@@ -161,4 +216,7 @@ def excluding(actions: Sequence[GroundAction], facts: int, agents: int, *, stric
     if strict:
         one_way |= deletes @ table([action.pre for action in actions], facts).T > 0
         one_way |= adds @ table([action.neg for action in actions], facts).T > 0
-    return np.asarray(apart | one_way | one_way.T)
+    found = np.asarray(apart | one_way | one_way.T)
+    last = [k for k, action in enumerate(actions) if is_last(action)]
+    found[last, :] = found[:, last] = False  # nobody is in the script's way
+    return found

@@ -1,10 +1,11 @@
 """The human alone, without a horizon, as a program: one unit of flow through the states that they reach."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from fractions import Fraction
-from typing import Final
+from typing import Any, Final
 
 from serendipity.model import Options, Task
+from verify.base.beside_script import alone_of
 from verify.base.operators import OwnActions
 from verify.base.subproblem import prices
 from verify.base.undecided import TooManyStatesError, UndecidedError, during
@@ -36,6 +37,9 @@ def least_alone(task: Task, options: Options, effort: Effort) -> Fraction | None
     return None if units is None else Fraction(units, program.scale)
 
 
+_Graph = tuple[Any, Callable[[Any], bool], Callable[[Any], Iterable[tuple[int, Any]]]]
+
+
 class _Alone:
     """Columns are moves between states; a cycle adds cost, so the best flow is a path."""
 
@@ -46,8 +50,8 @@ class _Alone:
         chosen = prices(task, options, (), self._deadline)
         self.scale = chosen.scale
         self._team = chosen.team
-        self._own = OwnActions(task, self._deadline)
-        self._number: dict[int, int] = {}
+        self._options = options
+        self._number: dict[Hashable, int] = {}
         self.model = Model(self._deadline)
         self._write()
 
@@ -76,18 +80,17 @@ class _Alone:
 
     def _moves(self) -> list[tuple[int, int, int]]:
         """All moves from states that the human reaches, the goal's left out: source, target, action."""
-        own, goal = self._own, self._task.goal
-        wanted, unwanted = own.bits.of(goal.positive), own.bits.of(goal.negative)
-        states = [own.bits.of(self._task.init)]
-        self._number[states[0]] = 0
+        start, is_end, onward = self._beside_script() if self._task.of_bystanders else self._alone()
+        states: list[Any] = [] if start is None else [start]
+        self._number[start] = 0
         self._ends: list[int] = []
         moves: list[tuple[int, int, int]] = []
         for number, state in enumerate(states):  # grows while it is walked
             self._deadline.check()
-            if state & wanted == wanted and not state & unwanted:
+            if is_end(state):
                 self._ends.append(number)
                 continue
-            for action, after in own.steps(state):
+            for action, after in onward(state):
                 if after not in self._number:
                     if len(states) >= limits().alone_states:
                         raise TooManyStatesError
@@ -95,6 +98,21 @@ class _Alone:
                     states.append(after)
                 moves.append((number, self._number[after], action))
         return moves
+
+    def _alone(self) -> "_Graph":
+        """States by bits: where they begin, which end a plan, and what follows them."""
+        own, goal = OwnActions(self._task, self._deadline), self._task.goal
+        wanted, unwanted = own.bits.of(goal.positive), own.bits.of(goal.negative)
+
+        def is_end(state: int) -> bool:
+            return state & wanted == wanted and not state & unwanted
+
+        return own.bits.of(self._task.init), is_end, own.steps
+
+    def _beside_script(self) -> "_Graph":
+        """The same by sets of facts, with their epoch."""
+        alone = alone_of(self._task, self._deadline, self._options)
+        return alone.start, self._task.goal.holds, alone.moves
 
     def solve(self) -> int | None:
         """The least cost in units, by the solver; None: there is no plan.

@@ -1,6 +1,7 @@
 """What a program's solution stands for: a plan, with an optimal plan of the human's as its suffix."""
 
 from serendipity.model import Step, Window
+from verify.base.due import filled, lasts
 from verify.base.execution import State, by_epoch, states_along
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import PricedPlan, Subproblem
@@ -28,8 +29,10 @@ def mended(
     if suffix is None:
         return None
     head = tuple(step for step in steps if step.epoch < window.end)
-    tail = tuple(Step(window.end + k, i) for k, i in enumerate(suffix))
-    found = PricedPlan(head + tail, window, *question.measure(head + tail, window))
+    whole = head + tuple(Step(window.end + k, i) for k, i in enumerate(suffix))
+    if question.task.of_bystanders:
+        whole = filled(question.task, whole, question.horizon, strict=question.options.strict)
+    found = PricedPlan(whole, window, *question.measure(whole, window))
     return found if question.most is None or found.objective <= question.most else None
 
 
@@ -50,9 +53,10 @@ def best_suffix(question: Subproblem, state: State, xi2: int, plans: OptimalPlan
         xi2: first epoch of the suffix.
         plans: the human's optimal plans.
     """
-    worth = plans.worth(state)
-    if worth is None or worth[1] > question.horizon - xi2 + 1:
+    worth, left = plans.worth(state), question.horizon - xi2 + 1
+    if worth is None or worth[1] > left:
         return None
+    task, strict, rest = question.task, question.options.strict, left - worth[1]
     known: dict[State, tuple[int, tuple[int, ...]] | None] = {}
 
     def best_from(here: State) -> tuple[int, tuple[int, ...]] | None:
@@ -60,11 +64,12 @@ def best_suffix(question: Subproblem, state: State, xi2: int, plans: OptimalPlan
             known[here] = None
             here_worth = plans.worth(here)
             if here_worth is not None and here_worth[1] == 0:
-                known[here] = (0, ()) if question.goal.holds(here) else None
+                reached = lasts(task, here, rest, question.goal.holds, strict=strict)
+                known[here] = (0, ()) if reached else None
             for i, after in plans.steps(here):
-                rest = best_from(after)
-                if rest is not None:
-                    choice = (question.prices.talk[i] + rest[0], (i, *rest[1]))
+                onward = best_from(after)
+                if onward is not None:
+                    choice = (question.prices.talk[i] + onward[0], (i, *onward[1]))
                     known[here] = min(known[here] or choice, choice)
         return known[here]
 

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from serendipity.model import PlanError, Result, Task
+from serendipity.model.task.unit_steps import WAITING
 from verify.base.execution import price, shares
 from verify.base.individual import IndividualOptimum
 from verify.rules.replay import Replay, replay, replay_human
@@ -58,7 +59,7 @@ class Case:
     @property
     def improvable(self) -> bool:
         """Whether it is certain that ``pi_H`` costs more than an optimal plan of the human's."""
-        optimum = self.alone.optimum(self.task.init)
+        optimum = self.alone.predicted()
         return self.human_cost is not None and optimum is not None and optimum[0] < self.human_cost
 
     @cached_property
@@ -91,10 +92,17 @@ class Case:
         return self.result.options.communication_weight * sum(off_plan, Fraction(0))
 
     def steps(self) -> Iterator[tuple[int, int]]:
-        """(epoch, action id) of the replayed plan, in order."""
+        """(epoch, action id) of the replayed plan, in order; neither what happens anyway nor waiting."""
+        nobody = self.task.of_bystanders | self.waiting
         for epoch, chosen in self.alone.deadline.each(self.replay.sets.items()):
             for i in chosen:
-                yield epoch, i
+                if i not in nobody:
+                    yield epoch, i
+
+    @cached_property
+    def waiting(self) -> frozenset[int]:
+        """The action that is waiting in ``pi_H``, where it takes place in time (semantics 10.2)."""
+        return frozenset(self.task.named.get(WAITING, ()))
 
     def price(self, action: int) -> Fraction:
         """Cost to the team: undiscounted if the human takes part (semantics 1)."""

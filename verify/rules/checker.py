@@ -5,6 +5,7 @@ import time
 from serendipity.model import Deadline, Result, Task
 from serendipity.model.errors import LIMITS
 from verify.base import wording
+from verify.base.beside_script import alone_of
 from verify.base.individual import IndividualOptimum
 from verify.base.undecided import UndecidedError, during, why
 from verify.rules.case import Case
@@ -79,7 +80,7 @@ def check(task: Task, result: Result, deadline: Deadline | None = None) -> RuleR
         result: the result, as ``plan`` returned it or as it was read from a file.
         deadline: what is not checked by then stays undecided.
     """
-    return Checker(task, IndividualOptimum(task, deadline)).check(result)
+    return Checker(task, alone_of(task, deadline, result.options)).check(result)
 
 
 def _out_of_scope(result: Result) -> list[tuple[str, str]]:

@@ -14,7 +14,8 @@ def human_cost(case: Case) -> RuleFault | None:
 def step_cost(case: Case) -> RuleFault | None:
     """Each step costs what its action costs the team: discounted without the human."""
     steps = sorted(case.result.plan or (), key=lambda step: step.epoch)
-    for step, (_, i) in zip(steps, case.steps(), strict=True):
+    done = (i for chosen in case.replay.sets.values() for i in chosen)
+    for step, i in zip(steps, done, strict=True):
         if not agrees(step.cost, case.price(i)):
             message = f"costs {float(case.price(i)):g}, the result says {step.cost:g}"
             return RuleFault(message, step.epoch, step.action)
@@ -90,7 +91,7 @@ def saving_alone(case: Case) -> RuleFault | None:
         return None  # nothing is claimed; ``None`` and 0 are the same
     if case.human_plan is None or case.robots_goal:
         return RuleFault("a saving alone, though there is nothing to compare it with")
-    optimum = case.alone.optimum(case.task.init)
+    optimum = case.alone.predicted()
     most = _sure(case.human_cost) - (optimum[0] if optimum else Fraction(0))
     if said > 0 and excess(said, most) <= 0:
         return None

@@ -28,6 +28,18 @@ def epoch_range(case: Case) -> RuleFault | None:
     return None
 
 
+def at_rest(case: Case) -> RuleFault | None:
+    """In the last state nobody is at anything, but for bystanders (semantics 10.1)."""
+    if case.result.plan is None:
+        return None
+    for fact, variants in case.task.due_for.items():
+        for ids in variants if fact in case.replay.last else ():
+            if ids[0] not in case.task.of_bystanders:
+                words = f"it does not end by T = {case.result.horizon}"
+                return RuleFault(words, max(case.replay.sets, default=None), case.name(ids[0]))
+    return None
+
+
 def human_goal(case: Case) -> RuleFault | None:
     """``G_H`` holds in the last state."""
     if case.result.plan is None or case.task.goal.holds(case.replay.last):

@@ -41,7 +41,7 @@ def human_plan_valid(case: Case) -> RuleFault | None:
         return None
     if _unknown_to_search(case):
         return None
-    optimum = case.alone.optimum(case.task.init)
+    optimum = case.alone.predicted()
     return None if optimum is None else RuleFault("no pi_H is reported, but the human has a plan alone")
 
 

@@ -32,6 +32,7 @@ RULES: Final[tuple[NamedRule, ...]] = (
     NamedRule("precondition", "replay", "2", execution.faultless("precondition")),
     NamedRule("agent-busy-twice", "replay", "2", execution.faultless("agent-busy-twice")),
     NamedRule("conflict", "replay", "2", execution.faultless("conflict")),
+    NamedRule("at-rest", "replay", "10.1", execution.at_rest),
     NamedRule("human-goal", "replay", "1", execution.human_goal),
     NamedRule("robots-goal", "replay", "3.1", execution.robots_goal),
     NamedRule("individual", "replay", "3", execution.individual),

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from serendipity.model import Deadline, PlanError, PlanStep, Task
-from verify.base.execution import State, after, applicable, clash, meant_by, participants
+from verify.base.execution import State, after, applicable, clash, meant_by, met, participants
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +90,8 @@ def replay_human(task: Task, names: Iterable[str], deadline: Deadline) -> tuple[
         if chosen is None:
             raise PlanError(f"step {number}, '{name}', is not applicable: {_unmet(task, own[0], state)}")
         plan.append(chosen)
-        state = after(state, task.actions[chosen])
+        beside = met(task, state, (chosen,)) if task.of_bystanders else (chosen,)
+        state = after(state, *(task.actions[i] for i in beside))
     if not task.goal.holds(state):
         raise PlanError("the goal does not hold at its end")
     return tuple(plan)

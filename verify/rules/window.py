@@ -96,11 +96,11 @@ def suffix_replan(case: Case) -> RuleFault | None:
     if window is None or options.suffix != "replan" or options.preservation != "kernel":
         return None
     rest = list(_between(case, window.end, None))
-    for expected, (epoch, i) in enumerate(rest, start=window.end):
+    for expected, (epoch, i) in enumerate(() if case.task.of_bystanders else rest, start=window.end):
         if epoch != expected:
             return RuleFault(f"the human waits in epoch {expected} before all is done", epoch, case.name(i))
     optimum = case.alone.optimum(case.replay.state_after(window.end - 1))
-    done = (sum(case.task.actions[i].cost for _, i in rest), len(rest))
+    done = (sum(case.task.actions[i].cost for _, i in rest), _ended(case, rest) - window.end + 1)
     if optimum is None or done <= optimum:
         return None
     return RuleFault(
@@ -108,6 +108,15 @@ def suffix_replan(case: Case) -> RuleFault | None:
         f"alone it takes {float(optimum[0]):g} in {optimum[1]}",
         window.end,
     )
+
+
+def _ended(case: Case, rest: list[tuple[int, int]]) -> int:
+    """The epoch with which the human's part is over: their last action's, or that which brings the goal."""
+    assert case.result.window is not None
+    before = case.result.window.end - 1
+    last = rest[-1][0] if rest else before
+    later = (t for t in sorted({before, *case.replay.states}) if t >= last)
+    return next((t for t in later if case.task.goal.holds(case.replay.state_after(t))), last)
 
 
 def suffix_subplan(case: Case) -> RuleFault | None:
@@ -148,6 +157,7 @@ def _follows(case: Case, *, last: int) -> RuleFault | None:
     does = case.human_does()
     for epoch in case.alone.deadline.each(range(1, last + 1)):
         planned = case.pi_h[epoch - 1] if epoch <= len(case.pi_h) else None
+        planned = None if planned in case.waiting else planned
         done = does.get(epoch)
         if done is not None and not case.own(done):
             continue  # the rule on joint actions names it

@@ -13,9 +13,8 @@ from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
 from serendipity.cli.streams.manner import is_verbose
 from serendipity.cli.streams.stderr import write_line
-from serendipity.model import Certificate, Claim, Deadline, Result, Task, UsageError
+from serendipity.model import Certificate, Deadline, Result, Task, UsageError
 from serendipity.model.numbers import plain
-from serendipity.model.task.gate import needs_time
 from serendipity.model.telling import json_of
 
 _CHECK_SHARE: Final = 0.05
@@ -99,9 +98,6 @@ def _certificate(
     task: Task, result: Result, cancelled: threading.Event, deadline: Deadline, *, certify: bool
 ) -> tuple[Certificate, bool]:
     """What the checker says, and whether by a proof: whoever interrupts need not wait for one."""
-    if needs_time(task, options=result.options, plan=result.human_plan_times):
-        unchecked = Claim("replay", "undecided", "the checker does not know time yet (semantics 10)")
-        return Certificate((unchecked,), 0.0), False
     with progress.working("verifying"):
         if certify and not cancelled.is_set():
             try:

@@ -151,6 +151,23 @@ class Task(Told):
         """Ids of the actions that the human does alone."""
         return tuple(i for i, a in enumerate(self.actions) if a.participants == (self.human,))
 
+    @cached_property
+    def due_for(self) -> Mapping[int, tuple[tuple[int, ...], ...]]:
+        """By fact of :attr:`due` the ids of what is due while it holds: of each of these variants one."""
+        found: dict[int, dict[str, tuple[int, ...]]] = {}
+        for fact, action in self.due:
+            variants = found.setdefault(fact, {})
+            name = self.actions[action].name
+            variants[name] = (*variants.get(name, ()), action)
+        return {fact: tuple(each.values()) for fact, each in found.items()}
+
+    @cached_property
+    def of_bystanders(self) -> frozenset[int]:
+        """Ids of the actions of bystanders, who choose nothing."""
+        people = self.script.people
+        actions = enumerate(self.actions) if people else ()
+        return frozenset(i for i, action in actions if not people.isdisjoint(action.participants))
+
     @property
     def named(self) -> Mapping[str, tuple[int, ...]]:
         """Action ids by name (names are not unique, see the class)."""

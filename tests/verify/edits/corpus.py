@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import serendipity
-from serendipity.model import Condition, Options, Result, Task
+from serendipity.model import Condition, Options, Result, Script, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import CASE_3_PLAN, case_3, case_4, case_5, case_6, case_8, case_9, case_10
 from serendipity.testing.countdown import Countdown
@@ -78,6 +78,41 @@ def _detour() -> Task:
     )
 
 
+def walk() -> Task:
+    """Walks of two epochs; what a robot lays out in two spares the human the second."""
+    return build(
+        init="a",
+        goal="c",
+        actions={
+            "go h a b": "a -> b !a @ 2 [2]",
+            "go h b c": "b -> c !b @ 2 [2]",
+            "lay r": "-> t @ 1 [2]",
+            "hop h": "t b -> c !b @ 1",
+        },
+    )
+
+
+def shop() -> Task:
+    """A way that is blocked in epoch 2, a door that opens with epoch 6, and somebody in the way after."""
+    built = build(
+        agents="h r q",
+        init="a",
+        goal="c",
+        actions={
+            "go h a b": "a !blocked -> b !a @ 2 [2]",
+            "go h b c": "b open -> c !b @ 2",
+            "ramp r": "-> ramp @ 1 [2]",
+            "jump h": "b ramp !blocked -> c !b @ 1",
+            "stand q": "!blocked -> blocked @ 1",
+            "leave q": "blocked -> !blocked @ 1",
+        },
+    )
+    script = Script(
+        facts=[(1, "blocked"), (2, "!blocked"), (6, "open")], people={"q": [(3, "stand q"), (5, "leave q")]}
+    )
+    return built.with_script(script)
+
+
 def _goals(p: object, z: object) -> list[dict[str, object]]:
     return [{"name": "p", "goal": ["p"], "prior": p}, {"name": "z", "goal": ["z"], "prior": z}]
 
@@ -135,6 +170,18 @@ _CALLS: tuple[tuple[str, Callable[[], Task], dict[str, Any]], ...] = (
     ("assistance optimistic", game, {"mode": "assistance", "ties": "optimistic"}),
     ("assistance no block", case_6, {"mode": "assistance", "no_block": True}),
     ("assistance infeasible", lambda: build(goal="g", actions={"wait r": "-> x"}), {"mode": "assistance"}),
+    ("in time", walk, {"discount": "0.5"}),
+    ("in time, free windows", walk, {"discount": "0.5", "window_weight": 0, "horizon": 6}),
+    ("in time, no help", walk, {"discount": "0"}),
+    ("in time, a head start", walk, {"discount": "0.5", "head_start": 1, "interference": "strict"}),
+    ("in time, told", walk, {"mode": "communication", "communication_weight": "0.5", "discount": "0.5"}),
+    ("in time, composite", walk, {"mode": "composite", "discount": "0.5"}),
+    ("in time, composite inf", walk, {"mode": "composite", "discount": "0.5", "horizon": "inf"}),
+    ("in time, individual", walk, {"mode": "individual"}),
+    ("a script", shop, {"discount": "0.5"}),
+    ("a script, composite", shop, {"mode": "composite", "discount": "0.5", "horizon": 8}),
+    ("a script, individual", shop, {"mode": "individual"}),
+    ("a script, a limit", shop, {"mode": "composite", "horizon": 7, "max_cost": 0}),
     ("goals", lambda: workshop("!q -> z @ 5"), {"goals": _goals(1, 1), "horizon": 2}),
     ("goals, no help", lambda: workshop("!q -> z @ 5"), {"goals": _goals(1, 9), "horizon": 2}),
     ("goals, one left", lambda: workshop("!q -> z @ 5"), {"goals": _goals(1, 0), "horizon": 2}),

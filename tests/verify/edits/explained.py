@@ -60,6 +60,8 @@ def explained(good: Good, data: dict[str, Any], result: Result, edits: tuple[Edi
         return "it is the answer for the task's own goal, too"
     if _beliefs(result) is not None and _same_recognition(good, data, result):
         return "the posterior is another one, and the answer is that for it"
+    if {edit.path[0] for edit in edits} == {"human_plan_times"} and _same_answer(good, result, times=True):
+        return "the human may have planned so, too"
     if {edit.path[0] for edit in edits} <= {"plan", "policy", "window"} and _another_answer(good, result):
         return "another answer of the same worth"
     return None
@@ -101,20 +103,26 @@ def _without_options(data: dict[str, Any]) -> Any:
     return _meaning({key: value for key, value in data.items() if key != "options"})
 
 
-def _asked(good: Good, result: Result) -> Result | None:
-    """What the call is answered under the edited result's options; None where it can't be asked so."""
+def _asked(good: Good, result: Result, *, times: bool = False) -> Result | None:
+    """What the call is answered under the edited result's options; None where it can't be asked so.
+
+    Args:
+        times: with the human's plan as the result has it, too.
+    """
     options = {key: value for key, value in result.options.to_dict().items() if not key.endswith("_limit")}
     wanted = ("human_plan", *(("goals", "observed") if result.goals is not None else ()))
     given = {key: value for key, value in good.asked.items() if key in wanted}
+    if times:
+        options, given = options | {"head_start": 0}, {"human_plan": result.human_entries}
     try:
         return serendipity.plan(good.task, **options, **given)
     except (UsageError, SerendipityError):
         return None
 
 
-def _same_answer(good: Good, result: Result) -> bool:
+def _same_answer(good: Good, result: Result, *, times: bool = False) -> bool:
     """Whether the call under the edited options is answered just so, or better known by now."""
-    again = _asked(good, result)
+    again = _asked(good, result, times=times)
     if again is None:
         return result.status == "infeasible"  # a horizon that is too short for others, say
     figures = ("human_cost", "cost", "objective", "opportunity", "saving", "saving_alone", "reason")

@@ -29,7 +29,7 @@ PLACES = {
     "what robots do beside the human": "search.packed.successor_generator:Successors.with_robots",
     "robots' joint actions": "search.packed.successor_generator:Successors.robots",
     "joint actions with the human": "search.packed.successor_generator:Successors.joint",
-    "whether an action fits beside others": "search.packed.successor_generator:Successors._fits",
+    "whether an action fits beside others": "search.packed.due:Due.fits",
     "whether a set can be done in some order": "search.packed.successor_generator:Successors.sequential",
     "sets of a team that need one epoch": "search.classical.team:circles",
     # costs and orders

@@ -112,7 +112,7 @@ class _Search:
             return "robots may disable what the human does in the same epoch"
         own = [i for i in relevant.actions if task.human in task.actions[i].participants]
         goal = {*task.goal.positive, *task.goal.negative} & relevant.facts
-        kept, matters = closure(task.actions, own, goal, set(relevant.facts), self._deadline)
+        kept, matters = closure(task, own, goal, set(relevant.facts), self._deadline)
         robots = parts(question, relevant, frozenset(matters))
         if not robots:
             return "there are no robots"

@@ -137,7 +137,7 @@ class AutomataEncoding:
         his = (task.actions[i] for i in self.deadline.each(part.actions))
         costs = {action.cost for action in his if action.participants == (task.human,)}
         talk = any(question.prices.talk[i] for i in task.human_actions)
-        return len(costs) > 1 or 0 in costs or talk or bool(task.robot_goal)
+        return len(costs) > 1 or 0 in costs or talk or bool(task.robot_goal or task.due)
 
     def _setting(
         self, part: Relevant, machines: tuple[Automaton, ...], expected: tuple[frozenset[int], ...]
@@ -154,7 +154,8 @@ class AutomataEncoding:
                 networks.append(human)
             else:
                 open_end = self._goes_on(part, machine, wanted_true | wanted_false)
-                networks.append(RobotNetwork(machine, weights[agent], open_end=open_end))
+                due = task.due_for.keys()
+                networks.append(RobotNetwork(machine, weights[agent], due, open_end=open_end))
         finals = [goal_states(question, machine) for machine in machines]
         return NetworkSetting(
             task=task,
@@ -181,6 +182,8 @@ class AutomataEncoding:
         self, part: Relevant, machines: tuple[Automaton, ...], expected: tuple[frozenset[int], ...]
     ) -> bool:
         """Drop moves of the automata that are on no plan within the limits; False if there is no plan."""
+        if self.question.task.of_bystanders:
+            return True  # bystanders move whether it pays or not
         question, prices = self.question, self.question.prices
         wanted_true, wanted_false = self._wanted(part, expected)
         going_on = [m.agent for m in machines if self._goes_on(part, m, wanted_true | wanted_false)]
@@ -210,7 +213,7 @@ class AutomataEncoding:
 
     def _goes_on(self, part: Relevant, machine: Automaton, wanted: frozenset[int]) -> bool:
         """Whether an agent's flow goes on to the end, since its state may count there."""
-        if machine.agent == self.question.task.human or self._whole:
+        if machine.agent == self.question.task.human or self._whole or self.question.task.due:
             return True
         return self._watched(part, machine, wanted)
 

@@ -5,11 +5,12 @@ An arc is a tuple ``(source, target, action, weight, needs)``: node numbers, the
 that must be true before the epoch besides the action's own precondition.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Set
 from dataclasses import dataclass, field
 from typing import Final
 
 from serendipity.model import Deadline
+from serendipity.model.task.unit_steps import WAITING
 from verify.base.control import ALL, OWN, SUFFIX, Control, HumanControl
 from verify.base.relevance import Relevant
 from verify.base.shortest_paths import dijkstra
@@ -37,6 +38,7 @@ class Network:
         open_end: whether the flow goes on to the last epoch; else it may stop anywhere,
             which stands for an agent that does nothing any more.
         start: the initial node.
+        due: facts that do not last (semantics 10): where one is true nobody waits.
     """
 
     automaton: Automaton
@@ -44,6 +46,7 @@ class Network:
     layers: list[list[Arc]] = field(default_factory=list)
     open_end: bool = True
     start: int = 0
+    due: Set[int] = NOTHING
 
     @property
     def agent(self) -> int:
@@ -53,6 +56,10 @@ class Network:
     def true_facts(self, node: int) -> frozenset[int]:
         """The automaton's facts that are true in a node."""
         return self.automaton.states[self.state_of[node]]
+
+    def may_wait(self, node: int) -> bool:
+        """Whether the agent may do nothing from a node on."""
+        return not self.due or self.due.isdisjoint(self.true_facts(node))
 
     def outgoing(self, node: int, epoch: int) -> Iterator[Arc]:
         """All arcs of an epoch from a node, before anything is pruned."""
@@ -67,14 +74,15 @@ class Network:
 class RobotNetwork(Network):
     """A robot may do any of its actions, or wait, in every epoch."""
 
-    def __init__(self, automaton: Automaton, weights: list[int], *, open_end: bool) -> None:
-        super().__init__(automaton, list(range(len(automaton.states))), open_end=open_end)
+    def __init__(self, automaton: Automaton, weights: list[int], due: Set[int], *, open_end: bool) -> None:
+        super().__init__(automaton, list(range(len(automaton.states))), open_end=open_end, due=due)
         self.weights = weights
 
     def outgoing(self, node: int, epoch: int) -> Iterator[Arc]:
         """See :class:`Network`."""
         del epoch
-        yield (node, node, WAIT, 0, NOTHING)
+        if self.may_wait(node):
+            yield (node, node, WAIT, 0, NOTHING)
         for action, target in self.automaton.moves[node]:
             yield (node, target, action, self.weights[action], NOTHING)
 
@@ -90,7 +98,7 @@ class HumanNetwork(Network):
         question: Subproblem,
         part: Relevant,
     ) -> None:
-        super().__init__(automaton, [0])
+        super().__init__(automaton, [0], due=question.task.due_for.keys())
         self.weights = weights
         self.control = control
         self.facts = part.facts
@@ -99,6 +107,7 @@ class HumanNetwork(Network):
         task = question.task
         own = question.deadline.each(part.actions)
         self.own = {i for i in own if task.actions[i].participants == (task.human,)}
+        self.waiting = set(task.named.get(WAITING, ()))
 
     def node(self, state: int, control: Control) -> int:
         """The number of a node, new or old."""
@@ -116,9 +125,12 @@ class HumanNetwork(Network):
             needs = self.outer(leg.needs, state)
             if needs is None:
                 continue
-            if leg.wait:
+            may_wait = self.may_wait(node)
+            if leg.wait and may_wait:
                 yield (node, self.node(state, leg.after), WAIT, leg.weight, needs)
             for action, target in moves:
+                if action in self.waiting and not may_wait:
+                    continue
                 if leg.actions == ALL or (
                     action in self.own if leg.actions == OWN else action in leg.actions
                 ):

@@ -6,6 +6,7 @@ from typing import Final
 
 from serendipity.model import Step, Window
 from verify.base.control import INSIDE
+from verify.base.execution import is_last
 from verify.base.subproblem import Subproblem
 from verify.programs.automata.flows import Flows
 from verify.programs.automata.linear import Linear, Sum, plus
@@ -41,12 +42,14 @@ class NetworkProgram:
         self._needs()
         self._goals()
         self._conflicts()
+        self._due()
         self._idle_robots()
         self._limits()
 
     def _touched(self) -> set[int]:
         """Facts whose truth some row has to refer to."""
         facts = set(self.setting.wanted_true | self.setting.wanted_false)
+        facts.update(self.setting.part.facts & self.task.due_for.keys())
         for epoch in range(1, self.setting.horizon + 1):
             for i in self.deadline.each(self.flows.present(epoch)):
                 facts.update(self.setting.outer_pre[i], self.setting.outer_neg[i])
@@ -120,6 +123,8 @@ class NetworkProgram:
             needers: dict[tuple[int, bool], list[int]] = defaultdict(list)
             for i in self.deadline.each(self.flows.present(epoch)):
                 action = self.task.actions[i]
+                if is_last(action):
+                    continue
                 for f in action.delete:
                     deleters[f].append(i)
                 for f in action.add:
@@ -134,6 +139,29 @@ class NetworkProgram:
             for (f, positive), ids in needers.items():
                 against = deleters.get(f, []) if positive else adders.get(f, [])
                 self._exclude_needs(epoch, ids, against)
+
+    def _due(self) -> None:
+        """What is due takes place (semantics 10): ``x[o, t] >= s[f, t - 1]``, where no arc says so.
+
+        An agent's automaton that has the fact has no arc of waiting where it is true.
+        """
+        self.model.family = "semantics 10"
+        for f in sorted(self.setting.part.facts & self.task.due_for.keys()):
+            inside = self.facts.is_inside(f)
+            for variants in self.task.due_for[f]:
+                if inside and f in self.task.actions[variants[0]].delete:
+                    continue
+                for epoch in range(1, self.setting.horizon + 1):
+                    truth = self.facts.truth(f, epoch - 1)
+                    if not truth.is_zero:
+                        terms = dict(truth.terms)
+                        for i in variants:
+                            terms = (
+                                plus(terms, self.flows.action(i, epoch), -1)
+                                if i in self.flows.owner
+                                else terms
+                            )
+                        self.model.add(terms, "<=", -truth.constant)
 
     def _exclude(self, epoch: int, deleters: list[int], adders: list[int]) -> None:
         """An epoch has at most one deleter, and none beside an adder that is another action."""
@@ -182,7 +210,7 @@ class NetworkProgram:
             for k in range(len(self.setting.networks)):
                 busy: Sum = {}
                 for i, sums in self.flows.by_action[k][epoch - 1].items():
-                    if i != WAIT and k != self.task.human:
+                    if i != WAIT and k != self.task.human and k not in self.task.script.people:
                         busy.update(sums)
                 if busy:
                     self.model.add({**busy, **free}, "<=", 0)

@@ -222,14 +222,14 @@ def _open_backward(
     setting: NetworkSetting, forward: Forward, k: int, others: int, active: Container[int]
 ) -> bool:
     """A network whose flow goes on to the end; False if it can't."""
-    network = setting.networks[k]
+    network, robot = setting.networks[k], k not in setting.task.script.people
     after = ends(setting, forward, k)
     for epoch in range(setting.horizon, 0, -1):
         reached = forward.reach[k][epoch - 1]
         kept: list[Arc] = []
         for arc in setting.deadline.each(network.layers[epoch - 1]):
             source, target, action, weight, _ = arc
-            if target not in after or (action != WAIT and epoch not in active):
+            if target not in after or (robot and action != WAIT and epoch not in active):
                 continue
             if reached[source] + weight + after[target] + others <= setting.most:
                 kept.append(arc)

@@ -7,6 +7,7 @@ They follow value-transition flows where an exactly-one group moves by precondit
 from collections import defaultdict
 from collections.abc import Iterable
 
+from verify.base.execution import is_last
 from verify.programs.automata.flows import Flows
 from verify.programs.automata.linear import Linear, Sum, plus
 
@@ -74,6 +75,18 @@ class SharedFacts:
         self._model.add(balance, "==", before.constant)
         return Linear({**produced, keep: 1})
 
+    def is_inside(self, f: int) -> bool:
+        """Whether a fact is one of an agent's automaton."""
+        return f in self._inside
+
+    def _scripted(self, f: int, epoch: int) -> bool | None:
+        """The truth that the script gives a fact with an epoch, last of all; None: it does not change it."""
+        for i in self._flows.present(epoch) if self._task.of_bystanders else ():
+            action = self._task.actions[i]
+            if is_last(action) and f in (*action.add, *action.delete):
+                return f in action.add
+        return None
+
     def _frame(self, f: int) -> None:
         """The exact frame of one fact: (5) and (6) with their lower counterparts."""
         self._model.family = "eq. 5, 6: facts"
@@ -81,6 +94,10 @@ class SharedFacts:
         ys = [model.column(1, 1) if f in self._task.init else model.column(0, 0)]
         self._frames[f] = ys
         for epoch in range(1, self._setting.horizon + 1):
+            fixed = self._scripted(f, epoch)
+            if fixed is not None:
+                ys.append(model.column(int(fixed), int(fixed)))
+                continue
             y, before = model.column(0, 1, integral=False), ys[-1]
             ys.append(y)
             every_adder, adders, deleters = self._changers(f, epoch)

@@ -1,0 +1,87 @@
+"""Answers in time are proved by each method, with proof files, and doing nothing is refuted where help is."""
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+import serendipity
+from serendipity.model import PlanError, Result, Task, TimedPlan, UsageError
+from serendipity.model.numbers import figure
+from serendipity.testing.call import Call
+from serendipity.testing.oracle import best
+from serendipity.testing.strategies.time import calls_in_time
+from verify.certificate.certify import certify
+
+_PLAIN = {"suffix": "replan", "preservation": "kernel", "keep_prefix": False, "waiting_cost": 0}
+
+
+def answered(call: Call) -> Result:
+    """The answer to a call of what the verifier knows in time."""
+    assume(not isinstance(call.human_plan, TimedPlan))
+    assume(all(getattr(call.options, name) == value for name, value in _PLAIN.items()))
+    try:
+        return serendipity.plan(call.task, human_plan=call.human_entries, **call.keywords())
+    except (UsageError, PlanError):
+        assume(False)
+        raise
+
+
+@given(calls_in_time(), st.sampled_from(["auto", "program", "exhaustive"]))
+def test_answers_are_proved(call: Call, method: str) -> None:
+    result = answered(call)
+    certificate = certify(call.task, result, method=method)
+    assert certificate.verdict == "proved", certificate
+    assert all(claim.verdict != "refuted" for claim in serendipity.check(call.task, result).claims)
+
+
+@given(calls_in_time())
+def test_proofs_are_accepted(tmp_path_factory: object, call: Call) -> None:
+    result = answered(call)
+    file = Path(tmp_path_factory.mktemp("proof")) / "proof.json"  # type: ignore[attr-defined]
+    try:
+        serendipity.verify(call.task, result, proof=file)
+    except UsageError:
+        assume(False)
+    assert not file.exists() or serendipity.check_proof(file, call.task, result).verdict == "accepted"
+
+
+@given(calls_in_time(modes=("serendipity",)), st.sampled_from(["program", "exhaustive"]))
+def test_doing_nothing_is_refuted_where_brute_force_helps(call: Call, method: str) -> None:
+    result = answered(call)
+    optimum = best(call.task, call.options, call.human_plan)
+    if not optimum.opportunity or call.task.robot_goal.positive or result.saving_alone:
+        return
+    idle = doing_nothing(call.task, result)
+    certificate = certify(call.task, idle, method=method)
+    assert certificate.verdict == "refuted", (optimum, certificate)
+    refuted = next(claim for claim in certificate.claims if claim.verdict == "refuted")
+    assert refuted.counterexample is not None, refuted
+
+
+def doing_nothing(task: Task, result: Result) -> Result:
+    """The claim that nothing helps: ``pi_H``, its cost, and a bound that meets it."""
+    names, times = result.human_plan or (), result.human_plan_times
+    ids = task.plan_from_names(result.human_entries or ())
+    starts = task.starts_of(ids) if times is None else times.starts
+    steps = tuple(
+        serendipity.PlanStep(
+            start, (task.agents[task.human],), name, figure(task.actions[i].cost), task.actions[i].duration
+        )
+        for start, name, i in zip(starts, names, ids, strict=True)
+    )
+    cost = figure(sum((task.actions[i].cost for i in ids), Fraction(0)))
+    others = dict.fromkeys(task.agents, 0.0)
+    return replace(
+        result,
+        opportunity=False,
+        cost=cost,
+        saving=0.0,
+        objective=cost,
+        lower_bound=cost,
+        window=None,
+        plan=steps,
+        agent_costs={**others, task.agents[task.human]: cost},
+    )

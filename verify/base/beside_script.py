@@ -1,0 +1,100 @@
+"""The human alone beside a script (semantics 10.3): (cost, epochs) of an optimal plan from a state on."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from serendipity.model import HumanPlan, Options, Task
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.unit_steps import WAITING
+from verify.base.due import onward
+from verify.base.execution import State, applicable, due, is_calm
+from verify.base.individual import IndividualOptimum
+from verify.base.shortest_paths import PathSearch
+from verify.base.undecided import TooManyStatesError, during
+from verify.limits import limits
+
+
+class AloneBesideScript(IndividualOptimum):
+    """The same as for any human alone, where states go on by themselves as long as the script runs.
+
+    The clock is part of a state, so that what is known of a state is known of its epoch.
+
+    Args:
+        task: the task, in single epochs.
+        deadline: polled.
+        options: its interference says what disturbs a bystander.
+    """
+
+    def __init__(self, task: Task, deadline: Deadline | None, options: Options) -> None:
+        super().__init__(task, deadline)
+        self._options, self._strict = options, options.strict
+        self._waiting = task.named[WAITING][0]
+        self._worth: dict[State, tuple[Fraction, int] | None] = {}
+
+    @property
+    def start(self) -> State | None:
+        """See :class:`IndividualOptimum`."""
+        state: State | None = self._task.init
+        for _ in range(self._options.head_start):
+            if state is None or is_calm(self._task, state):
+                break
+            state = onward(self._task, state, (), strict=self._strict)
+        return state
+
+    def moves(self, state: State) -> Iterator[tuple[int, State]]:
+        """See :class:`IndividualOptimum`; waiting is one of them while anything happens."""
+        task = self._task
+        his = [variants for variants in due(task, state) if variants[0] not in task.of_bystanders]
+        free = (i for i in task.human_actions if i != self._waiting or not is_calm(task, state))
+        for i in his[0] if his else free:
+            if applicable(task.actions[i], state):
+                after = onward(task, state, (i,), strict=self._strict)
+                if after is not None:
+                    yield i, after
+
+    def optimum(self, state: State) -> tuple[Fraction, int] | None:
+        """See :class:`IndividualOptimum`; the length counts epochs, waiting included."""
+        if state not in self._worth:
+            with during("searching for what the human can do alone"):
+                self._worth[state] = self._found(state)
+        return self._worth[state]
+
+    def _found(self, state: State) -> tuple[Fraction, int] | None:
+        own, goal = self.own, self._task.goal
+        search = PathSearch(state, self._edges, lambda _: 0, self.deadline)
+        for expansions, (here, _) in enumerate(search):
+            if goal.holds(here):
+                return own.split(search.distance[here])
+            if expansions >= limits().own_states:
+                raise TooManyStatesError
+        return None
+
+    def _edges(self, state: State) -> Iterator[tuple[State, int, int]]:
+        for i, after in self.moves(state):
+            yield after, self.own.weight(i), i
+
+    def within(self, state: State, cost: Fraction, length: int) -> bool:
+        """See :class:`IndividualOptimum`."""
+        found = self.optimum(state)
+        return found is not None and found <= (cost, length)
+
+    def suppose(self, plan: HumanPlan) -> None:
+        """See :class:`IndividualOptimum`; nothing is supposed."""
+
+    def learn(self, plan: HumanPlan) -> None:
+        """See :class:`IndividualOptimum`; nothing is learned."""
+
+
+def alone_of(
+    task: Task, deadline: Deadline | None = None, options: Options | None = None
+) -> IndividualOptimum:
+    """What is to be known of the human alone, with a script or without.
+
+    Args:
+        task: the task.
+        deadline: polled.
+        options: a call's: interference, and the head start; None for a call without them.
+    """
+    if task.of_bystanders:
+        return AloneBesideScript(task, deadline, options or Options())
+    return IndividualOptimum(task, deadline)

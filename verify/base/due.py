@@ -1,0 +1,47 @@
+"""Plans where something happens without being chosen: parts of actions that go on, the script (semantics 10).
+
+All this is about tasks in single epochs (:mod:`serendipity.model.task.unit_steps`).
+"""
+
+from collections.abc import Callable, Iterable
+
+from serendipity.model import Step, Task
+from verify.base.execution import State, by_epoch, executed, is_calm, met
+
+
+def onward(task: Task, state: State, chosen: Iterable[int], *, strict: bool) -> State | None:
+    """The state after an epoch of actions and what is due; None if that is impossible."""
+    return executed(state, [task.actions[i] for i in met(task, state, chosen)], strict=strict)
+
+
+def lasts(task: Task, state: State, epochs: int, holds: Callable[[State], bool], *, strict: bool) -> bool:
+    """Whether something holds after some epochs in which nobody does what is not due."""
+    for _ in range(epochs):
+        if is_calm(task, state):
+            break
+        after = onward(task, state, (), strict=strict)
+        if after is None:
+            return False
+        state = after
+    return holds(state)
+
+
+def filled(task: Task, steps: Iterable[Step], last: int | None, *, strict: bool) -> tuple[Step, ...]:
+    """A plan with all that is due; where it can't be executed any more what is left stays as it is.
+
+    Args:
+        task: the task.
+        steps: what is chosen.
+        last: the last epoch; None: until nothing is due any more.
+        strict: interference as in semantics 2.
+    """
+    sets = by_epoch(steps)
+    state: State | None = task.init
+    found: list[Step] = []
+    epoch = 0
+    while state is not None and epoch != last and (sets or not is_calm(task, state)):
+        epoch += 1
+        chosen = met(task, state, sets.pop(epoch, ()))
+        found += [Step(epoch, i) for i in chosen]
+        state = executed(state, [task.actions[i] for i in chosen], strict=strict)
+    return (*found, *(Step(epoch, i) for epoch in sorted(sets) for i in sets[epoch]))

@@ -1,0 +1,216 @@
+"""A result in time as one in single epochs, which is what all methods look at (semantics 10).
+
+The plan is played twice: as the text says, by durations and script, and in single epochs, by the rules.  The
+tasks in single epochs are the planner's, too; that they say what section 10 does is held by plans that are
+played twice, and by the brute force of the tests, which knows of no such task.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+from serendipity.model import Claim, Deadline, HumanPlan, PlanError, PlanStep, Result, Task
+from serendipity.model.task.actions import GroundAction
+from serendipity.model.task.course import BrokenPlanError, PlayedPlan
+from serendipity.model.task.plans import Step
+from serendipity.model.task.plans_in_time import times_of
+from serendipity.model.task.unit_steps import UnitSteps, unit_steps
+from verify.base import wording
+from verify.base.execution import State, applicable, executed, is_calm, meant_by, met, participants, plan_step
+from verify.base.obligations import is_tied, kind_of, needed
+from verify.base.undecided import UNDECIDED, why
+from verify.rules.report import Violation
+
+_TEXT = "10.1"
+
+
+def examined_in_time(
+    task: Task, result: Result, deadline: Deadline, examine: Callable[[Task, Result], tuple[Claim, ...]]
+) -> tuple[Claim, ...]:
+    """The claims of a result in time.
+
+    Args:
+        task: the task.
+        result: the result, of checked types.
+        deadline: polled.
+        examine: makes the claims of a task and a result in single epochs.
+    """
+    if kind_of(result) != "a plan" or is_tied(result):
+        return tuple(Claim(name, "undecided", wording.NOT_IN_TIME) for name in needed(result))
+    try:
+        epochs = SingleEpochs(task, result, deadline)
+        if epochs.fault is not None:
+            return (Claim("replay", "refuted", str(epochs.fault)),)
+        said = epochs.result()
+    except UNDECIDED as error:
+        return tuple(Claim(name, "undecided", why(error)) for name in needed(result))
+    return tuple(map(epochs.told, examine(epochs.task, said)))
+
+
+class SingleEpochs:
+    """A task in time and a result for it, in single epochs.
+
+    Args:
+        task: the task.
+        result: the result, of checked types.
+        deadline: polled.
+
+    Attributes:
+        units: the task in single epochs, and what it has to do with the one in time.
+        human_plan: ``pi_H``; None where there is none, or it is none of the human's.
+        fault: what is wrong with the plan as the text has it, or None.
+
+    Raises:
+        LimitReachedError: the deadline came first.
+    """
+
+    def __init__(self, task: Task, result: Result, deadline: Deadline) -> None:
+        self._original, self._result, self._deadline = task, result, deadline
+        self.units: UnitSteps = unit_steps(task, deadline)
+        self.human_plan = self._human_plan()
+        self.fault = self._mistold() or self._played()
+
+    @property
+    def task(self) -> Task:
+        """The task in single epochs."""
+        return self.units.task
+
+    def result(self) -> Result:
+        """The result in single epochs: its plan with all that is due."""
+        said = self._result
+        return replace(
+            said,
+            human_plan=self._human_names(),
+            human_plan_times=None,
+            bystanders={},
+            plan=None if said.plan is None else tuple(self._steps()),
+            agent_costs=self._agent_costs(),
+        )
+
+    def told(self, claim: Claim) -> Claim:
+        """A claim whose counter-example is a plan of the task in time."""
+        if claim.counterexample is None:
+            return claim
+        begun = tuple(self._begun(step) for step in claim.counterexample if self._begins(step))
+        return replace(claim, counterexample=begun)
+
+    def _agent_costs(self) -> dict[str, float]:
+        """What each agent pays; bystanders and the clock nothing."""
+        others = (self.task.agents[i] for i in sorted(self.task.script.people))
+        said = self._result.agent_costs
+        return {**dict.fromkeys(others, 0.0), **said} if said else said
+
+    # -- the text
+
+    def _mistold(self) -> Violation | None:
+        """What the result says of times and of bystanders, and is not so."""
+        said, plan = self._result, self.human_plan
+        times = None if plan is None else times_of(self._original, plan)
+        if None not in (times, said.human_plan_times) and said.human_plan_times != times:
+            return Violation("times", "replay", "10.2", "the times of pi_H are not those of its actions")
+        if said.bystanders != self._bystanders():
+            return Violation("bystanders", "replay", "10.3", "bystanders do not what the task's script says")
+        return None
+
+    def _bystanders(self) -> dict[str, tuple[PlanStep, ...]]:
+        """What bystanders do, by name; it costs nobody anything."""
+        task, script = self._original, self._original.script
+        found: dict[str, list[PlanStep]] = {task.agents[i]: [] for i in sorted(script.people)}
+        for deed in script.deeds:
+            who = task.agents[deed.agent]
+            found[who].append(PlanStep(deed.epoch, (who,), deed.name, 0.0, deed.end - deed.epoch + 1))
+        return {who: tuple(steps) for who, steps in found.items()}
+
+    def _played(self) -> Violation | None:
+        """The first step that can't be done when the plan says, durations and script beside it."""
+        task, said = self._original, self._result
+        by_epoch: dict[int, list[PlanStep]] = {}
+        for step in said.plan or ():
+            fault = self._misnamed(step)
+            if fault is not None:
+                return fault
+            by_epoch.setdefault(step.epoch, []).append(step)
+        course = PlayedPlan(task.facts, task.init, task.script, strict=said.options.strict)
+        last = max(by_epoch, default=0)
+        while said.plan is not None and course.epoch < last:
+            self._deadline.check()
+            try:
+                course.begin(self._meant(step, course.state) for step in by_epoch.get(course.epoch + 1, ()))
+            except BrokenPlanError as error:
+                return Violation("in-time", "replay", _TEXT, error.reason, course.epoch, error.action.name)
+        return None
+
+    def _misnamed(self, step: PlanStep) -> Violation | None:
+        task, ids = self._original, self._original.named.get(step.action, ())
+        place = _TEXT, step.epoch, step.action
+        if not ids:
+            return _violation("unknown-action", "the task has no such action", *place)
+        if not meant_by(task, step.action, step.agents):
+            expected = ", ".join(participants(task, ids[0]))
+            words = f"its participants are {expected}, not {', '.join(step.agents) or 'nobody'}"
+            return _violation("wrong-agents", words, *place)
+        length = task.actions[ids[0]].duration
+        if step.duration != length:
+            return _violation("duration", f"it takes {length} epochs, not {step.duration}", *place)
+        return None
+
+    def _meant(self, step: PlanStep, state: State) -> GroundAction:
+        actions = [self._original.actions[i] for i in meant_by(self._original, step.action, step.agents)]
+        return next((action for action in actions if applicable(action, state)), actions[0])
+
+    # -- single epochs
+
+    def _human_plan(self) -> HumanPlan | None:
+        """``pi_H``; None where there is none, or it is none of the human's."""
+        try:
+            entries = self._result.human_entries
+            return None if entries is None else self._original.plan_from_names(entries)
+        except PlanError:
+            return None
+
+    def _human_names(self) -> tuple[str, ...] | None:
+        """``pi_H`` by the names of single epochs; as it is where it is none of the human's."""
+        if self.human_plan is None:
+            return self._result.human_plan
+        return tuple(self.task.actions[i].name for i in self.units.plan(self.human_plan))
+
+    def _steps(self) -> Iterator[PlanStep]:
+        """The plan with all that is due, up to ``T``; as it is from where on it can't be executed."""
+        task, said = self.task, self._result
+        left = sorted(said.plan or (), key=lambda step: step.epoch)
+        last = said.horizon if isinstance(said.horizon, int) else None
+        state: State | None = task.init
+        epoch = 0
+        while state is not None and (left or self._goes_on(epoch, last, state)):
+            self._deadline.check()
+            epoch += 1
+            here = [step for step in left if step.epoch <= epoch]
+            left = left[len(here) :]
+            yield from here
+            chosen = met(task, state, [self._first(step, state) for step in here])
+            for i in chosen[len(here) :]:
+                yield plan_step(task, Step(epoch, i), said.options.discount)
+            state = executed(state, [task.actions[i] for i in chosen], strict=said.options.strict)
+        yield from left
+
+    def _goes_on(self, epoch: int, last: int | None, state: State) -> bool:
+        """Whether something may still happen by itself."""
+        return (last is None or epoch < last) and not is_calm(self.task, state)
+
+    def _first(self, step: PlanStep, state: State) -> int:
+        """The action in single epochs with which a step begins."""
+        task, ids = self.task, meant_by(self._original, step.action, step.agents)
+        begins = [self.units.chains[i][0] for i in ids]
+        return next((i for i in begins if applicable(task.actions[i], state)), begins[0])
+
+    # -- back
+
+    def _begins(self, step: PlanStep) -> bool:
+        return step.action in self._original.named
+
+    def _begun(self, step: PlanStep) -> PlanStep:
+        length = self._original.actions[self._original.named[step.action][0]].duration
+        return step if length == 1 else replace(step, duration=length)
+
+
+def _violation(rule: str, words: str, section: str, epoch: int, action: str) -> Violation:
+    return Violation(rule, "replay", section, words, epoch, action)
