@@ -1,7 +1,6 @@
-"""`plan --head-start`: robots begin before the person does, and nothing claims to have checked it."""
+"""`plan --head-start`: robots begin before the person does, and the answer is checked like any other."""
 
 import json
-from pathlib import Path
 
 from tests.cli.conftest import Runs, assert_one_line
 
@@ -10,7 +9,7 @@ def test_the_former_plan_begins_after_it(run: Runs) -> None:
     done = run("plan --example room2 --discount 0.6 --head-start 2")
     rows = [line.split() for line in done.out.splitlines()]
     assert any(row[:1] == ["15"] and row[-3:] == ["conduct_triage", "commx", "room1"] for row in rows)
-    assert "the checker does not know time yet" in done.out
+    assert "checker: proves replay, cost, window" in done.out
 
 
 def test_who_has_longer_saves_no_less(run: Runs) -> None:
@@ -23,10 +22,11 @@ def test_who_has_longer_saves_no_less(run: Runs) -> None:
     assert costs == sorted(costs, reverse=True)
 
 
-def test_what_it_says_is_not_checked_elsewhere(run: Runs) -> None:
+def test_what_it_says_is_proved_and_the_proof_is_accepted(run: Runs) -> None:
     run("plan --example room2 --discount 0.6 --head-start 2 -o begun.json")
-    assert Path("begun.json").exists()
-    assert_one_line(run("verify --example room2 begun.json"), "time", "plan only")
+    assert run("verify --example room2 begun.json --proof begun.proof").code == 0
+    assert run("check-proof begun.proof --example room2 begun.json").code == 0
+    assert_one_line(run("explain --example room2 begun.json"), "time", "not here yet")
 
 
 def test_a_head_start_is_a_number_of_epochs(run: Runs) -> None:

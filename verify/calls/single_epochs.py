@@ -94,10 +94,9 @@ class SingleEpochs:
         return replace(claim, counterexample=begun)
 
     def _agent_costs(self) -> dict[str, float]:
-        """What each agent pays; bystanders and the clock nothing."""
-        others = (self.task.agents[i] for i in sorted(self.task.script.people))
-        said = self._result.agent_costs
-        return {**dict.fromkeys(others, 0.0), **said} if said else said
+        """What each agent pays; the clock nothing."""
+        clock, said = self.task.agents[len(self._original.agents) :], self._result.agent_costs
+        return {**said, **dict.fromkeys(clock, 0.0)} if said else said
 
     # -- the text
 
