@@ -95,7 +95,7 @@ class AchieverCosts:
         return best
 
     def each(self, state: int) -> list[int]:
-        """The same for each robot, if it is the first to act; in the order of their places."""
+        """The same for each robot, if it is the first to act; in the order of ``task.robots``."""
         return [self._at(robot, state)[1] for robot in self._robots]
 
     def _at(self, robot: "_Robot", state: int) -> tuple[tuple[int, ...], int]:

@@ -10,7 +10,7 @@ from search.bounds.achiever_costs import AchieverCosts
 from search.bounds.interactions import Interactions
 from search.packed.cost_vector import INFINITE_KEY, NEVER
 from search.packed.joint_actions import Idle
-from search.packed.operators import Operator
+from search.packed.operators import Operator, set_by
 from search.packed.packed_task import PackedTask
 from search.robots.transition_graphs import PositionVariables, TransitionGraphs
 from serendipity.model.resources.deadline import Deadline
@@ -194,7 +194,12 @@ class Achievers:
 
 
 def shared_fields(packed: PackedTask, positions: PositionVariables) -> list[int]:
-    """Outside fields that are no robot's place, the largest first."""
+    """Outside fields that robots alone change, and that are no robot's place, the largest first.
+
+    What a script changes, too, may be provided for nothing.
+    """
     places = set(positions.field.values())
-    outside = [f for f in packed.fields if f & packed.outside and f not in places]
+    robots = sum(1 << robot for robot in packed.task.robots)
+    scripted = set_by(form for form in packed.other_forms if form.agents & ~robots)
+    outside = [f for f in packed.fields if f & packed.outside and f not in places and not f & scripted]
     return sorted(outside, key=lambda f: (-len(packed.values(f)), f))

@@ -107,6 +107,11 @@ class IndividualPlanner:
         self._lookup, self._known, self._at_least = memory.lookup, memory.known, memory.at_least
         self._blind = bool(goal.mask & ~bound.mask)
 
+    @property
+    def mask(self) -> int:
+        """The fields that the human's plans depend on, or change."""
+        return self._mask
+
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """The optimal key alone from a packed state; from ``limit`` (a key) on any value says "not below"."""
         if self._prices is not None and limit < INFINITE_KEY:
@@ -297,7 +302,10 @@ class IndividualPlanner:
         if last is None or last[0] != start:
             if self._memory.classical is not None:
                 self._least_from(start)
-            last = self._memory.plans = start, self._optimal(start)
+            found = self._optimal(start)
+            if found is not None and self._packed.in_time:
+                found = found.fewest(self._packed.counted)
+            last = self._memory.plans = start, found
         return last[1]
 
     def _optimal(self, start: int) -> PlanGraph | None:

@@ -34,8 +34,8 @@ class BesideScript(Lookup):
     def __init__(self, packed: PackedTask, weight: Callable[[Operator], int], *, strict: bool) -> None:
         super().__init__(packed.own_index, weight)
         self._due = Due(packed, weight, strict=strict)
-        waiting = packed.op(len(packed.task.actions) - 1)  # the last of all, see unit_steps
-        self._waiting = as_option(waiting, weight(waiting))
+        waits = [packed.op(action) for action in packed.idling if not packed.prices_waiting]
+        self._waiting = [as_option(op, weight(op)) for op in waits]  # else it is in the index
 
     def options(self, state: int) -> list[JointAction]:
         """What is possible in a packed state."""
@@ -45,7 +45,7 @@ class BesideScript(Lookup):
         if self._due.last(state) is None and others and not others[0].actions:
             return found
         if going_on is None:
-            found.append(self._waiting)
+            found += self._waiting
         return list(self._due.with_last(self._beside(found, others), state))
 
     def _beside(self, found: list[JointAction], others: list[JointAction]) -> Iterator[JointAction]:

@@ -75,6 +75,33 @@ class PlanGraph:
                 open_steps.append(iter(self.edges.get(after, ())))
         return None
 
+    def fewest(self, size: Callable[[int], int]) -> "PlanGraph":
+        """The same with those plans alone that have the fewest actions.
+
+        Args:
+            size: of an action: 0 where it is no action of its own.
+        """
+        least: dict[int, int] = {}
+        edges: Edges = {}
+        pending = [self.start]
+        while pending:
+            state = pending[-1]
+            onward = self.edges.get(state, ())
+            missing = [after for _, after in onward if after not in least]
+            if missing:
+                pending += missing
+                continue
+            least[state] = min((size(action) + least[after] for action, after in onward), default=0)
+            kept = [step for step in onward if size(step[0]) + least[step[1]] == least[state]]
+            if kept:
+                edges[state] = kept
+            pending.pop()
+        return PlanGraph(self.start, edges, self.expanded, self.generated)
+
+    def size(self, size: Callable[[int], int]) -> int:
+        """The number of actions in its first plan, as :meth:`fewest` counts them."""
+        return sum(map(size, self.canonical()))
+
     def drawn(self, choose: Callable[[Sequence[tuple[int, int]]], tuple[int, int]]) -> tuple[int, ...]:
         """One of them, put together step by step.
 

@@ -10,7 +10,7 @@ from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.packed.due import Due
 from search.packed.joint_actions import JointAction
 from search.packed.operators import Operator, applicable
-from search.packed.packed_task import PackedGoal
+from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.resources.deadline import Deadline
 
 PlannedSteps = Sequence[tuple[Operator, JointAction]]
@@ -81,23 +81,25 @@ class Replan:
 
 @dataclass(eq=False)
 class Lasting:
-    """An optimal plan of the human's own whose end lasts: what happens anyway may undo it before the end.
+    """An optimal plan of the human's own in time: what happens anyway may undo its end before the last epoch.
+
+    Where waiting costs, the human may have begun to rest for good: then only resting may be what is optimal.
 
     Attributes:
-        replan: the rule without a script.
-        alone: the human alone, to all goals that they can affect.
+        replan: the rule without time.
         goals: what holds in the end.
         due: what happens anyway.
+        packed: the packed task.
     """
 
     replan: Replan
-    alone: IndividualPlanner
     goals: Sequence[PackedGoal]
     due: Due
+    packed: PackedTask
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
         """See :class:`Suffix`."""
-        found = self.replan.key(state, epochs, start, limit)
+        found = self.replan.key(state | self.packed.awake, epochs, start, limit)
         return INFINITE_KEY if found < limit and self._lasting(state, epochs) is None else found
 
     def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
@@ -108,15 +110,25 @@ class Lasting:
 
     def _lasting(self, state: int, epochs: int) -> tuple[int, ...] | None:
         """An optimal plan from a state whose end lasts."""
-        graph = self.alone.plans(state)
+        alone, both = self.replan.alone, self.replan.both
+        awake = state | self.packed.awake
+        planner = both or alone
+        graph, others = planner.plans(awake), awake & ~planner.mask
         if graph is None:
             return None
+        size = self.packed.counted
+        if awake != state and graph.size(size):
+            return None
+        if both is not None:
+            least = alone.plans(awake)
+            if least is None or least.size(size) < graph.size(size):
+                return None
         left = epochs - len(graph.canonical())
 
         def holds(end: int) -> bool:
             return all(goal.holds(end) for goal in self.goals)
 
-        return graph.ending(lambda end: self.due.lasting(end, left, holds))
+        return graph.ending(lambda end: self.due.lasting(end | others, left, holds))
 
 
 class Subplan:

@@ -1,6 +1,6 @@
 """What happens whatever is chosen: actions that go on, bystanders, and the clock (semantics "Time")."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from search.packed.joint_actions import NOTHING, JointAction, as_option, together
 from search.packed.operators import Operator, applicable
@@ -69,8 +69,15 @@ class Due:
     def after_waiting(self, state: int) -> int | None:
         """The state after an epoch in which nobody does what is not due; None where that is impossible."""
         parts = self.human(state)
+        return self.after(state, (NOTHING,) if parts is None else parts)
+
+    def after(self, state: int, parts: Iterable[JointAction]) -> int | None:
+        """The state after an epoch in which the human does the first of some things that is possible.
+
+        Others do what is due; None where it is impossible.
+        """
         for others in self.others(state):
-            for part in (NOTHING,) if parts is None else parts:
+            for part in parts:
                 if self.fits(part, others):
                     (option,) = self.with_last(iter((together(part, others),)), state)
                     return state & option.keep | option.put

@@ -21,7 +21,7 @@ from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition, conflicting
 from serendipity.model.task.task import Task
-from serendipity.model.task.unit_steps import CLOCK
+from serendipity.model.task.unit_steps import CLOCK, RESTING, WAITING
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +86,7 @@ class PackedTask:
             self._build(task, extra, deadline, kept)
 
     def _build(self, task: Task, extra: frozenset[int], deadline: Deadline, kept: tuple[int, ...]) -> None:
-        relevant, useful = relevant_to_goals(task, extra, deadline, (*kept, *deeds_of(task)))
+        relevant, useful = relevant_to_goals(task, extra, deadline, (*kept, *deeds_of(task), *_priced(task)))
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
         self.fields: list[int] = []
@@ -178,6 +178,36 @@ class PackedTask:
         """The clock's bit in sets of agents; 0 where there is no script."""
         agents = self.task.agents
         return 1 << agents.index(CLOCK) if CLOCK in agents else 0
+
+    @cached_property
+    def idling(self) -> tuple[int, ...]:
+        """Ids of the human's waiting as an action; of several the last is free, and ends what they do."""
+        last = self.task.actions[-2:]
+        first = len(self.task.actions) - len(last)
+        return tuple(i for i, a in enumerate(last, start=first) if a.name in (WAITING, RESTING))
+
+    @property
+    def prices_waiting(self) -> bool:
+        """Whether waiting costs the human something: then it is among their actions."""
+        return len(self.idling) > 1
+
+    @cached_property
+    def _uncounted(self) -> frozenset[int]:
+        return frozenset((*self.idling, *(action for _, action in self.task.due)))
+
+    def counted(self, action: int) -> int:
+        """1 where an action is begun by choice; 0 where it goes on, or is waiting."""
+        return int(action not in self._uncounted)
+
+    @cached_property
+    def awake(self) -> int:
+        """The fields that say whether the human may begin anything, where waiting costs; 0 elsewhere."""
+        return self.op(self.idling[0]).need_mask if self.prices_waiting else 0
+
+    @property
+    def in_time(self) -> bool:
+        """Whether it makes a difference in which epochs plans are, and not only in which order."""
+        return bool(self.task.due) or self.prices_waiting
 
     @cached_property
     def outside(self) -> int:
@@ -302,6 +332,13 @@ class PackedTask:
             agents = self._agents[action.participants] = sum(1 << agent for agent in action.participants)
         cost = self._cost_index[action.cost.as_integer_ratio()]
         return Operator(need_mask, need, keep, put, forbidden, action_id, agents, cost)
+
+
+def _priced(task: Task) -> Iterator[int]:
+    """Ids of the human's waiting where it costs something."""
+    last = len(task.actions) - 1
+    if last > 0 and task.actions[last].name == RESTING:
+        yield from (last - 1, last)
 
 
 def _distinct_costs(task: Task) -> tuple[Fraction, ...]:

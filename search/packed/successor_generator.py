@@ -68,6 +68,9 @@ class Successors:
         strict: strict interference (semantics 2).
         idle: robots do nothing.
         barred: ids of actions of robots, alone or with the human, that nobody may do.
+
+    Attributes:
+        idle: the human's part of an epoch in which they do nothing, unless waiting is among their actions.
     """
 
     def __init__(
@@ -88,6 +91,7 @@ class Successors:
         self._led = [] if idle else [Lookup(index, weight, barred) for index in packed.robot_indices]
         self._due = Due(packed, weight, strict=strict)
         self._fits = self._due.fits
+        self.idle = () if packed.prices_waiting else (NOTHING,)
         self._busy: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
         self._changing: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
 
@@ -95,6 +99,11 @@ class Successors:
     def due(self) -> Due:
         """What happens whatever is chosen."""
         return self._due
+
+    @property
+    def in_time(self) -> bool:
+        """Whether epochs count."""
+        return self._packed.in_time
 
     def going_on(self, state: int) -> tuple[JointAction, ...] | None:
         """What the human is in the middle of, and has to go on with: nothing, where that is impossible.

@@ -31,8 +31,7 @@ class PositionVariables:
         self.field: dict[int, int] = {}
         self.moves: dict[int, Moves] = {}
         forms = (*packed.own_forms, *packed.joint_forms, *packed.other_forms)
-        others = sorted(packed.task.script.people)  # what the script changes may be what a touch needs
-        for robot in (*packed.task.robots, *others):
+        for robot in packed.task.robots:
             bit = 1 << robot
             mine = [form for form in packed.other_forms if form.agents & bit]
             foreign = set_by(form for form in forms if not form.agents & bit)

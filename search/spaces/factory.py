@@ -17,10 +17,12 @@ from search.call.context import SearchContext
 from search.engine.dominance import ParetoFront
 from search.human.pattern_database import NOTHING_KNOWN
 from search.human.suffix_rules import Lasting, Preserved, Replan, Subplan, Suffix
+from search.human.suffixes_in_time import SuffixInTime
 from search.packed.cost_vector import INFINITE_KEY, NEVER, CostLayout
 from search.packed.due import Due
 from search.packed.joint_actions import JointAction
 from search.packed.operators import Operator
+from search.packed.packed_task import PackedTask
 from search.packed.packings import human_facts
 from search.spaces.unrestricted import Unrestricted
 from search.spaces.windowed import AnyOfPlan, InLayers, Prefix, PrefixBound, PrivateRest, Windowed
@@ -55,11 +57,11 @@ def window_space(
     successors = context.successors(idle=idle) if walks is None else context.folded(walks)
     private, steps = (context.bound, context.steps) if is_private else (NOTHING_KNOWN, NOTHING_KNOWN)
     touches = context.interactions if is_private else None
-    prefix: Prefix = InLayers([[step] for step in context.followed(plan)])
+    prefix: Prefix = InLayers(_layers(context, plan))
     on_the_way: PrefixBound = PrivateRest(len(plan), private, context.keys, horizon)
     untouched: Timed = no_bound
     if options.keep_prefix:
-        prefix = AnyOfPlan(successors, context.task, plan)
+        prefix = AnyOfPlan(successors, context.packed, plan)
     elif is_private:
         keys = context.keys
         opened = [keys.of_start(t + 1, horizon) + keys.epoch_weight for t in range(len(plan))]
@@ -193,7 +195,8 @@ class BoundsAlong:
             self._sources.append((cost + opening, state))
             self._spent.append(cost)
             state = state & op.keep | op.put
-            cost += option.weight
+            # Who begins nothing any more waits for nothing.
+            cost += 0 if op.action in self._context.packed.idling else option.weight
 
     def _explore(self) -> None:
         """The human's ways from each epoch of ``pi_H`` to touches, and on to the goal.
@@ -293,10 +296,21 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
     return Bounds(context.bound, context.steps, untouched, context.interactions)
 
 
+def _layers(context: SearchContext, plan: HumanPlan) -> list[list[tuple[Operator, JointAction]]]:
+    """Per epoch of ``pi_H`` what the human may do before the window; where waiting costs, also rest."""
+    idling = context.packed.idling
+    resting = context.followed(idling[-1:]) if context.packed.prices_waiting else []
+    return [[step, *resting] if step[0].action in idling[:-1] else [step] for step in context.followed(plan)]
+
+
 def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
     """Rule 3 as the options have it."""
     options, task, packed = context.options, context.task, context.packed
     steps = context.followed(plan)
+    if packed.idling and (options.suffix == "subplan" or options.preservation == "state"):
+        own = None if options.preservation == "kernel" else _own_facts(packed)
+        due = Due(packed, context.weights.team, strict=options.strict)
+        return SuffixInTime(packed, plan, context.weights.team, due, context.goals, own, context.deadline)
     if options.preservation == "state":
         own = human_facts(task)
         states = task.replay_alone(plan)
@@ -307,7 +321,14 @@ def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
     # Beside a script robots' goals may be reached, or lost, once the human is done: Lasting asks for them.
     theirs = packed.condition(Condition()) if packed.clock_bit else packed.robot_goal
     replan = Replan(context.alone, context.alone_to_both, theirs, packed.at_rest, context.keys)
-    if not packed.clock_bit:
+    if not packed.clock_bit and not (packed.in_time and (packed.awake or replan.both)):
         return replan
     due = Due(packed, context.weights.team, strict=options.strict)
-    return Lasting(replan, context.alone_to_both or context.alone, context.goals, due)
+    return Lasting(replan, context.goals, due, packed)
+
+
+def _own_facts(packed: PackedTask) -> frozenset[int]:
+    """The facts of the human's own domain, but for those that say what is due, and whether they rest."""
+    task = packed.task
+    progress = {fact for fact, _ in task.due}
+    return human_facts(task) - progress - {*task.actions[packed.idling[0]].pre}

@@ -7,7 +7,7 @@ from search.bounds.first_interaction import Bounds
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
 from search.packed.cost_vector import CostLayout
-from search.packed.joint_actions import NOTHING, JointAction
+from search.packed.joint_actions import JointAction
 from search.packed.packed_task import PackedGoal
 from search.packed.successor_generator import Successors
 
@@ -81,7 +81,7 @@ class Unrestricted:
     @property
     def _in_turn(self) -> bool:
         """Whether epochs don't count: what happens in one could as well happen one after the other."""
-        return self.horizon is None and not self.successors.due
+        return self.horizon is None and not self.successors.in_time
 
     def _is_idle(self, node: Node, option: JointAction) -> bool:
         """Whether an epoch changes nothing: nobody acts, and nothing happens by itself."""
@@ -103,7 +103,9 @@ class Unrestricted:
             yield from successors.in_turn(state)
             return
         going_on = successors.going_on(state)
-        free = (NOTHING, *successors.human(state), *successors.joint(state)) if going_on is None else going_on
+        free = going_on
+        if free is None:
+            free = (*successors.idle, *successors.human(state), *successors.joint(state))
         for part in free:
             for option in successors.with_robots(part, state):
                 yield part, option

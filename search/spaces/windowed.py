@@ -16,10 +16,11 @@ from search.engine.dominance import ParetoFront
 from search.human.pattern_database import PatternDatabase
 from search.human.suffix_rules import Suffix
 from search.packed.cost_vector import CostLayout
-from search.packed.joint_actions import NOTHING, Idle, JointAction
+from search.packed.joint_actions import Idle, JointAction
 from search.packed.operators import Operator, applicable
+from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Successors, in_time
-from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.task import HumanPlan
 
 PREFIX, WINDOW, TOUCHED = 0, 1, 2
 """Phases: before the window; in it, before and after the first touch of the human in it."""
@@ -60,15 +61,19 @@ class InLayers:
 class AnyOfPlan:
     """The paper's second (7b): any actions of ``pi_H``, in any order, or noop (semantics 3.4)."""
 
-    def __init__(self, successors: Successors, task: Task, plan: HumanPlan) -> None:
+    def __init__(self, successors: Successors, packed: PackedTask, plan: HumanPlan) -> None:
         self._successors = successors
-        self._actions = task.actions
-        self._planned = task.names(plan)
+        self._actions = packed.task.actions
+        self._planned = packed.task.names((*plan, *packed.idling))
 
     def options(self, epoch: int, state: int) -> Iterable[JointAction]:
         """See :class:`Prefix`."""
+        going_on = self._successors.going_on(state)
+        if going_on is not None:
+            return going_on
         own = self._successors.human(state)
-        return (NOTHING, *(o for o in own if self._actions[o.actions[0]].name in self._planned))
+        planned = (o for o in own if self._actions[o.actions[0]].name in self._planned)
+        return (*self._successors.idle, *planned)
 
 
 @dataclass(eq=False)
@@ -212,7 +217,9 @@ class Windowed:
         sooner = _sooner(node.idle)
         is_last = not node.idle and not self._goes_on_from(node, best)
         going_on = successors.going_on(state)
-        free = (*successors.human(state), *successors.joint(state), NOTHING) if going_on is None else going_on
+        free = going_on
+        if free is None:
+            free = (*successors.human(state), *successors.joint(state), *successors.idle)
         for part in free:
             judged = self._judge(node, part, best)
             if judged is None:

@@ -1,6 +1,7 @@
 """One planning call beside ``pi_H``: its incumbents, and what is proved of them (semantics 3)."""
 
 from dataclasses import replace
+from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -43,6 +44,7 @@ class Call:
         context: of the call.
         given: ``pi_H``, already replayed, or None to predict it.
         warm: what is known before.
+        least_alone: what an optimal plan of the human's costs; None to find out.
 
     Attributes:
         plan: ``pi_H``; None where there is none, or before it is known.
@@ -67,13 +69,20 @@ class Call:
         limit: what has ended the call, if anything has.
     """
 
-    def __init__(self, context: SearchContext, given: HumanPlan | None, warm: WarmStart) -> None:
+    def __init__(
+        self,
+        context: SearchContext,
+        given: HumanPlan | None,
+        warm: WarmStart,
+        least_alone: Fraction | None = None,
+    ) -> None:
         self.context = context
         self.task = context.task
         self.options = context.options
         self.keys = context.keys
         self.given = given
         self.warm = warm
+        self.least_alone = least_alone
         self.plan: HumanPlan | None = None
         self.is_planned = False
         self.epochs: int | None = None

@@ -18,7 +18,7 @@ def replans_freely(options: Options) -> bool:
 def asks_for_nothing_else(context: SearchContext) -> bool:
     """Whether, beside that, nothing limits costs, robots have no goal, and nothing is announced."""
     options = context.options
-    plain = replans_freely(options) and options.max_cost is None and not context.task.due
+    plain = replans_freely(options) and options.max_cost is None and not context.packed.in_time
     return plain and not context.task.robot_goal and not context.weights.announces
 
 
@@ -70,7 +70,9 @@ def is_for_team(call: Call) -> bool:
     """Whether any composite plan of any length is a plan of the call."""
     options = call.options
     endless = options.mode == "composite" and options.horizon == INFINITE
-    return endless and options.max_cost is None and not call.task.robot_goal and not call.task.due
+    return (
+        endless and options.max_cost is None and not call.task.robot_goal and not call.context.packed.in_time
+    )
 
 
 def is_for_team_first(call: Call) -> bool:
@@ -98,7 +100,12 @@ def has_team(call: Call) -> bool:
 def joint_plans_decide(call: Call) -> bool:
     """Whether every composite plan within ``T`` keeps the mode's rules, and its cost is its objective."""
     context, options = call.context, call.options
-    if call.epochs is None or options.max_cost is not None or context.weights.announces or call.task.due:
+    if (
+        call.epochs is None
+        or options.max_cost is not None
+        or context.weights.announces
+        or call.context.packed.in_time
+    ):
         return False
     if not options.windowed:
         return True

@@ -76,7 +76,8 @@ def plan_alone(call: Call, part: Allowance) -> None:
 
 def _is_dearer(call: Call, plan: HumanPlan, optimum: int) -> bool:
     """Whether a plan costs more than an optimal one, by the key of that."""
-    return call.task.cost_of(plan) > call.keys.cost(optimum)
+    least = call.keys.cost(optimum) if call.least_alone is None else call.least_alone
+    return call.task.cost_of(plan) > least
 
 
 def _may_turn_at_once(call: Call, optimum: int) -> bool:
@@ -84,6 +85,7 @@ def _may_turn_at_once(call: Call, optimum: int) -> bool:
     options = call.options
     any_suffix = options.suffix == "replan" and options.preservation == "kernel"
     free = options.mode == "serendipity" and any_suffix and options.max_cost is None
+    free = free and not call.context.packed.clock_bit  # which may undo what they reach
     fits = call.epochs is not None and call.keys.actions(optimum) <= call.epochs
     return free and fits and not call.task.robot_goal
 

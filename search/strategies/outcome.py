@@ -138,7 +138,7 @@ def _lower_bound(call: Call, status: Status, answer: Incumbent) -> Fraction | No
 def _steps(call: Call, answer: Incumbent) -> tuple[Step, ...]:
     if answer.node is None:
         return plan_steps(call.plan or ())
-    if call.epochs is None and not call.task.due:
+    if call.epochs is None and not call.context.packed.in_time:
         return schedule(call.task, path_sets(answer.node))
     steps = path_steps(answer.node) + plan_steps(answer.tail, answer.end)
     walks = call.context.walks(call.plan or ()) if answer.node.idle else None

@@ -8,6 +8,7 @@ are taken that come after the best plan.
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from enum import Enum
+from fractions import Fraction
 from typing import Final, NamedTuple
 
 from search.call.context import SearchContext
@@ -112,6 +113,7 @@ def solve(
     *,
     human_plan: HumanPlan | None = None,
     predicts: bool = True,
+    optimum: Fraction | None = None,
     deadline: Deadline | None = None,
     warm: WarmStart | None = None,
     turns: Sequence[Turn] = TURNS,
@@ -123,6 +125,8 @@ def solve(
         options: options in force; ``mode`` is not ``assistance``.
         human_plan: ``pi_H``, already replayed, or None to predict it.
         predicts: False: without ``human_plan`` the human is known to have no plan alone.
+        optimum: what a plan of the human's costs that is not to be improved on; None for what an optimal
+            one costs.
         deadline: deadline and cancellation.
         warm: what is known before.
         turns: those that may be taken; of these, those that the options name.
@@ -136,7 +140,7 @@ def solve(
     except LIMITS as limit:
         yield Answer("unknown", reason=limit_reason(limit))
         return
-    call = Call(context, human_plan, warm or WarmStart())
+    call = Call(context, human_plan, warm or WarmStart(), optimum)
     try:
         begin(call, predicts=predicts)
         for turn in chosen_ones:

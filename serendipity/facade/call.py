@@ -3,6 +3,7 @@
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields
+from fractions import Fraction
 from typing import Any, Final
 
 from search import PreparedTask, WarmStart
@@ -24,6 +25,7 @@ class Request:
         options: in force.
         given: ``pi_H`` where the caller gave it; None predicts it.
         predicts: False: the human is known to have no plan alone, where none is given.
+        optimum: what a given plan costs that is not to be improved on; None for what an optimal one costs.
         visible: what a human of ``human_model="local"`` sees; None for the default.
         limits: of the whole call.
         deadline: of the search: the same without the time that is kept for the end.
@@ -38,6 +40,7 @@ class Request:
     deadline: Deadline
     question: RememberedQuestion | None = None
     predicts: bool = True
+    optimum: Fraction | None = None
 
     @property
     def task(self) -> Task:

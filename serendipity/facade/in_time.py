@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from fractions import Fraction
 
 from search import PreparedTask, canonical_human_plan
 from serendipity.facade.call import Request, Solver
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
-from serendipity.model.options import Options
 from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.plans import Step
 from serendipity.model.task.unit_steps import UnitSteps, unit_steps
@@ -24,14 +24,14 @@ def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
         PlanError: the human's plan can't be executed after the head start, or misses the goal.
         UsageError: the call asks for something that is not answered for such tasks.
     """
-    _require_plain(call.options)
+    _require_known(call)
     try:
-        units = unit_steps(call.task, call.deadline)
+        units = unit_steps(call.task, call.deadline, call.options.waiting_cost)
         inner = _in_units(call, units)
     except LIMITS as limit:
         yield Answer("unknown", reason=limit_reason(limit))
         return
-    if not inner.predicts and call.options.mode in ("individual", "serendipity"):
+    if not inner.predicts and (call.options.windowed or call.options.mode in ("individual", "serendipity")):
         yield Answer("infeasible", reason="no-human-plan")
         return
     epochs = call.options.head_start if call.options.mode == "individual" else 0
@@ -63,35 +63,40 @@ def _in_units(call: Request, units: UnitSteps) -> Request:
     later = PreparedTask(units.task.at(state))
     if options.mode == "individual":
         return replace(inner, prepared=later)
-    plan = canonical_human_plan(later, call.deadline, options) if given is None else given
+    best = canonical_human_plan(later, call.deadline, options)
+    plan = best if given is None else given
     if plan is None:
         return replace(inner, predicts=False)
-    return replace(inner, given=units.after_waiting(plan, epochs))
+    least = None if best is None else units.task.cost_of(units.after_waiting(best, epochs))
+    return replace(inner, given=units.after_waiting(plan, epochs), optimum=least)
 
 
-def _require_plain(options: Options) -> None:
+def _require_known(call: Request) -> None:
     """Check that a call asks for nothing that is not answered in time."""
-    if options.waiting_cost:
-        raise UsageError("waiting_cost: is read, but not planned for yet")
-    expected = {
-        "mode": ("serendipity", "communication", "composite", "individual"),
-        "suffix": ("replan",),
-        "preservation": ("kernel",),
-        "human_model": ("omniscient",),
-        "keep_prefix": (False,),
-        "ties": ("fixed",),
-    }
-    for name, legal in expected.items():
-        if getattr(options, name) not in legal:
-            words = ", ".join(map(str, legal))
-            raise UsageError(
-                f"{name}: where actions take time, expected {words}, got {getattr(options, name)}"
-            )
+    options = call.options
+    if options.mode == "assistance":
+        raise UsageError("mode: 'assistance' takes turns, which have no length: not where actions take time")
+    if options.ties != "fixed" and options.mode in ("serendipity", "communication"):
+        raise UsageError(f"ties: where actions take time, expected fixed, got {options.ties}")
+    if options.human_model != "omniscient":
+        raise UsageError(
+            "human_model: where actions take time, expected omniscient: what others notice of an action that "
+            f"goes on is not settled, got {options.human_model}"
+        )
 
 
 def _later(units: UnitSteps, answer: Answer, epochs: int) -> Answer:
     """What is done alone after some epochs of waiting, with these."""
     plan, steps, horizon = answer.human_plan, answer.steps, answer.horizon
+    if epochs and steps and answer.cost is not None:
+        done = tuple(step.action for step in steps)
+        waited = units.task.cost_of(units.after_waiting(done, epochs)) - units.task.cost_of(done)
+        answer = answer._replace(
+            cost=answer.cost + waited,
+            objective=(answer.objective or Fraction(0)) + waited,
+            lower_bound=(answer.lower_bound or Fraction(0)) + waited,
+            baseline=(answer.baseline or Fraction(0)) + waited,
+        )
     return answer._replace(
         human_plan=None if plan is None else units.after_waiting(plan, epochs),
         steps=None if steps is None else tuple(Step(step.epoch + epochs, step.action) for step in steps),

@@ -50,7 +50,7 @@ def _planned(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:
     """Answers beside a human of the model that is asked for."""
     asked: dict[str, Any] = {"human_plan": human_plan, "deadline": call.deadline, "warm": call.warm}
     if call.options.human_model == "omniscient":
-        return solve(call.prepared, call.options, predicts=call.predicts, **asked)
+        return solve(call.prepared, call.options, predicts=call.predicts, optimum=call.optimum, **asked)
     return solve_for_human(call.prepared, call.options, visible=call.visible, **asked)
 
 

@@ -37,4 +37,4 @@ def refuse_time(
     """
     what = needs_time(task, options=options, plan=plan)
     if what is not None:
-        raise UsageError(f"time: {what}, which is known to plan only, not here yet")
+        raise UsageError(f"time: {what}, which is not known here yet")

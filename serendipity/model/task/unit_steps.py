@@ -28,7 +28,10 @@ CLOCK: Final = "~clock"
 """The agent that makes the script happen: what it does takes effect last, and is in nobody's way."""
 
 WAITING: Final = "~noop"
-"""The human's waiting as an action: the last of all, as who can act does."""
+"""The human's waiting as an action: after all others, as who can act does."""
+
+RESTING: Final = "~rest"
+"""The human's waiting from their last action on, which is free where other waiting costs: the last of all."""
 
 _FREE: Final = Fraction(0)
 
@@ -42,12 +45,14 @@ class UnitSteps:
         original: the task that it was made of.
         chains: by id of an original action its ids in the task, epoch by epoch.
         waiting: id of the human's waiting, which given plans may have.
+        resting: the same after their last action; where waiting costs nothing it is no other.
     """
 
     task: Task
     original: Task
     chains: tuple[tuple[int, ...], ...]
     waiting: int
+    resting: int
 
     @cached_property
     def _begins(self) -> dict[int, int]:
@@ -60,18 +65,19 @@ class UnitSteps:
         for action, start in zip(plan, self.original.starts_of(plan), strict=True):
             found += [self.waiting] * (start - 1 - len(found))
             found += self.chains[action]
-        found += [self.waiting] * (self.original.epochs_of(plan) - len(found))
+        found += [self.resting] * (self.original.epochs_of(plan) - len(found))
         return tuple(found)
 
     def after_waiting(self, plan: HumanPlan, epochs: int) -> HumanPlan:
         """A plan in single epochs, with some of waiting before it."""
-        return (self.waiting,) * epochs + plan
+        acts = any(action in self._begins for action in plan)
+        return (self.waiting if acts else self.resting,) * epochs + plan
 
     def begun(self, plan: HumanPlan) -> HumanPlan:
         """The plan of the original that a plan in single epochs is."""
         begins = self._begins
         starts = {epoch: begins[action] for epoch, action in enumerate(plan, start=1) if action in begins}
-        if self.waiting not in plan:
+        if {self.waiting, self.resting}.isdisjoint(plan):
             return tuple(starts.values())
         return TimedPlan(starts.values(), starts, len(plan))
 
@@ -96,18 +102,19 @@ class UnitSteps:
         return tuple(Step(step.epoch, begins[step.action]) for step in steps if step.action in begins)
 
 
-def unit_steps(task: Task, deadline: Deadline | None = None) -> UnitSteps:
+def unit_steps(task: Task, deadline: Deadline | None = None, waiting_cost: Fraction = _FREE) -> UnitSteps:
     """The task in single epochs.
 
     Args:
         task: a task.
         deadline: polled.
+        waiting_cost: of each epoch in which the human waits before an action of theirs.
 
     Raises:
         LimitReachedError: the deadline came.
     """
     deadline = deadline or Deadline()
-    steps = _Steps(task)
+    steps = _Steps(task, waiting_cost)
     for action in task.actions:
         deadline.tick()
         steps.add(action)
@@ -121,10 +128,12 @@ class _Steps:
 
     Args:
         task: the original.
+        waiting_cost: of an epoch of waiting before an action.
     """
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: Task, waiting_cost: Fraction) -> None:
         self._task = task
+        self._waiting_cost = waiting_cost
         self._facts = [*task.facts]
         self._agents = task.agents
         self._due: list[tuple[int, GroundAction]] = []
@@ -137,6 +146,9 @@ class _Steps:
         }
         self._free = {agent: self._fact(f"free {task.agents[agent]}") for agent in sorted(busy)}
         self._start += self._free.values()
+        # While it holds the human may begin something; without it they wait for nothing.
+        self._awake = [self._fact("awake")] if waiting_cost else []
+        self._start += self._awake
 
     def _fact(self, name: str) -> int:
         self._facts.append(name)
@@ -144,8 +156,9 @@ class _Steps:
 
     def add(self, action: GroundAction) -> None:
         """Add an action of the task, epoch by epoch."""
-        asked = [self._free[agent] for agent in action.participants if agent in self._free]
-        self._chains.append(self._epochs(action, asked, asked))
+        free = [self._free[agent] for agent in action.participants if agent in self._free]
+        awake = self._awake if self._task.human in action.participants else []
+        self._chains.append(self._epochs(action, [*free, *awake], free))
 
     def _epochs(self, action: GroundAction, asked: list[int], free: list[int]) -> list[GroundAction]:
         """The epochs of an action.
@@ -218,10 +231,10 @@ class _Steps:
             LimitReachedError: the deadline came.
         """
         task = self._task
-        waiting = GroundAction(WAITING, (task.human,), (), (), (), (), _FREE)
+        idle = self._idle()
         # By key, as those of every task; equal ones (variants) stay in their order.
         every = sorted(
-            (*chain.from_iterable(self._chains), *self._others, waiting), key=lambda action: action.key
+            (*chain.from_iterable(self._chains), *self._others, *idle), key=lambda action: action.key
         )
         numbers = {id(action): number for number, action in enumerate(every)}
         init, facts = task.init | set(self._start), tuple(self._facts)
@@ -241,4 +254,10 @@ class _Steps:
             known_variables=self._variables(find_variables(facts, init, tuple(every), deadline)),
         )
         chains = tuple(tuple(numbers[id(action)] for action in one) for one in self._chains)
-        return UnitSteps(unit, task, chains, numbers[id(waiting)])
+        return UnitSteps(unit, task, chains, numbers[id(idle[0])], numbers[id(idle[-1])])
+
+    def _idle(self) -> list[GroundAction]:
+        """The human's waiting; where it costs, also what they do once they begin nothing any more."""
+        awake, who = tuple(self._awake), (self._task.human,)
+        waiting = GroundAction(WAITING, who, awake, (), (), (), self._waiting_cost)
+        return [waiting, GroundAction(RESTING, who, (), (), (), awake, _FREE)] if awake else [waiting]

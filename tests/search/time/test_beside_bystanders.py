@@ -76,3 +76,11 @@ def test_what_the_script_changes_back_is_counted_among_what_help_may_wait_for() 
     timed = built.with_script(Script(facts=[(1, "blocked"), (2, "!blocked"), (6, "open")]))
     assert serendipity.plan(timed, discount=0.5).cost == 3.5
     assert best(timed, Options(discount="0.5")).cost == Fraction(7, 2)
+
+
+def test_what_the_script_brings_costs_robots_nothing() -> None:
+    steps = {"a h": "at0 -> at1 !at0", "b h": "at1 -> at2 !at1", "c h": "at2 !shut -> at3 !at2"}
+    built = task(agents="h r", human="h", init="at0", goal="at3", actions={**steps, "d r": "-> !shut"})
+    scripted = built.with_script(Script(facts=[(1, "shut"), (1, "at2")]))
+    options = {"mode": "composite", "discount": 0, "horizon": "inf"}
+    assert serendipity.plan(scripted, **options).cost == best(scripted, Options(**options)).cost == 2

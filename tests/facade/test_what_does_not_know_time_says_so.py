@@ -27,8 +27,6 @@ CALLS: dict[str, Callable[[Task], Any]] = {
     "Session": serendipity.Session,
     "execute": lambda one: serendipity.execute(one),
     "recognise": lambda one: serendipity.recognise(one, [{"name": "g", "goal": ["done"]}]),
-    "check": lambda one: serendipity.check(one, serendipity.plan(plain())),
-    "verify": lambda one: serendipity.verify(one, serendipity.plan(plain())),
     "solve": lambda one: solve(one, Options()),
 }
 
@@ -37,7 +35,7 @@ CALLS: dict[str, Callable[[Task], Any]] = {
 def test_tasks_that_need_time_are_refused(name: str) -> None:
     with pytest.raises(UsageError) as caught:
         CALLS[name](slow())
-    expected = "time: the task has actions of more than one epoch, which is known to plan only, not here yet"
+    expected = "time: the task has actions of more than one epoch, which is not known here yet"
     assert str(caught.value) == expected
     with pytest.raises(UsageError, match="time: the task has a script"):
         CALLS[name](plain().with_script(Script(facts=[(2, "done")])))
@@ -46,25 +44,29 @@ def test_tasks_that_need_time_are_refused(name: str) -> None:
 def test_waiting_is_refused_elsewhere() -> None:
     waiting = serendipity.plan(plain(), human_plan=[(3, "do h")])
     assert (waiting.status, waiting.horizon) == ("optimal", 3)
-    for ask in (serendipity.verify, serendipity.explain, serendipity.check):
-        with pytest.raises(UsageError, match="time: the human waits in their plan"):
-            ask(plain(), waiting)
-    with pytest.raises(UsageError, match="waiting_cost: is read, but not planned for yet"):
-        serendipity.plan(plain(), waiting_cost=1)
+    assert serendipity.verify(plain(), waiting).verdict == "proved"
+    with pytest.raises(UsageError, match="time: the human waits in their plan"):
+        serendipity.explain(plain(), waiting)
+
+
+def test_waiting_is_kept_and_paid_for_where_a_plan_is_given() -> None:
+    waits = serendipity.plan(plain(), human_plan=[(3, "do h")])
+    assert (waits.cost, waits.horizon) == (1, 3)
+    assert serendipity.plan(plain(), human_plan=[(1, "do h")]).horizon == 1
+    assert serendipity.plan(plain(), waiting_cost=1, mode="composite", horizon=3).cost == 1
 
 
 def test_what_has_a_head_start_is_refused_elsewhere() -> None:
     begun = serendipity.plan(plain(), head_start=2)
     assert (begun.status, begun.horizon) == ("optimal", 3)
-    for ask in (serendipity.verify, serendipity.explain, serendipity.check):
-        with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
-            ask(plain(), begun)
+    with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
+        serendipity.explain(plain(), begun)
     with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
         serendipity.Session(plain(), head_start=2).plan()
 
 
 def test_options_that_are_not_for_time_are_refused() -> None:
-    for name, value in {"suffix": "subplan", "ties": "robust", "human_model": "observant"}.items():
+    for name, value in {"ties": "robust", "human_model": "observant"}.items():
         with pytest.raises(UsageError, match=f"{name}: where actions take time, expected"):
             serendipity.plan(slow(), **{name: value})
 

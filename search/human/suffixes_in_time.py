@@ -1,0 +1,206 @@
+"""Rules for the suffix that keep actions of ``pi_H``, where these take time or the human may wait.
+
+The human ends what they are at.  Then each action that is left is begun at once or after some waiting, which
+makes sense as long as the script goes on, and its epochs follow each other (semantics "Time").
+"""
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+from typing import NamedTuple
+
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.due import Due
+from search.packed.joint_actions import as_option
+from search.packed.operators import Operator, applicable
+from search.packed.packed_task import PackedGoal, PackedTask
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition
+from serendipity.model.task.task import HumanPlan
+
+
+class _Rest(NamedTuple):
+    """A point between two actions.
+
+    Attributes:
+        begun: the first action of ``pi_H`` that is left.
+        state: the packed state.
+        left: how many epochs are left.
+        skips: whether actions may be left out.
+    """
+
+    begun: int
+    state: int
+    left: int
+    skips: bool
+
+
+class _Way(NamedTuple):
+    """A way on: what it costs, the actions of its epochs, the point that it leads to."""
+
+    weight: int
+    actions: tuple[int, ...]
+    rest: _Rest
+
+
+class PlanInTime:
+    """``pi_H`` as actions, each with the ones of its epochs.
+
+    Args:
+        packed: the packed task.
+        plan: ``pi_H`` in single epochs.
+
+    Attributes:
+        actions: what is begun.
+        starts: the epoch in which each begins.
+        states: the packed states in which each of the first ``j`` has ended, robots idle.
+    """
+
+    def __init__(self, packed: PackedTask, plan: HumanPlan, due: Due) -> None:
+        begun = [(epoch, action) for epoch, action in enumerate(plan, start=1) if packed.counted(action)]
+        self.starts = [epoch for epoch, _ in begun]
+        self.actions = [action for _, action in begun]
+        self.states = [packed.init]
+        state = packed.init
+        for epoch, action in enumerate(plan, start=1):
+            after = due.after(state, (as_option(packed.op(action), 0),))
+            assert after is not None, "pi_H is a plan"
+            state = after
+            if due.human(state) is None and len(self.states) <= sum(start <= epoch for start in self.starts):
+                self.states.append(state)
+
+
+class SuffixInTime:
+    """A suffix of actions of ``pi_H``: any subsequence (Def. 2.0, eq. 9), or all from one on (Def. 3.1).
+
+    Args:
+        packed: the packed task.
+        plan: ``pi_H``, in single epochs.
+        weight: key increment of an op.
+        due: what happens whatever is chosen.
+        goals: what has to hold at the end.
+        own: facts of the human's own domain, where the state decides which actions are left (semantics 3.3);
+            None for any subsequence.
+        deadline: polled.
+    """
+
+    def __init__(
+        self,
+        packed: PackedTask,
+        plan: HumanPlan,
+        weight: Callable[[Operator], int],
+        due: Due,
+        goals: Sequence[PackedGoal],
+        own: Collection[int] | None,
+        deadline: Deadline,
+    ) -> None:
+        self._packed = packed
+        self._due = due
+        self._goals = goals
+        self._deadline = deadline
+        self._plan = PlanInTime(packed, plan, due)
+        self._first = [as_option(op, weight(op)) for op in map(packed.op, self._plan.actions)]
+        waiting = packed.op(packed.idling[0])
+        self._waiting = as_option(waiting, weight(waiting) if packed.prices_waiting else 0)
+        self._expected = None if own is None else [self._seen(state, own) for state in self._plan.states]
+        self._known: dict[_Rest, tuple[int, _Way | None]] = {}
+
+    def _seen(self, state: int, own: Collection[int]) -> PackedGoal:
+        """What holds in a state of the human's own facts."""
+        bits = ((fact, self._packed.fact_bits[fact]) for fact in sorted(own))
+        return self._packed.condition(
+            Condition(tuple(fact for fact, at in bits if at is not None and state & at[0] == at[1]))
+        )
+
+    def key(self, state: int, epochs: int, start: int, limit: int) -> int:
+        """See :class:`.Suffix`."""
+        return min((self._best(rest)[0] for rest in self._begins(state, epochs, start)), default=INFINITE_KEY)
+
+    def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
+        """See :class:`.Suffix`."""
+        rest = min(self._begins(state, epochs, start), key=lambda rest: self._best(rest)[0])
+        found = [self._packed.idling[-1]] * (epochs - rest.left)  # which is told apart by nobody
+        while (way := self._best(rest)[1]) is not None:
+            found += way.actions
+            rest = way.rest
+        return tuple(found)
+
+    def _begins(self, state: int, epochs: int, start: int) -> list[_Rest]:
+        """The points at which the suffix may begin, once the human is free."""
+        if not self._packed.at_rest.holds(state):
+            return []
+        while (going_on := self._due.human(state)) is not None:
+            after = self._due.after(state, going_on)
+            epochs -= 1
+            if after is None or epochs < 0:
+                return []
+            state = after
+        if self._expected is None:
+            return [_Rest(0, state, epochs, True)]
+        first = sum(first < start for first in self._plan.starts)
+        expected = list(enumerate(self._expected))[first:]
+        return [_Rest(j, state, epochs, False) for j, at in expected if at.holds(state)]
+
+    def _best(self, wanted: _Rest) -> tuple[int, _Way | None]:
+        """The least key from a point on, and the way that it takes; None where the plan ends there."""
+        known = self._known
+        pending = [wanted]  # plans may be longer than Python's stack is deep
+        while pending:
+            self._deadline.tick()
+            at = pending[-1]
+            ways = [] if at in known else [*self._ways(at)]
+            missing = [way.rest for way in ways if way.rest not in known]
+            if missing:
+                pending += missing
+                continue
+            if at not in known:
+                known[at] = self._cheapest(at, ways)
+            pending.pop()
+        return known[wanted]
+
+    def _cheapest(self, at: _Rest, ways: list[_Way]) -> tuple[int, _Way | None]:
+        best: tuple[int, _Way | None] = INFINITE_KEY, None
+        if (at.skips or at.begun == len(self._first)) and self._lasts(at.state, at.left):
+            best = 0, None
+        for way in ways:
+            rest, following = self._known[way.rest]
+            waits_for_nothing = way.rest.begun == at.begun and following is None
+            if rest < INFINITE_KEY and way.weight + rest < best[0] and not waits_for_nothing:
+                best = way.weight + rest, way
+        return best
+
+    def _lasts(self, state: int, left: int) -> bool:
+        return self._due.lasting(state, left, lambda end: all(goal.holds(end) for goal in self._goals))
+
+    def _ways(self, at: _Rest) -> Iterator[_Way]:
+        """The actions that may be next, as they can be done; waiting, while the script lasts."""
+        following = range(at.begun, len(self._first))
+        for index in following if at.skips else following[:1]:
+            way = self._done(at, index)
+            if way is not None:
+                yield way
+        if self._due.last(at.state) is not None and at.left > 1 and at.begun < len(self._first):
+            after = self._wait(at.state)
+            if after is not None:
+                rest = at._replace(state=after, left=at.left - 1)
+                yield _Way(self._waiting.weight, self._waiting.actions, rest)
+
+    def _wait(self, state: int) -> int | None:
+        possible = applicable(self._packed.op(self._waiting.actions[0]), state)
+        return self._due.after(state, (self._waiting,)) if possible else None
+
+    def _done(self, at: _Rest, index: int) -> _Way | None:
+        """An action from its first epoch to its last."""
+        part = self._first[index]
+        if not at.left or not applicable(self._packed.op(part.actions[0]), at.state):
+            return None
+        state, left, weight, actions = (
+            self._due.after(at.state, (part,)),
+            at.left - 1,
+            part.weight,
+            part.actions,
+        )
+        while state is not None and (going_on := self._due.human(state)) is not None:
+            if not going_on or not left:
+                return None
+            weight, actions = weight + going_on[0].weight, actions + going_on[0].actions
+            state, left = self._due.after(state, going_on), left - 1
+        return None if state is None else _Way(weight, actions, _Rest(index + 1, state, left, at.skips))
