@@ -52,6 +52,8 @@ class HumanControl:
         self.start: Control = (PREFIX, 0, 0) if question.rule != FREE else (ANY, 0, 0)
         own = in_plan(question.task, self.plan).intersection(question.task.human_actions)
         self.any_of_plan = tuple(sorted(own))
+        due = {i for _, i in question.task.due}
+        self.begun = tuple(sorted(due.intersection(question.task.human_actions)))
 
     def legs(self, control: Control, epoch: int) -> Iterator[Leg]:
         """The ways to spend ``epoch`` after control state ``control``."""
@@ -125,6 +127,7 @@ class HumanControl:
                 yield Leg((SUFFIX, done + 1, 0), (self.plan[done],), wait=False)
         elif self.question.options.suffix == "subplan":
             yield Leg(control, ())
+            yield Leg(control, self.begun, wait=False)
             for k in range(done, len(self.plan)):
                 yield Leg((SUFFIX, k + 1, 0), (self.plan[k],), wait=False)
         else:

@@ -37,7 +37,9 @@ NEEDS_OPTIMISER: Final = "not examined: the rules alone can't prove it"
 NEEDS_MORE_THAN_A_WALK: Final = (
     "not examined: it takes more than a walk through the policy; verify looks at it"
 )
-NOT_IN_TIME: Final = "not examined: several goals, ties and humans who replan are not known in time yet"
+NOT_IN_TIME: Final = (
+    "not examined: several goals, ties, humans who replan and preserved states are not known in time yet"
+)
 NOTHING_TO_EXAMINE: Final = "there is no answer to examine"
 RESULT_BREAKS_RULE: Final = "the result breaks a rule already"
 ANSWER_BREAKS_RULE: Final = "the answer breaks a rule already"

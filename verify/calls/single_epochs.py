@@ -34,7 +34,8 @@ def examined_in_time(
         deadline: polled.
         examine: makes the claims of a task and a result in single epochs.
     """
-    if kind_of(result) != "a plan" or is_tied(result):
+    preserved = result.options.windowed and result.options.preservation == "state"
+    if kind_of(result) != "a plan" or is_tied(result) or preserved:
         return tuple(Claim(name, "undecided", wording.NOT_IN_TIME) for name in needed(result))
     try:
         epochs = SingleEpochs(task, result, deadline)
