@@ -12,7 +12,7 @@ from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAns
 from serendipity.model.numbers import figure, rounded
 from serendipity.model.task.execution import actions_of, participants, shares
 from serendipity.model.task.plans import PlanTimes
-from serendipity.model.task.plans_in_time import times_of
+from serendipity.model.task.plans_in_time import times_of, waited
 
 
 def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> Result:
@@ -25,7 +25,9 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
     discount = Fraction(0) if options.mode == "assistance" else options.discount  # semantics 7
     human_cost = answer.baseline if answer.goals else None
     if answer.human_plan is not None:
-        human_cost = task.cost_of(answer.human_plan)
+        times = times_of(task, answer.human_plan)
+        waits = waited(zip(times.starts, times.durations, strict=True))
+        human_cost = task.cost_of(answer.human_plan) + options.waiting_cost * waits
     counted = {"expanded": answer.expanded, "generated": answer.generated}
     return Result(
         mode=options.mode,
@@ -46,7 +48,7 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
         reason=answer.reason,
         saving_alone=rounded(answer.saving_alone),
         plan=_plan(task, discount, answer.steps),
-        agent_costs=_agent_costs(task, discount, answer),
+        agent_costs=_agent_costs(task, discount, answer, options.waiting_cost),
         realised=dict(answer.realised or {}),
         statistics={
             "elapsed_seconds": elapsed,
@@ -106,7 +108,7 @@ def _plan(task: Task, discount: Fraction, steps: tuple[Step, ...] | None) -> tup
     return None if steps is None else named_steps(task, discount, steps)
 
 
-def _agent_costs(task: Task, discount: Fraction, answer: Answer) -> dict[str, float]:
+def _agent_costs(task: Task, discount: Fraction, answer: Answer, waiting: Fraction) -> dict[str, float]:
     """The cost of each agent: the mean with several goals, both totals of a policy."""
     if answer.bounds is not None:
         totals = zip((task.human, *task.robots), answer.bounds.upper or (), strict=False)
@@ -114,6 +116,8 @@ def _agent_costs(task: Task, discount: Fraction, answer: Answer) -> dict[str, fl
     if answer.steps is None:
         return {}
     costs = shares(task, actions_of(task, answer.steps), discount)
+    his = ((step.epoch, task.actions[step.action]) for step in answer.steps)
+    costs[task.human] += waiting * waited((t, a.duration) for t, a in his if task.human in a.participants)
     if answer.goals is not None and len(answer.goals) > 1:
         costs = dict.fromkeys(costs, Fraction(0))
         for goal in answer.goals:

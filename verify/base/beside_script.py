@@ -5,9 +5,8 @@ from fractions import Fraction
 
 from serendipity.model import HumanPlan, Options, Task
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.unit_steps import WAITING
 from verify.base.due import onward
-from verify.base.execution import State, applicable, due, is_calm
+from verify.base.execution import State, applicable, due, idling, is_calm
 from verify.base.individual import IndividualOptimum
 from verify.base.shortest_paths import PathSearch
 from verify.base.undecided import TooManyStatesError, during
@@ -28,7 +27,7 @@ class AloneBesideScript(IndividualOptimum):
     def __init__(self, task: Task, deadline: Deadline | None, options: Options) -> None:
         super().__init__(task, deadline)
         self._options, self._strict = options, options.strict
-        self._waiting = task.named[WAITING][0]
+        self._waiting = idling(task)
         self._worth: dict[State, tuple[Fraction, int] | None] = {}
 
     @property
@@ -45,7 +44,7 @@ class AloneBesideScript(IndividualOptimum):
         """See :class:`IndividualOptimum`; waiting is one of them while anything happens."""
         task = self._task
         his = [variants for variants in due(task, state) if variants[0] not in task.of_bystanders]
-        free = (i for i in task.human_actions if i != self._waiting or not is_calm(task, state))
+        free = (i for i in task.human_actions if i not in self._waiting or not is_calm(task, state))
         for i in his[0] if his else free:
             if applicable(task.actions[i], state):
                 after = onward(task, state, (i,), strict=self._strict)
@@ -95,6 +94,10 @@ def alone_of(
         deadline: polled.
         options: a call's: interference, and the head start; None for a call without them.
     """
+    asked = options or Options()
     if task.of_bystanders:
-        return AloneBesideScript(task, deadline, options or Options())
-    return IndividualOptimum(task, deadline)
+        found: IndividualOptimum = AloneBesideScript(task, deadline, asked)
+    else:
+        found = IndividualOptimum(task, deadline)
+    found.head_start_cost = asked.waiting_cost * asked.head_start
+    return found

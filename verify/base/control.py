@@ -7,7 +7,7 @@ the plan an epoch lies: ``prefix``, ``window`` or ``suffix`` (semantics 3.1), or
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from verify.base.execution import facts_of_his, states_of_pi_h
+from verify.base.execution import facts_of_his, idling, states_of_pi_h
 from verify.base.subproblem import ALONE, EXACT, FREE, Subproblem, in_plan
 
 Control = tuple[str, int, int]
@@ -27,6 +27,7 @@ class Leg:
         wait: whether they may do nothing.
         weight: units that the epoch adds to the objective (``K`` inside the window).
         needs: facts that must be true before the epoch (Def. 3.1 read literally).
+        free: whether waiting is free even where it costs: nothing is begun any more.
     """
 
     after: Control
@@ -34,6 +35,7 @@ class Leg:
     wait: bool = True
     weight: int = 0
     needs: frozenset[int] = frozenset()
+    free: bool = False
 
 
 class HumanControl:
@@ -52,6 +54,7 @@ class HumanControl:
         self.start: Control = (PREFIX, 0, 0) if question.rule != FREE else (ANY, 0, 0)
         own = in_plan(question.task, self.plan).intersection(question.task.human_actions)
         self.any_of_plan = tuple(sorted(own))
+        self.idling = tuple(sorted(idling(question.task)))
         due = {i for _, i in question.task.due}
         self.begun = tuple(sorted(due.intersection(question.task.human_actions)))
 
@@ -105,10 +108,11 @@ class HumanControl:
         """Eq. (7b) at its own epoch; with the paper's second (7b) any action of the plan."""
         here: Control = (PREFIX, 0, 0)
         if self.question.rule != EXACT and self.question.options.keep_prefix:
-            return Leg(here, self.any_of_plan)
-        if epoch <= len(self.plan):
-            return Leg(here, (self.plan[epoch - 1],), wait=False)
-        return Leg(here, ())
+            return Leg(here, (*self.any_of_plan, *self.idling))
+        if epoch > len(self.plan):
+            return Leg(here, (), free=True)
+        planned = self.plan[epoch - 1]
+        return Leg(here, self.idling if planned in self.idling else (planned,), wait=False)
 
     def _suffix_starts(self, xi1: int) -> Iterator[Leg]:
         """Eq. (8): from xi2 on the human is alone."""
@@ -126,7 +130,7 @@ class HumanControl:
             if done < len(self.plan):
                 yield Leg((SUFFIX, done + 1, 0), (self.plan[done],), wait=False)
         elif self.question.options.suffix == "subplan":
-            yield Leg(control, ())
+            yield Leg(control, self.idling)
             yield Leg(control, self.begun, wait=False)
             for k in range(done, len(self.plan)):
                 yield Leg((SUFFIX, k + 1, 0), (self.plan[k],), wait=False)

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from serendipity.model import Deadline, GroundAction, PlanStep, Step, Task
 from serendipity.model.numbers import figure
-from serendipity.model.task.unit_steps import CLOCK
+from serendipity.model.task.unit_steps import CLOCK, RESTING, WAITING
 
 State = frozenset[int]
 """The facts that are true."""
@@ -87,6 +87,16 @@ def due(task: Task, state: State) -> list[tuple[int, ...]]:
 def is_calm(task: Task, state: State) -> bool:
     """Whether nothing happens from a state on unless somebody does it."""
     return state.isdisjoint(task.due_for)
+
+
+def idling(task: Task) -> frozenset[int]:
+    """The human's waiting as actions, where the task takes place in time (semantics 10.2)."""
+    return frozenset((*task.named.get(WAITING, ()), *task.named.get(RESTING, ())))
+
+
+def awake(task: Task) -> frozenset[int]:
+    """The fact, if there is one, while which the human does not wait for nothing, since waiting costs."""
+    return frozenset(fact for i in task.named.get(RESTING, ()) for fact in task.actions[i].delete)
 
 
 def met(task: Task, state: State, chosen: Iterable[int]) -> tuple[int, ...]:

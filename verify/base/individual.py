@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from serendipity.model import Deadline, HumanPlan, Task
-from verify.base.execution import after, applicable, states_of_pi_h
+from verify.base.execution import after, applicable, awake, states_of_pi_h
 from verify.base.fact_bits import BitOperator
 from verify.base.operators import OwnActions
 from verify.base.projection import ProjectedCosts
@@ -41,6 +41,8 @@ class IndividualOptimum:
         self._enough: dict[int, int] = {}
         """What a plan from a state is known to weigh: only lighter ones are looked for."""
         self._long = False
+        self.head_start_cost = Fraction(0)
+        """What waiting for the head start costs."""
 
     @cached_property
     def own(self) -> OwnActions:
@@ -57,9 +59,18 @@ class IndividualOptimum:
         return self._task.init
 
     def predicted(self) -> tuple[Fraction, int] | None:
-        """:meth:`optimum` from there; None too where there is no such state."""
+        """:meth:`optimum` from there; None too where there is no such state.
+
+        Who begins anything then has waited for it (semantics 10.2).
+        """
         state = self.start
-        return None if state is None else self.optimum(state)
+        if state is None:
+            return None
+        found, resting = self.optimum(state), None
+        if found is not None and self.head_start_cost:
+            found = found[0] + self.head_start_cost, found[1]
+            resting = self.optimum(state - awake(self._task))
+        return min(filter(None, (found, resting)), default=None)
 
     def moves(self, state: State) -> Iterator[tuple[int, State]]:
         """What the human can begin alone, by ids, each with the state after the epoch."""

@@ -13,7 +13,7 @@ from math import lcm
 from typing import TypeVar
 
 from serendipity.model import Condition, Deadline, HumanPlan, Options, Step, Task, Window
-from verify.base.execution import price
+from verify.base.execution import idling, price
 from verify.base.plan_graph import OptimalPlanGraph
 
 Amount = TypeVar("Amount", int, tuple[int, int])
@@ -184,7 +184,7 @@ def prices(task: Task, options: Options, human_plan: HumanPlan, deadline: Deadli
     Raises:
         LimitReachedError: the deadline came first.
     """
-    deadline, planned = deadline or Deadline(), in_plan(task, human_plan)
+    deadline, planned = deadline or Deadline(), in_plan(task, human_plan) | idling(task)
     weight = options.communication_weight if options.mode == "communication" else Fraction(0)
     epoch = options.window_weight if options.windowed else Fraction(0)
     kinds: list[_Kind] = []  # few different ones: rationals are slow

@@ -66,7 +66,7 @@ class SingleEpochs:
 
     def __init__(self, task: Task, result: Result, deadline: Deadline) -> None:
         self._original, self._result, self._deadline = task, result, deadline
-        self.units: UnitSteps = unit_steps(task, deadline)
+        self.units: UnitSteps = unit_steps(task, deadline, result.options.waiting_cost)
         self.human_plan = self._human_plan()
         self.fault = self._mistold() or self._played()
 
@@ -179,6 +179,8 @@ class SingleEpochs:
         left = sorted(said.plan or (), key=lambda step: step.epoch)
         last = said.horizon if isinstance(said.horizon, int) else None
         state: State | None = task.init
+        human = task.agents[task.human]
+        begun = max((step.epoch for step in left if human in step.agents), default=0)
         epoch = 0
         while state is not None and (left or self._goes_on(epoch, last, state)):
             self._deadline.check()
@@ -187,13 +189,21 @@ class SingleEpochs:
             left = left[len(here) :]
             yield from here
             chosen = met(task, state, [self._first(step, state) for step in here])
+            if said.options.waiting_cost and epoch < begun and not self._has_human(chosen):
+                chosen = (*chosen, self.units.waiting)
             for i in chosen[len(here) :]:
                 yield plan_step(task, Step(epoch, i), said.options.discount)
             state = executed(state, [task.actions[i] for i in chosen], strict=said.options.strict)
         yield from left
 
+    def _has_human(self, chosen: tuple[int, ...]) -> bool:
+        task = self.task
+        return any(task.human in task.actions[i].participants for i in chosen)
+
     def _goes_on(self, epoch: int, last: int | None, state: State) -> bool:
-        """Whether something may still happen by itself."""
+        """Whether something may still happen by itself; a plan of the human alone ends with their goal."""
+        if self._result.mode == "individual" and self.task.goal.holds(state):
+            return False
         return (last is None or epoch < last) and not is_calm(self.task, state)
 
     def _first(self, step: PlanStep, state: State) -> int:

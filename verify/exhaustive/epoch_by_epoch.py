@@ -256,7 +256,7 @@ class EpochSearch:
         if needs:
             rows = np.flatnonzero(self._table.test(sorted(needs), ())(states))
         robots = leg.after[0] != SUFFIX
-        for steps in self._team.steps(states[rows], of_human, wait=wait, robots=robots):
+        for steps in self._team.steps(states[rows], of_human, wait=wait, robots=robots, free=leg.free):
             yield replace(steps, before=rows[steps.before], cost=steps.cost + leg.weight)
 
     def _advanced(self, stage: Stage, sources: list[tuple[int, EpochLayer, Iterator[Steps]]]) -> EpochLayer:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from serendipity.model import Deadline, GroundAction, Task
-from verify.base.execution import is_last
+from verify.base.execution import awake, is_last
 from verify.limits import limits
 from verify.packed.layout import PackedLayout, Words
 from verify.packed.operators import Ints, OperatorTable
@@ -38,6 +38,10 @@ class Steps:
     after: Words
     cost: Ints
 
+    def only(self, kept: Bools) -> "Steps":
+        """Some of them."""
+        return Steps(self.before[kept], self.sets[kept], self.after[kept], self.cost[kept])
+
 
 class TeamEpochs:
     """Sets of actions by which the agents spend an epoch.
@@ -63,6 +67,8 @@ class TeamEpochs:
         chosen = [task.actions[i] for i in actions]
         self._due = DueEpochs(task, actions, table.layout) if task.due else None
         self._free = np.array([i in task.of_bystanders for i in actions], bool)
+        costly = [fact for fact in awake(task) if fact in table.layout.place]
+        self._awake = table.test(costly, ()) if costly else None
         self._with_human = np.array([task.human in action.participants for action in chosen], bool)
         self.of_human = np.flatnonzero(self._with_human)
         rank = {agent: k for k, agent in enumerate(self.order)}
@@ -74,7 +80,13 @@ class TeamEpochs:
         return np.ones(len(states), bool) if self._due is None else self._due.is_calm(states)
 
     def steps(
-        self, states: Words, of_human: Ints | None = None, *, wait: bool = True, robots: bool = True
+        self,
+        states: Words,
+        of_human: Ints | None = None,
+        *,
+        wait: bool = True,
+        robots: bool = True,
+        free: bool = False,
     ) -> Iterator[Steps]:
         """All epochs from some states, in pieces.
 
@@ -83,6 +95,7 @@ class TeamEpochs:
             of_human: what the human may take part in, by the table's numbers; None: anything.
             wait: whether the human may do nothing.
             robots: whether robots may act without the human; bystanders do in any case.
+            free: whether the human may do nothing even where waiting costs.
 
         Raises:
             LimitReachedError: the deadline came first.
@@ -92,6 +105,9 @@ class TeamEpochs:
             self._deadline.check()
             some = states[first : first + at_once]
             for steps in self._steps(some, of_human, wait=wait, robots=robots):
+                if self._awake is not None and not free:
+                    acting = (steps.sets[:, 0] != NOBODY) | ~self._awake(some[steps.before])
+                    steps = steps.only(acting)
                 yield replace(steps, before=steps.before + first)
 
     def _steps(self, states: Words, of_human: Ints | None, *, wait: bool, robots: bool) -> Iterator[Steps]:
@@ -178,7 +194,7 @@ class DueEpochs:
             kept &= ~due[values] | (values != self._values(field, steps.after))
         for field, value, numbers in self._begun:
             kept &= (self._values(field, before) != value) | np.isin(steps.sets, numbers).any(axis=1)
-        return Steps(steps.before[kept], steps.sets[kept], steps.after[kept], steps.cost[kept])
+        return steps.only(kept)
 
     def is_calm(self, states: Words) -> Bools:
         """By state whether nothing is due in it."""

@@ -6,6 +6,7 @@ from typing import Any, Final
 
 from serendipity.model import Options, Task
 from verify.base.beside_script import alone_of
+from verify.base.execution import awake
 from verify.base.operators import OwnActions
 from verify.base.subproblem import prices
 from verify.base.undecided import TooManyStatesError, UndecidedError, during
@@ -37,6 +38,11 @@ def least_alone(task: Task, options: Options, effort: Effort) -> Fraction | None
     return None if units is None else Fraction(units, program.scale)
 
 
+_WAITED, _RESTED = -1, -2
+"""In the place of actions: a head start in which the human waits, or rests for good."""
+
+_HEAD_START: Final = "the head start"
+
 _Graph = tuple[Any, Callable[[Any], bool], Callable[[Any], Iterable[tuple[int, Any]]]]
 
 
@@ -63,8 +69,9 @@ class _Alone:
         ends = set(self._ends)
         for source, target, action in moves:
             x = self.model.binary()
-            if self._team[action]:
-                self.model.objective[x] = self._team[action]
+            paid = self._head_start if action == _WAITED else 0 if action == _RESTED else self._team[action]
+            if paid:
+                self.model.objective[x] = paid
             rows[source][x] = 1
             if target in ends:
                 arrivals[x] = 1
@@ -80,7 +87,7 @@ class _Alone:
 
     def _moves(self) -> list[tuple[int, int, int]]:
         """All moves from states that the human reaches, the goal's left out: source, target, action."""
-        start, is_end, onward = self._beside_script() if self._task.of_bystanders else self._alone()
+        start, is_end, onward = self._graph()
         states: list[Any] = [] if start is None else [start]
         self._number[start] = 0
         self._ends: list[int] = []
@@ -99,20 +106,32 @@ class _Alone:
                 moves.append((number, self._number[after], action))
         return moves
 
-    def _alone(self) -> "_Graph":
-        """States by bits: where they begin, which end a plan, and what follows them."""
-        own, goal = OwnActions(self._task, self._deadline), self._task.goal
-        wanted, unwanted = own.bits.of(goal.positive), own.bits.of(goal.negative)
+    def _graph(self) -> "_Graph":
+        """Where states begin, which end a plan, and what follows them: by bits, or as sets of facts."""
+        task = self._task
+        alone = alone_of(task, self._deadline, self._options)
+        start = alone.start
+        if task.of_bystanders:
+            graph: _Graph = start, task.goal.holds, alone.moves
+            rested: Any = None if start is None else start - awake(task)
+        else:
+            own = OwnActions(task, self._deadline)
+            wanted, unwanted = own.bits.of(task.goal.positive), own.bits.of(task.goal.negative)
+            here = own.bits.of(task.init)
+            graph = here, lambda state: state & wanted == wanted and not state & unwanted, own.steps
+            rested = here & ~own.bits.of(awake(task))
+        self._head_start = int(alone.head_start_cost * self.scale)
+        return self._after_waiting(graph, rested) if self._head_start and start is not None else graph
 
-        def is_end(state: int) -> bool:
-            return state & wanted == wanted and not state & unwanted
-
-        return own.bits.of(self._task.init), is_end, own.steps
-
-    def _beside_script(self) -> "_Graph":
-        """The same by sets of facts, with their epoch."""
-        alone = alone_of(self._task, self._deadline, self._options)
-        return alone.start, self._task.goal.holds, alone.moves
+    def _after_waiting(self, graph: "_Graph", rested: Any) -> "_Graph":
+        """A graph after a head start that costs: the human waits for it, or begins nothing any more."""
+        start, is_end, onward = graph
+        waits = [(_WAITED, start), (_RESTED, rested)]
+        return (
+            _HEAD_START,
+            lambda state: state is not _HEAD_START and is_end(state),
+            lambda state: waits if state is _HEAD_START else onward(state),
+        )
 
     def solve(self) -> int | None:
         """The least cost in units, by the solver; None: there is no plan.

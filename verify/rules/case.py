@@ -7,8 +7,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from serendipity.model import PlanError, Result, Task
-from serendipity.model.task.unit_steps import WAITING
-from verify.base.execution import price, shares
+from verify.base.execution import idling, price, shares
 from verify.base.individual import IndividualOptimum
 from verify.rules.replay import Replay, replay, replay_human
 
@@ -92,17 +91,16 @@ class Case:
         return self.result.options.communication_weight * sum(off_plan, Fraction(0))
 
     def steps(self) -> Iterator[tuple[int, int]]:
-        """(epoch, action id) of the replayed plan, in order; neither what happens anyway nor waiting."""
-        nobody = self.task.of_bystanders | self.waiting
+        """(epoch, action id) of the replayed plan, in order; but for what happens anyway."""
         for epoch, chosen in self.alone.deadline.each(self.replay.sets.items()):
             for i in chosen:
-                if i not in nobody:
+                if i not in self.task.of_bystanders:
                     yield epoch, i
 
     @cached_property
     def waiting(self) -> frozenset[int]:
-        """The action that is waiting in ``pi_H``, where it takes place in time (semantics 10.2)."""
-        return frozenset(self.task.named.get(WAITING, ()))
+        """The actions that are waiting, where the task takes place in time (semantics 10.2)."""
+        return idling(self.task)
 
     def price(self, action: int) -> Fraction:
         """Cost to the team: undiscounted if the human takes part (semantics 1)."""
@@ -122,8 +120,8 @@ class Case:
         return self.task.actions[action].participants == (self.task.human,)
 
     def planned(self, action: int) -> bool:
-        """Whether it is in ``pi_H``, by its name: variants of one PDDL action are the same action."""
-        return any(self.name(action) == self.name(i) for i in self.pi_h)
+        """Whether it is in ``pi_H``, by its name, as variants of one action are the same; or is waiting."""
+        return action in self.waiting or any(self.name(action) == self.name(i) for i in self.pi_h)
 
     def name(self, action: int) -> str:
         """An action's name."""
@@ -131,4 +129,4 @@ class Case:
 
     def human_does(self) -> dict[int, int]:
         """What the human does, by epoch; epochs in which they wait are absent."""
-        return {epoch: i for epoch, i in self.steps() if self.his(i)}
+        return {epoch: i for epoch, i in self.steps() if self.his(i) and i not in self.waiting}

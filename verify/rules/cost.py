@@ -91,7 +91,7 @@ def saving_alone(case: Case) -> RuleFault | None:
         return None  # nothing is claimed; ``None`` and 0 are the same
     if case.human_plan is None or case.robots_goal:
         return RuleFault("a saving alone, though there is nothing to compare it with")
-    optimum = case.alone.predicted()
+    optimum = case.alone.optimum(case.task.init)  # a window may open in a head start
     most = _sure(case.human_cost) - (optimum[0] if optimum else Fraction(0))
     if said > 0 and excess(said, most) <= 0:
         return None

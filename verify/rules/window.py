@@ -124,7 +124,7 @@ def suffix_subplan(case: Case) -> RuleFault | None:
     window, options = case.result.window, case.result.options
     if window is None or options.suffix != "subplan" or options.preservation != "kernel":
         return None
-    planned, begun = iter(case.pi_h), {i for _, i in case.task.due}
+    planned, begun = iter(case.pi_h), {i for _, i in case.task.due} | case.waiting
     for epoch, i in _between(case, window.end, None):
         if i not in begun and i not in planned:  # consumes the iterator: order and repetition count
             return RuleFault("not a subsequence of pi_H", epoch, case.name(i))

@@ -34,6 +34,16 @@ def times_of(task: "Task", plan: "HumanPlan") -> PlanTimes:
     return PlanTimes(task.starts_of(plan), durations, task.epochs_of(plan))
 
 
+def waited(begun: Iterable[tuple[int, int]]) -> int:
+    """Epochs in which somebody is at nothing and still begins something later (semantics 10.2).
+
+    Args:
+        begun: what they begin: epochs and durations.
+    """
+    times = sorted(begun)
+    return times[-1][0] - 1 - sum(duration for _, duration in times[:-1]) if times else 0
+
+
 def replayed(task: "Task", plan: "HumanPlan", *, strict: bool = False) -> list[frozenset[int]]:
     """The state after each epoch of a human plan that reaches the goal, the initial one first.
 

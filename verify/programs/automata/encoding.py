@@ -6,6 +6,7 @@ from typing import Final
 
 from serendipity.model import Deadline, GroundAction, Step, Task, Window
 from verify.base.control import HumanControl, expected_states
+from verify.base.execution import awake
 from verify.base.relevance import Relevant, relevant_part, whole_task
 from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
@@ -182,8 +183,9 @@ class AutomataEncoding:
         self, part: Relevant, machines: tuple[Automaton, ...], expected: tuple[frozenset[int], ...]
     ) -> bool:
         """Drop moves of the automata that are on no plan within the limits; False if there is no plan."""
-        if self.question.task.of_bystanders:
-            return True  # bystanders move whether it pays or not
+        task = self.question.task
+        if task.of_bystanders or awake(task):
+            return True  # bystanders move whether it pays or not, and so does the human where waiting costs
         question, prices = self.question, self.question.prices
         wanted_true, wanted_false = self._wanted(part, expected)
         going_on = [m.agent for m in machines if self._goes_on(part, m, wanted_true | wanted_false)]

@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from serendipity.model import Deadline
-from serendipity.model.task.unit_steps import WAITING
 from verify.base.control import ALL, OWN, SUFFIX, Control, HumanControl
+from verify.base.execution import awake, idling
 from verify.base.relevance import Relevant
 from verify.base.shortest_paths import dijkstra
 from verify.base.subproblem import Subproblem
@@ -107,7 +107,8 @@ class HumanNetwork(Network):
         task = question.task
         own = question.deadline.each(part.actions)
         self.own = {i for i in own if task.actions[i].participants == (task.human,)}
-        self.waiting = set(task.named.get(WAITING, ()))
+        self.waiting = idling(task)
+        self.awake = awake(task)
 
     def node(self, state: int, control: Control) -> int:
         """The number of a node, new or old."""
@@ -126,7 +127,7 @@ class HumanNetwork(Network):
             if needs is None:
                 continue
             may_wait = self.may_wait(node)
-            if leg.wait and may_wait:
+            if leg.wait and may_wait and (leg.free or self.awake.isdisjoint(self.true_facts(node))):
                 yield (node, self.node(state, leg.after), WAIT, leg.weight, needs)
             for action, target in moves:
                 if action in self.waiting and not may_wait:
