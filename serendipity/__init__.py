@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from serendipity.evaluation.reproduction import Progress, Reproduction, Row, reproduce
     from serendipity.execution import Execution, Run, Runs, execute
     from serendipity.explanation import Explanation, explain
+    from serendipity.facade.bystanders import with_bystanders
     from serendipity.facade.certify import check, verify
     from serendipity.facade.interruptibility import Interruption, InterruptionReport, Removal, interruptions
     from serendipity.facade.loading import load, load_agents, load_pddl
@@ -140,12 +141,14 @@ __all__ = [
     "show",
     "simulate",
     "verify",
+    "with_bystanders",
 ]
 
 _HOMES = {
     "evaluation.reproduction": "Progress Reproduction Row reproduce",
     "execution": "Execution Run Runs execute",
     "explanation": "Explanation explain",
+    "facade.bystanders": "with_bystanders",
     "facade.certify": "check verify",
     "facade.interruptibility": "Interruption InterruptionReport Removal interruptions",
     "facade.loading": "load load_agents load_pddl",

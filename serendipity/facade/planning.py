@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 from search import PreparedTask
 from serendipity.facade import one_plan, ties
@@ -48,6 +48,7 @@ class SessionOptions(AnytimeOptions, total=False):
 def plan(
     task: Task,
     *,
+    human: Literal["any"] | None = None,
     human_plan: Iterable[PlanEntry] | None = None,
     visible: Visible | None = None,
     cancelled: threading.Event | None = None,
@@ -62,6 +63,8 @@ def plan(
 
     Args:
         task: the task.
+        human: ``"any"``: whoever of those with goals of their own can be helped best, while the others follow
+            their own optimal plans (semantics 10.3); the result says who it is. None: the task's human.
         human_plan: names of the actions that the human is going to do, all or none of them with the
             epochs in which they begin; None predicts an optimal plan of theirs (semantics 1).
         visible: ``visible(agent, fact, state)`` says, by ids of the task, what a human of
@@ -92,6 +95,14 @@ def plan(
         "on_improvement": on_improvement,
         **options,
     }
+    if human is not None:
+        if human != "any":
+            raise UsageError(f"human: expected 'any', got {human!r:.50}; another one has Task.with_human")
+        if human_plan is not None or goals is not None:
+            raise UsageError("human: 'any' goes without human_plan and goals")
+        from serendipity.facade.bystanders import best_for_anybody  # it asks this very function
+
+        return best_for_anybody(task, cancelled, **asked).result
     with HELD.taken(task) as prepared:
         return planned(prepared, _given(task, human_plan), cancelled, **asked)
 

@@ -14,7 +14,7 @@ from serendipity.facade.results import named_steps
 from serendipity.model import HumanPlan, PlanError, PlanStep, Result, Task, UsageError
 from serendipity.model.arguments import BY_NAME, TASK, expect
 from serendipity.model.keywords import listing
-from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
+from serendipity.model.task.actions import GroundAction, apply, conflicting
 from serendipity.model.task.facts import Facts
 from serendipity.model.task.task import canonical_name, several
 
@@ -182,10 +182,7 @@ class Session:
         Raises:
             UsageError: there is no such fact.
         """
-        literals = several(goal, "goal")
-        positive = sorted(self._facts.id(name) for name in literals if not name.startswith("!"))
-        negative = sorted(self._facts.id(name[1:]) for name in literals if name.startswith("!"))
-        self._prepared = self._prepared.with_goal(Condition(tuple(positive), tuple(negative)))
+        self._prepared = self._prepared.with_goal(self._facts.condition(several(goal, "goal")))
         self._human_plan = self._given = None
         self._memory.forget()
 

@@ -14,6 +14,9 @@ Interference = Literal["paper", "strict"]
 HumanModel = Literal["omniscient", "observant", "local"]
 Ties = Literal["fixed", "robust", "expected", "optimistic"]
 
+ANYBODY: Final = "any"
+"""In the place of the human's name: whoever of those with goals of their own can be helped best."""
+
 CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "mode": get_args(Mode),
     "suffix": get_args(Suffix),

@@ -6,7 +6,7 @@ actions in normal form (:mod:`normal`), to ground records (:mod:`join`, :mod:`in
 can't happen (:mod:`prune`) to a task (:mod:`assemble`), all of it under a deadline (:mod:`work`).
 """
 
-from serendipity.pddl.layouts import read_agents, read_folder, read_pddl
+from serendipity.pddl.layouts import ALL, read_agents, read_folder, read_pddl
 from serendipity.pddl.parsing.resolve import forget_parsed
 
-__all__ = ["forget_parsed", "read_agents", "read_folder", "read_pddl"]
+__all__ = ["ALL", "forget_parsed", "read_agents", "read_folder", "read_pddl"]

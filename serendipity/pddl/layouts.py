@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Final
 
 from serendipity.model import Deadline, InputError, Task, UsageError
+from serendipity.model.keywords import ANYBODY
 from serendipity.model.numbers import Number
 from serendipity.model.task.task import canonical_name
 from serendipity.pddl.grounding.assemble import Blueprint, Source, assemble
@@ -37,7 +38,8 @@ def read_folder(
 
     Args:
         path: the directory; agents are called as their folders.
-        human: name of the human, or None for the only agent with a goal.
+        human: name of the human, or None for the only agent with a goal; ``any``, where no agent is called
+            that, for the first of those with goals.
         epoch: how long an epoch is, in the unit of PDDL's durations, which are rounded up to whole
             epochs; None for the greatest common divisor of all that can come up.
         deadline: how long it may take, and in how much memory.
@@ -89,7 +91,8 @@ def read_agents(
     Args:
         agents: domain and problem file of each agent, by its name.
         team: domain and problem file of the joint actions, or None.
-        human: name of the human, or None for the only agent with a goal.
+        human: name of the human, or None for the only agent with a goal; ``any``, where no agent is called
+            that, for the first of those with goals.
         name: of the task; default is that of the human's problem.
         epoch: how long an epoch is, in the unit of PDDL's durations, which are rounded up to whole
             epochs; None for the greatest common divisor of all that can come up.
@@ -184,6 +187,10 @@ def read_pddl(
             agents = sorted(_can_be_agents(unit))
             among = f"its agents: {listed(agents)}" if agents else "its objects"
             raise UsageError(f"one PDDL task: expected a human among {among}")
+        if canonical_name(human) == ANYBODY and ANYBODY not in unit.problem.objects:
+            raise UsageError(
+                "human: 'any' is for tasks with files for each agent, whose goals say who is a person"
+            )
         by_name = bool(robots) and (list(robots) != [ALL] or ALL in unit.problem.objects)
         named = robots if by_name else _other_agents(unit, canonical_name(human))
         names = _unique_names([human, *named])
@@ -268,14 +275,16 @@ def _unique_names(names: Iterable[str]) -> list[str]:
 
 
 def _choose_human(units: Mapping[str, Unit], human: str | None) -> str:
-    if human is not None:
-        name = canonical_name(human)
+    candidates = [name for name, unit in units.items() if unit.problem.goal != And()]
+    name = None if human is None else canonical_name(human)
+    if name == ANYBODY and ANYBODY not in units and candidates:
+        return candidates[0]
+    if human is not None and name is not None:
         if name not in units:
             raise UsageError(f"human: expected one of {listed(units)}, got {quoted(human)}")
         return name
-    candidates = [name for name, unit in units.items() if unit.problem.goal != And()]
     if len(candidates) == 1:
         return candidates[0]
     if not candidates:
         raise UsageError(f"no agent has a goal: say which one is the human ({listed(units)})")
-    raise UsageError(f"{listed(candidates)} have goals: say which one is the human")
+    raise UsageError(f"{listed(candidates)} have goals: say which one is the human, or 'any'")

@@ -6,6 +6,7 @@ from typing import Final
 
 from serendipity.model import Deadline, Task, UsageError
 from serendipity.model.arguments import DEADLINE, expect_or_none, shown
+from serendipity.model.numbers import Number
 from serendipity.pddl import read_pddl
 
 DATA: Final = Path(__file__).parent / "data"
@@ -30,14 +31,16 @@ class Example:
     human: str
     robots: tuple[str, ...]
 
-    def load(self, deadline: Deadline | None = None) -> Task:
-        """The task.
+    def load(self, deadline: Deadline | None = None, epoch: Number | None = None) -> Task:
+        """The task, with epochs of that length.
 
         Raises:
             LimitReachedError: the deadline came first.
         """
         domain, problem = DATA / self.domain, DATA / self.problem
-        return read_pddl(domain, problem, human=self.human, robots=self.robots, deadline=deadline)
+        return read_pddl(
+            domain, problem, human=self.human, robots=self.robots, epoch=epoch, deadline=deadline
+        )
 
 
 def _usar(name: str, summary: str) -> Example:
@@ -62,11 +65,12 @@ EXAMPLES: Final = {
 """By name, in the order in which they are listed."""
 
 
-def example(name: str, *, deadline: Deadline | None = None) -> Task:
+def example(name: str, *, epoch: Number | None = None, deadline: Deadline | None = None) -> Task:
     """A task shipped with the program; ``serendipity examples`` lists them.
 
     Args:
         name: its name.
+        epoch: how long an epoch is, in the unit of PDDL's durations; None to find out.
         deadline: polled; it may be one that planning shares.
 
     Raises:
@@ -76,4 +80,4 @@ def example(name: str, *, deadline: Deadline | None = None) -> Task:
     expect_or_none(DEADLINE, deadline=deadline)
     if not isinstance(name, str) or name not in EXAMPLES:
         raise UsageError(f"example: expected one of {', '.join(EXAMPLES)}, got {shown(name)}")
-    return EXAMPLES[name].load(deadline)
+    return EXAMPLES[name].load(deadline, epoch)

@@ -24,7 +24,7 @@ from tests.cli.conftest import Runs
         ("verify --solver c", {"cbc"}),
         ("generate ", {"usar"}),
         ("generate usar --layout p", {"pair"}),
-        ("show --epo", {"--epoch"}),
+        ("show --epo", {"--epoch", "--epoch-length"}),
     ],
 )
 def test_completions(words: str, expected: set[str], run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -109,7 +109,7 @@ def test_one_deadline_covers_reading_planning_and_checking(
 
         return noted
 
-    monkeypatch.setattr(naming.TaskName, "load", lambda name, deadline: _load(name, deadline, met))
+    monkeypatch.setattr(naming.TaskName, "load", lambda name, deadline, **_: _load(name, deadline, met))
     monkeypatch.setattr(serendipity, "plan_anytime", noting("plan", serendipity.plan_anytime))
     monkeypatch.setattr(serendipity, "check", noting("check", serendipity.check))
     assert run("plan --example room2 --discount 0.6 --time-limit 60 --memory-limit 99999").code == 0

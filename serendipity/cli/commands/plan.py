@@ -14,6 +14,7 @@ from serendipity.cli.streams import output, progress
 from serendipity.cli.streams.manner import is_verbose
 from serendipity.cli.streams.stderr import write_line
 from serendipity.model import Certificate, Deadline, Result, Task, UsageError
+from serendipity.model.keywords import ANYBODY
 from serendipity.model.numbers import plain
 from serendipity.model.telling import json_of
 
@@ -39,12 +40,16 @@ def plan(
     form = to.prepare()
     output.check_output(save_plan, "--save-plan")
     deadline = limited.begin(*_modules(options.given.get("mode"), goals, certify=certify))
-    loaded = task.load(deadline)
+    interference = options.given.get("interference", "paper")
+    loaded = task.load(deadline, interference=interference, anybody=True)
+    anybody = task.settled().for_anybody and ANYBODY not in loaded.agents
     asked = options.given | limited.given | {"deadline": deadline.sooner(_CHECK_SHARE)}
     if options.human_plan is not None:
         from serendipity.cli.files.plans import timed_plan
 
         asked["human_plan"] = timed_plan(options.human_plan, loaded)
+    if anybody and (goals is not None or options.human_plan is not None):
+        raise UsageError("--human any: goes without --goals and --human-plan")
     if goals is not None:
         if save_plan is not None:
             raise UsageError("--save-plan: there is no single plan with --goals")
@@ -61,8 +66,14 @@ def plan(
     for name, value in (("--observed", observed), ("--beta", beta)):
         if value is not None:
             raise UsageError(f"{name}: goes with --goals only")
+    result: Result | None
     with progress.working("planning") as on_news, cancelling() as cancelled:
-        result = _last(serendipity.plan_anytime(loaded, cancelled=cancelled, **asked), on_news, cancelled)
+        if anybody:
+            from serendipity.facade.bystanders import best_for_anybody
+
+            loaded, result = best_for_anybody(loaded, cancelled, **asked)
+        else:
+            result = _last(serendipity.plan_anytime(loaded, cancelled=cancelled, **asked), on_news, cancelled)
     if result is None:
         return ExitCode.INTERRUPTED
     certificate, certify = _certificate(loaded, result, cancelled, deadline, certify=certify)

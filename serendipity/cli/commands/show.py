@@ -16,7 +16,7 @@ SUFFIXES: Final = (".html", ".svg", ".png")
 
 def show(
     *,
-    task: Annotated[naming.TaskName, naming.AND_RESULT],
+    task: Annotated[naming.TaskName, naming.AND_RESULT, naming.LENGTH],
     epoch: Annotated[
         int | None, option("--epoch N", "The epoch of a still; by default that of the first hand-over.")
     ] = None,
@@ -33,7 +33,7 @@ def show(
         raise UsageError("--epoch: is for stills (.svg, .png) only; a page shows every epoch")
     output.check_output(output_file)
     named, answer, result = task.with_result("show")
-    loaded = named.load()
+    loaded = named.load(interference=result.options.interference)
     wrong = broken_rule(loaded, result, answer)
     if wrong is not None and strict:
         tell(f"Error: {wrong}")

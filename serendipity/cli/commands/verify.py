@@ -26,7 +26,7 @@ def verify(
     modules = ("serendipity.facade.certify", "verify.certificate.certify", "serendipity.cli.text.answers")
     deadline = limited.begin(*modules, *limits.CHECKING)
     named, answer, result = task.with_result("verify")
-    loaded = named.load(deadline)
+    loaded = named.load(deadline, interference=result.options.interference)
     with about(answer), progress.working("verifying"):
         certificate = serendipity.verify(
             loaded,

@@ -3,7 +3,7 @@
 import sys
 from inspect import Parameter
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
 import typer
 
@@ -12,8 +12,11 @@ from serendipity.cli.files.reading import read_json
 from serendipity.cli.groups import Group
 from serendipity.cli.options import limits, settings
 from serendipity.cli.streams import output, progress
-from serendipity.model import Deadline, Result, Task, UsageError
+from serendipity.model import Deadline, Result, Script, Task, UsageError
+from serendipity.model.keywords import ANYBODY, Interference
 from serendipity.model.printable import message
+from serendipity.model.task.names import canonical_name
+from serendipity.model.task.plans_in_time import broken_script
 
 
 def _examples() -> list[tuple[str, str]]:
@@ -43,13 +46,28 @@ AND_RESULT: Final = files("TASK RESULT.json", "The task, named as for `plan`; th
 """Those of a command about a task and a result."""
 
 
+_LENGTH_HELP: Final = "How long an epoch is, in the unit of durations; by default found out."
+
+LENGTH: Final = Parameter(
+    "epoch_length",
+    Parameter.KEYWORD_ONLY,
+    default=None,
+    annotation=Annotated[str | None, option("--epoch-length X", _LENGTH_HELP)],
+)
+"""``--epoch`` of a command that has another option of that name."""
+
+
 class TaskName(Group):
     """The words that name a task; exactly one of the four ways."""
 
     files: Files = None
-    human: Annotated[str | None, option("--human H", "The human; by default the only agent with a goal.")] = (
-        None
-    )
+    human: Annotated[
+        str | None,
+        option(
+            "--human H|any",
+            "The human; by default the only agent with a goal. 'any' (`plan`): whoever can be helped best.",
+        ),
+    ] = None
     robot: Annotated[
         list[str] | None,
         option(
@@ -63,19 +81,41 @@ class TaskName(Group):
     team: Annotated[
         str | None, option("--team DOMAIN,PROBLEM", "With --agent: the files of the joint actions.")
     ] = None
+    bystander: Annotated[
+        list[str] | None,
+        option(
+            "--bystander NAME|NAME=FILE",
+            "Somebody who does what is best for them, or what the plan in FILE says (repeat it).",
+        ),
+    ] = None
+    epoch_length: Annotated[str | None, option("--epoch X", _LENGTH_HELP)] = None
     example: Annotated[
         str | None, option("--example NAME", "A task that is shipped.", autocompletion=_examples)
     ] = None
 
-    def load(self, deadline: Deadline | None = None) -> Task:
+    def load(
+        self,
+        deadline: Deadline | None = None,
+        *,
+        interference: Interference = "paper",
+        anybody: bool = False,
+    ) -> Task:
         """The task, with its warnings on stderr.
+
+        Args:
+            deadline: of reading it, and of predicting bystanders.
+            interference: of what bystanders may do at once.
+            anybody: whether the human may be whoever can be helped best; the task has one of them, then.
 
         Raises:
             UsageError: no way of naming a task, two at once, or half of one.
             InputError: a file can't be read or understood.
             LimitReachedError: the deadline ran out.
         """
-        task = self.settled().read(deadline)
+        named = self.settled()
+        task = named.read(deadline, interference=interference)
+        if named.for_anybody and not anybody and ANYBODY not in task.agents:
+            raise UsageError("--human any: goes with `plan` only, whose answer says who is helped")
         output.warn(*task.warnings)
         return task
 
@@ -108,12 +148,13 @@ class TaskName(Group):
             return named.but(agent=[*known.agents], team=known.team)
         return named.but(robot=[*known.robots]) if _are_pair(self.files) and not self.robot else named
 
-    def read(self, deadline: Deadline | None = None) -> Task:
+    def read(self, deadline: Deadline | None = None, *, interference: Interference = "paper") -> Task:
         """The task that these very words name; errors as for :meth:`load`."""
         with progress.working("reading"), limits.during("reading the task"):
-            return self._read(deadline)
+            self._check()
+            return self._beside_others(self._of_files(deadline), deadline, interference)
 
-    def _read(self, deadline: Deadline | None) -> Task:
+    def _check(self) -> None:
         named = [f"'{file}'" for file in (self.files or ())[:1]]
         ways = named + ["--agent"] * bool(self.agent) + ["--example"] * (self.example is not None)
         if len(ways) != 1:
@@ -126,17 +167,67 @@ class TaskName(Group):
             raise UsageError("--team: goes with --agent only")
         if self.robot and not _are_pair(self.files):
             raise UsageError("--robot: goes with DOMAIN PROBLEM only")
+
+    def _of_files(self, deadline: Deadline | None) -> Task:
+        """The task without bystanders of the command line."""
+        how: dict[str, Any] = {"epoch": self.epoch_length, "deadline": deadline}
         if self.example is not None:
             from serendipity.scenarios.examples import example
 
-            task = example(self.example, deadline=deadline)
+            task = example(self.example, **how)
             return task if self.human is None else task.with_human(self.human)
-        from serendipity.pddl import read_agents
+        from serendipity.pddl import ALL, read_agents, read_folder, read_pddl
 
         if self.agent:
             pairs, team = self.pairs()
-            return read_agents(pairs, team=team, human=self.human, deadline=deadline)
-        return self._from_files(self.files or [], deadline)
+            return read_agents(pairs, team=team, human=self.human, **how)
+        files = self.files or []
+        if len(files) == 1:
+            return read_folder(files[0], human=self.human, **how)
+        domain, problem, *more = files
+        if more:
+            raise UsageError(f"task: expected DOMAIN PROBLEM or one folder, got {len(files)} paths")
+        robots = [*(self.robot or ())]
+        if robots and robots != [ALL]:  # bystanders are agents, too
+            robots += [name for name, _ in self._people() if name not in map(canonical_name, robots)]
+        try:
+            return read_pddl(domain, problem, human=self.human or "", robots=robots, **how)
+        except UsageError as error:
+            if self.human is not None:
+                raise
+            raise UsageError(f"{error}; name --human H --robot R ..., in MA-PDDL --human H") from None
+
+    def _beside_others(self, task: Task, deadline: Deadline | None, interference: Interference) -> Task:
+        """The task with bystanders, those whose plans are given first."""
+        people = self._people()
+        if not people:
+            return task
+        from serendipity.cli.files.plans import bystanders_plan
+        from serendipity.facade.bystanders import helping_another, with_bystanders
+
+        if self.for_anybody:
+            task = helping_another(task, [name for name, _ in people])
+        plans = {name: bystanders_plan(file, task, name) for name, file in people if file is not None}
+        if plans:
+            task = task.with_script(Script(people=plans))
+            broken = broken_script(task, strict=interference == "strict")
+            if broken is not None:
+                output.warn(f"--bystander: while all others are idle, {broken}")
+        predicted = [name for name, file in people if file is None]
+        return with_bystanders(task, predicted, interference=interference, deadline=deadline)
+
+    def _people(self) -> list[tuple[str, Path | None]]:
+        """The names of bystanders, each with the file of their plan or None."""
+        given = [text.partition("=") for text in self.bystander or ()]
+        found = [(canonical_name(name), Path(file) if equals else None) for name, equals, file in given]
+        if len(dict(found)) < len(found):
+            raise UsageError("--bystander: expected each name once")
+        return found
+
+    @property
+    def for_anybody(self) -> bool:
+        """Whether it says that whoever can be helped best is the human."""
+        return self.human is not None and canonical_name(self.human) == ANYBODY
 
     def pairs(self) -> tuple[dict[str, tuple[Path, Path]], tuple[Path, Path] | None]:
         """Domain and problem of each agent, and of the team.
@@ -151,23 +242,6 @@ class TaskName(Group):
                 raise UsageError(f"--agent: expected NAME=DOMAIN,PROBLEM, each name once, got '{text}'")
             found[name] = _pair(files, f"--agent {name}=")
         return found, None if self.team is None else _pair(self.team, "--team ")
-
-    def _from_files(self, files: list[Path], deadline: Deadline | None) -> Task:
-        from serendipity.pddl import read_folder, read_pddl
-
-        if len(files) == 1:
-            return read_folder(files[0], human=self.human, deadline=deadline)
-        domain, problem, *more = files
-        if more:
-            raise UsageError(f"task: expected DOMAIN PROBLEM or one folder, got {len(files)} paths")
-        try:
-            return read_pddl(
-                domain, problem, human=self.human or "", robots=self.robot or [], deadline=deadline
-            )
-        except UsageError as error:
-            if self.human is not None:
-                raise
-            raise UsageError(f"{error}; name --human H --robot R ..., in MA-PDDL --human H") from None
 
 
 def _are_pair(files: list[Path] | None) -> bool:

@@ -12,7 +12,7 @@ from serendipity.model.answers.fields import MalformedError, finite, form
 from serendipity.model.answers.policy import Policy
 from serendipity.model.answers.recognition import UNEXPLAINED, Recognition
 from serendipity.model.answers.result_form import FORMS, fields_of, object_of
-from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
+from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, HelpedPerson, TiedAnswer
 from serendipity.model.errors import InputError
 from serendipity.model.keywords import Horizon, Mode
 from serendipity.model.numbers import as_written, plain, plain_seconds
@@ -40,7 +40,8 @@ class Result(Tabular, Output):
     ``statistics`` has figures of the call.  What only some answers have is typed, None elsewhere, and
     stands in ``statistics`` in JSON only: ``ties`` (the answers for single optimal plans of the human)
     and ``optimal_plans`` (how many there are), ``goals`` and ``recognition`` (where their goal is not
-    known), ``bounds`` (mode ``assistance``), ``gap`` (how the answer got better).  A part of a file that
+    known), ``bounds`` (mode ``assistance``), ``gap`` (how the answer got better), ``humans`` (of each whom it
+    could help, with ``human="any"``).  A part of a file that
     is of another form stays in ``statistics``, and ``malformed`` says what is wrong with it.
 
     ``human_plan_times`` says when the human's actions begin, where these take several epochs or the human
@@ -79,6 +80,7 @@ class Result(Tabular, Output):
     version: str | None = field(default_factory=lambda: __version__, compare=False)
     human_plan_times: PlanTimes | None = None
     bystanders: dict[str, tuple[PlanStep, ...]] = field(default_factory=dict)
+    humans: tuple[HelpedPerson, ...] | None = None
 
     @property
     def human_entries(self) -> tuple[PlanEntry, ...] | None:
@@ -321,6 +323,9 @@ def closing(result: Result) -> Iterator[str]:
         helped = sum(tie.opportunity for tie in result.ties)
         many = f"{len(result.ties)} optimal plan{'s' if len(result.ties) > 1 else ''} of the human"
         yield f"{many}, an opportunity with {helped} ({result.options.ties})"
+    if result.humans:
+        saved = ", ".join(f"{one.human} {plain(one.saving)}" for one in result.humans)
+        yield f"{result.human} is helped, as whoever saves most: {saved}"
     for model, realised in sorted(result.realised.items()):
         article = "an" if model[0] in "aeiou" else "a"
         yield f"with {article} {model} human the plan {'works out' if realised else 'does not work out'}"

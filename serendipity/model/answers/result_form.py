@@ -23,7 +23,7 @@ from serendipity.model.answers.fields import (
 )
 from serendipity.model.answers.policy import Policy, read_policy
 from serendipity.model.answers.recognition import Recognition, read_recognition
-from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
+from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, HelpedPerson, TiedAnswer
 from serendipity.model.errors import UsageError
 from serendipity.model.numbers import MOST_IN_RESULTS, Figure, exact
 from serendipity.model.options import MAX_EPOCH, Options
@@ -57,7 +57,7 @@ _IN_JSON: Final = (
 )
 """The fields that stand in JSON by themselves, in this order."""
 
-_PARTS: Final = ("gap", "ties", "optimal_plans", "bounds", "recognition", "goals")
+_PARTS: Final = ("gap", "ties", "optimal_plans", "bounds", "recognition", "goals", "humans")
 """The fields that stand in ``statistics`` there, if they are known."""
 
 _IN_TIME: Final = ("human_plan_times", "bystanders")
@@ -147,6 +147,7 @@ FORMS: Final = {
     "bounds": form_of(PolicyBounds),
     "recognition": Form(read_recognition, Recognition.to_dict),
     "goals": form_of(tuple[GoalAnswer, ...]),
+    "humans": form_of(tuple[HelpedPerson, ...]),
 }
 """The forms of fields that do not follow from their types."""
 

@@ -6,7 +6,8 @@ In JSON they stand in ``statistics`` (see :class:`serendipity.model.Result`).
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from serendipity.model.answers.fields import written
+from serendipity.model.answers.answer import Status
+from serendipity.model.answers.fields import Form, Written, form, number, optional, written
 from serendipity.model.task.plans import PlanStep, PlanTimes, Window
 
 
@@ -69,6 +70,23 @@ class GoalAnswer:
         return written(self, names + ([] if self.human_plan_times is None else ["human_plan_times"]))
 
 
+@dataclass(frozen=True, slots=True)
+class HelpedPerson(Written):
+    """The answer in short where one of several people is helped (``human="any"``).
+
+    Attributes:
+        human: who that is.
+        status: as in :class:`serendipity.model.Result`.
+        cost: what it costs the team, or None without a plan.
+        saving: against what they pay alone, or None.
+    """
+
+    human: str
+    status: Status
+    cost: float | None
+    saving: float | None
+
+
 class GapEntry(NamedTuple):
     """Objective and lower bound as they were known after some seconds; None while there was none."""
 
@@ -79,3 +97,6 @@ class GapEntry(NamedTuple):
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
         return self._asdict()
+
+
+form(HelpedPerson, {"saving": optional(Form(number))})

@@ -29,6 +29,11 @@ class Condition:
         """Whether every literal is true in ``state``."""
         return all(f in state for f in self.positive) and not any(f in state for f in self.negative)
 
+    def without(self, other: "Condition") -> "Condition":
+        """What is left without the literals of another, ascending."""
+        positive = sorted(set(self.positive).difference(other.positive))
+        return Condition(tuple(positive), tuple(sorted(set(self.negative).difference(other.negative))))
+
     def __bool__(self) -> bool:
         return bool(self.positive or self.negative)
 

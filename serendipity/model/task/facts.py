@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Sequence
 
 from serendipity.model.errors import UsageError
+from serendipity.model.task.actions import Condition
 from serendipity.model.task.names import no_fact
 from serendipity.model.task.task import canonical_name
 
@@ -27,6 +28,17 @@ class Facts:
         if fact is None:
             raise UsageError(no_fact(canonical_name(name), self._ids))
         return fact
+
+    def condition(self, literals: Iterable[str]) -> Condition:
+        """The conjunction of literals, ``!`` in front of those to be false.
+
+        Raises:
+            UsageError: there is no such fact.
+        """
+        given = [*literals]
+        positive = sorted(self.id(name) for name in given if not name.startswith("!"))
+        negative = sorted(self.id(name[1:]) for name in given if name.startswith("!"))
+        return Condition(tuple(positive), tuple(negative))
 
     def seen(self, state: frozenset[int], facts: Iterable[tuple[str, bool]]) -> frozenset[int]:
         """A state in which some facts are true, or false, as somebody has seen them.

@@ -15,6 +15,12 @@ def canonical_name(text: str) -> str:
     return " ".join(text.lower().split())
 
 
+def named_alone(agents: Sequence[str], words: Iterable[str]) -> int | None:
+    """Id of the only agent whose name is among the words of a fact; None where there is none, or several."""
+    found = {agents.index(word) for word in words if word in agents}
+    return found.pop() if len(found) == 1 else None
+
+
 def unused(name: str, used: set[str]) -> str:
     """The name, or if it is used already one like it; it is used from now on."""
     candidate, number = name, 1

@@ -71,6 +71,22 @@ def outlasts(task: "Task", plan: "HumanPlan", epochs: int, *, strict: bool = Fal
     return None if task.goal.holds(human.course.state) else "the goal does not hold any more"
 
 
+def broken_script(task: "Task", *, strict: bool = False) -> str | None:
+    """The reason why the script can't go on where nobody else does anything, or None if it can.
+
+    Others may see to it that it can after all.
+    """
+    course = PlayedPlan(task.facts, task.init, task.script, strict=strict)
+    if not task.script.deeds:
+        return None
+    try:
+        while course.epoch < task.script.last:
+            course.begin([])
+    except BrokenPlanError as error:
+        return f"epoch {course.epoch}: {error}"
+    return None
+
+
 def _done(task: "Task", plan: "HumanPlan", *, strict: bool = False) -> "_Human":
     human = _Human(task, strict=strict)
     for step, (epoch, action_id) in enumerate(zip(task.starts_of(plan), plan, strict=True), start=1):

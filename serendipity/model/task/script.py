@@ -3,6 +3,7 @@
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from serendipity.model.errors import UsageError
@@ -99,19 +100,15 @@ class Timeline:
 
     @cached_property
     def _changes(self) -> dict[int, tuple[frozenset[int], frozenset[int]]]:
-        epochs = {one.epoch for one in self.facts}
-        return {
-            epoch: (
-                frozenset(one.fact for one in self.facts if one.epoch == epoch and one.true),
-                frozenset(one.fact for one in self.facts if one.epoch == epoch and not one.true),
-            )
-            for epoch in epochs
-        }
+        found: dict[int, tuple[set[int], set[int]]] = {}
+        for one in self.facts:
+            true, false = found.setdefault(one.epoch, (set(), set()))
+            (true if one.true else false).add(one.fact)
+        return {epoch: (frozenset(true), frozenset(false)) for epoch, (true, false) in found.items()}
 
     @cached_property
     def _begun(self) -> dict[int, tuple[Deed, ...]]:
-        epochs = {deed.epoch for deed in self.deeds}
-        return {epoch: tuple(deed for deed in self.deeds if deed.epoch == epoch) for epoch in epochs}
+        return {epoch: tuple(some) for epoch, some in groupby(self.deeds, key=lambda deed: deed.epoch)}
 
     def changes(self, epoch: int) -> tuple[frozenset[int], frozenset[int]]:
         """Ids of the facts that become true, and false, with an epoch."""

@@ -68,6 +68,8 @@ class Task(Told):
             is not among ``actions``.
         due: facts, each with an action that is done in the next epoch if it holds (:mod:`.unit_steps`).
         at_rest: facts that say of each robot that it is at nothing, as all have to be at the end.
+        own_goals: of other agents, by id, as far as the input says whose they are: what they plan for as
+            bystanders, or if they are the human instead.
         epoch: of an epoch, how long it is in the unit of the input (of PDDL's durations), for people.
         variables: finite-domain variables behind the facts; each fact is in exactly one.  They
             follow from facts, initial state and actions.
@@ -92,6 +94,7 @@ class Task(Told):
     epoch: Fraction = field(default=Fraction(1))
     due: tuple[tuple[int, int], ...] = ()
     at_rest: tuple[int, ...] = ()
+    own_goals: tuple[tuple[int, Condition], ...] = ()
     variables: tuple[Variable, ...] = field(init=False, repr=False, compare=False)
     known_variables: InitVar[tuple[Variable, ...] | None] = field(default=None, kw_only=True)
 
@@ -338,7 +341,8 @@ class Task(Told):
     def with_script(self, script: Script) -> "Task":
         """The same task with more that happens anyway.
 
-        Those whose plans it has become bystanders: only what these plans say is done by them.
+        Those whose plans it has become bystanders: only what these plans say is done by them, and what their
+        own goals ask for is no goal of the robots'.
 
         Raises:
             UsageError: there is no such fact or agent, a plan has an action that its person can't do alone,
@@ -346,7 +350,11 @@ class Task(Told):
         """
         timeline = resolved(self, script)
         actions = tuple(a for a in self.actions if timeline.people.isdisjoint(a.participants))
-        return replace(self, actions=actions, script=timeline)
+        robot_goal = self.robot_goal
+        for agent, goal in self.own_goals:
+            if agent in timeline.people:
+                robot_goal = robot_goal.without(goal)
+        return replace(self, actions=actions, script=timeline, robot_goal=robot_goal)
 
     def with_human(self, human: str) -> "Task":
         """The same task with another agent as the human.

@@ -90,6 +90,13 @@ def assemble(blueprint: Blueprint, work: Work) -> Task:
         blueprint.warnings.append(_no_goal(blueprint))
     facts, blocks = _grounded(blueprint, relations, work)
     numbering = _numbered(facts, blocks, relations, goal, robot_goals, work, blueprint.units)
+    own_goals = [
+        (blueprint.agents.index(one.unit.owner), numbering.condition(one.literals))
+        for one in robot_goals
+        if one.unit.owner is not None and one.literals and not one.disjunctions
+    ]
+    for one in robot_goals:
+        one.leave_out(goal)
     clock = Clock(blueprint.units, numbering.blocks, blueprint.epoch)
     actions = tuple(_actions(numbering, blueprint, clock))
     timeline = _timeline(numbering, blueprint, clock)
@@ -107,6 +114,7 @@ def assemble(blueprint: Blueprint, work: Work) -> Task:
         waiting=frozenset(numbering.waiting),
         script=timeline,
         epoch=clock.epoch,
+        own_goals=tuple(own_goals),
         known_variables=variables_behind(numbering.names, numbering.init, moments(actions, timeline), work),
     )
     return _with_disjunctive_goals(task, numbering, goal, robot_goals, work)
@@ -186,8 +194,6 @@ def _numbered(
     changes = Changes(facts, init, left, work, script)
     for one in goals:
         one.simplify(lambda literal: changes.truth(facts[literal.key], literal.positive))
-    for one in robot_goals:
-        one.leave_out(goal)
     named = [facts[literal.key] for one in goals for literal in one.named()]
     return Numbering(facts, init, left, changes, named, work)
 
