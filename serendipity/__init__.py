@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from serendipity.facade.session import Session
     from serendipity.facade.showing import Drawing, show
     from serendipity.facade.simulation import simulate
-    from serendipity.lint import Finding, TaskReport, check_task
+    from serendipity.lint import Finding, TaskReport, TaskTime, check_task
     from serendipity.model import (
         Certificate,
         Claim,
@@ -114,6 +114,7 @@ __all__ = [
     "Table",
     "Task",
     "TaskReport",
+    "TaskTime",
     "TiedAnswer",
     "Timing",
     "Trace",
@@ -157,7 +158,7 @@ _HOMES = {
     "facade.session": "Session",
     "facade.showing": "Drawing show",
     "facade.simulation": "simulate",
-    "lint": "Finding TaskReport check_task",
+    "lint": "Finding TaskReport TaskTime check_task",
     "recognition": "GoalPosterior Recognition recognise",
     "scenarios.examples": "example",
     "scenarios.generate": "generate_usar",

@@ -6,10 +6,11 @@ from itertools import chain
 from os import PathLike
 
 from serendipity.lint.file_rules import file_findings
-from serendipity.lint.report import LEVELS, Finding, TaskReport
+from serendipity.lint.report import LEVELS, Finding, TaskReport, TaskTime
+from serendipity.lint.script_rules import script_findings
 from serendipity.lint.task_rules import task_findings
 from serendipity.model import Deadline, GroundAction, Task
-from serendipity.model.arguments import DEADLINE, LIST, PAIR, TASK, expect, expect_or_none
+from serendipity.model.arguments import DEADLINE, LIST, PAIR, TASK_IN_TIME, expect, expect_or_none
 from serendipity.pddl.parsing.files import read_unit
 from serendipity.pddl.work import Work
 
@@ -33,7 +34,7 @@ def check_task(task: Task, files: Files = (), *, deadline: Deadline | None = Non
         InputError: a file can't be read or is wrong.
         LimitReachedError: a limit came first.
     """
-    expect(TASK, task=task)
+    expect(TASK_IN_TIME, task=task)
     expect(LIST, files=files)
     expect_or_none(DEADLINE, deadline=deadline)
     limits = deadline or Deadline()
@@ -41,7 +42,11 @@ def check_task(task: Task, files: Files = (), *, deadline: Deadline | None = Non
     pairs = list(files)
     expect(PAIR, **{f"files, pair {number}": pair for number, pair in enumerate(pairs, start=1)})
     units = [read_unit(None, domain, problem, work) for domain, problem in pairs]
-    found = chain(task_findings(task, limits), file_findings(task, units) if units else ())
+    found = chain(
+        task_findings(task, limits),
+        script_findings(task, limits) if task.script else (),
+        file_findings(task, units) if units else (),
+    )
     return TaskReport(
         task=task.name,
         human=task.agents[task.human],
@@ -53,6 +58,19 @@ def check_task(task: Task, files: Files = (), *, deadline: Deadline | None = Non
         variables=len(task.variables),
         actions=dict(Counter(_origin(task, action) for action in limits.each(task.actions)).most_common()),
         findings=_sorted(found),
+        time=_time(task) if task.needs_time or task.script.people else None,
+    )
+
+
+def _time(task: Task) -> TaskTime:
+    script = task.script
+    counts = Counter(deed.agent for deed in script.deeds)
+    return TaskTime(
+        epoch=task.epoch,
+        longest=max((action.duration for action in task.actions), default=1),
+        script_epochs=script.last,
+        script_facts=len(script.facts),
+        bystanders={task.agents[agent]: counts[agent] for agent in sorted(script.people)},
     )
 
 

@@ -35,9 +35,9 @@ def _missing_goals(units: Sequence[lifted.Unit]) -> Iterator[Finding]:
 def _actions(task: Task, units: Sequence[lifted.Unit]) -> Iterator[Finding]:
     applied = {action.key[0] for action in task.actions}
     never = {
-        s.name: None for unit in units for s in unit.domain.schemas if s.effects and s.name not in applied
+        s.name: None for unit in units for s in unit.domain.schemas if s.all_effects and s.name not in applied
     }
-    if never:
+    if never and not task.script.people:  # what they could do besides is in no task
         text = f"actions that can never be applied: {listed([*never])}"
         yield Finding("warning", "action-never-applied", text)
 
@@ -47,8 +47,10 @@ def _predicates(units: Sequence[lifted.Unit]) -> Iterator[Finding]:
     schemas = [schema for unit in units for schema in unit.domain.schemas]
     read = {literal.key[0] for literal in _read(units, schemas)}
     needed = {literal.key[0] for literal in _read(units, schemas) if literal.positive}
-    changed = {effect.literal.key[0] for schema in schemas for effect in schema.effects}
-    made = {e.literal.key[0] for schema in schemas for e in schema.effects if e.literal.positive}
+    effects = [effect.literal for schema in schemas for effect in schema.all_effects]
+    effects += [timed.literal for unit in units for timed in unit.problem.timed]
+    changed = {literal.key[0] for literal in effects}
+    made = {literal.key[0] for literal in effects if literal.positive}
     initial = {key[0] for unit in units for key in unit.problem.init}
     kinds = (
         ("note", "predicate-unused", "predicates that nothing uses", declared.keys() - read - changed),
@@ -67,19 +69,24 @@ def _predicates(units: Sequence[lifted.Unit]) -> Iterator[Finding]:
 
 def _functions(units: Sequence[lifted.Unit]) -> Iterator[Finding]:
     declared = {name for unit in units for name in unit.domain.functions} - {"total-cost"}
-    costs = [cost for unit in units for schema in unit.domain.schemas for cost in schema.increases]
+    costs = [cost for unit in units for s in unit.domain.schemas for cost in (*s.increases, *_durations(s))]
     unread = declared - {name for cost in costs for name in _names(cost)}
     if unread:
-        text = f"functions that no cost depends on: {listed(sorted(unread))}"
+        text = f"functions that no cost or duration depends on: {listed(sorted(unread))}"
         yield Finding("note", "function-unread", text)
+
+
+def _durations(schema: lifted.Schema) -> Iterable[lifted.Expression]:
+    return () if schema.course is None else (*schema.course.least, *schema.course.most)
 
 
 def _read(units: Sequence[lifted.Unit], schemas: Iterable[lifted.Schema]) -> Iterator[lifted.Literal]:
     for unit in units:
         yield from literals(unit.problem.goal)
     for schema in schemas:
-        yield from literals(schema.precondition)
-        for effect in schema.effects:
+        for condition in schema.conditions:
+            yield from literals(condition)
+        for effect in schema.all_effects:
             if effect.condition is not None:
                 yield from literals(effect.condition)
 
@@ -111,7 +118,9 @@ _PARTS: Final = {
 }
 """Requirements that stand for others (PDDL 2.1, Fox and Long 2003)."""
 
-_CHECKED: Final = {*_PARTS[":adl"], *_PARTS[":quantified-preconditions"], ":action-costs"} - {":strips"}
+_OTHERS: Final = (":action-costs", ":durative-actions", ":timed-initial-literals")
+
+_CHECKED: Final = {*_PARTS[":adl"], *_PARTS[":quantified-preconditions"], *_OTHERS} - {":strips"}
 """The requirements of which this module knows whether they are used."""
 
 
@@ -150,9 +159,14 @@ def _used(unit: lifted.Unit) -> Iterator[str]:
     if unit.priced:
         yield ":action-costs"
     yield from _of(unit.problem.goal)
+    if unit.problem.timed:
+        yield ":timed-initial-literals"
     for schema in unit.domain.schemas:
-        yield from _of(schema.precondition)
-        for effect in schema.effects:
+        if schema.course is not None:
+            yield ":durative-actions"
+        for condition in schema.conditions:
+            yield from _of(condition)
+        for effect in schema.all_effects:
             if effect.condition is not None:
                 yield ":conditional-effects"
                 yield from _of(effect.condition)

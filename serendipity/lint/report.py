@@ -2,9 +2,11 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any, Final
 
-from serendipity.model.answers.fields import written
+from serendipity.model.answers.fields import Written, written
+from serendipity.model.numbers import plain
 from serendipity.model.telling import Grid, Line, Output
 
 SCHEMA: Final = "serendipity.task-report/1"
@@ -27,6 +29,38 @@ class Finding:
     text: str
 
 
+@dataclass(frozen=True, slots=True)
+class TaskTime(Written):
+    """The time in a task (semantics 10).
+
+    Attributes:
+        epoch: how long an epoch is, in the unit of PDDL's durations.
+        longest: epochs of the longest action.
+        script_epochs: epochs until the script ends; 0 without one.
+        script_facts: facts that it changes, each time counted.
+        bystanders: for each how many actions their plan has.
+    """
+
+    epoch: Fraction
+    longest: int
+    script_epochs: int
+    script_facts: int
+    bystanders: dict[str, int]
+
+    def told(self) -> Iterator[Line]:
+        """The lines of it."""
+        yield Line(f"an epoch is {plain(self.epoch)} long, the longest action takes {_epochs(self.longest)}")
+        if self.script_epochs:
+            facts = f"{self.script_facts} change{'s' * (self.script_facts != 1)} of facts"
+            yield Line(f"script: {facts}, until epoch {self.script_epochs:,}")
+        for name, count in self.bystanders.items():
+            yield Line(f"bystander {name}: {count} action{'s' * (count != 1)}")
+
+
+def _epochs(number: int) -> str:
+    return f"{number:,} epoch{'s' * (number != 1)}"
+
+
 @dataclass(frozen=True, slots=True, repr=False)
 class TaskReport(Output):
     """The size of a task, and the findings about it.
@@ -37,6 +71,7 @@ class TaskReport(Output):
         variables: how many finite-domain variables they make.
         actions: how many ground actions come from each action of the PDDL files.
         findings: errors first.
+        time: that in it; None where each action takes one epoch, and nothing happens by a script.
     """
 
     task: str
@@ -46,6 +81,7 @@ class TaskReport(Output):
     variables: int
     actions: dict[str, int]
     findings: tuple[Finding, ...]
+    time: TaskTime | None = None
 
     @property
     def right(self) -> bool:
@@ -54,11 +90,14 @@ class TaskReport(Output):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
-        return {"schema": SCHEMA, **written(self)}
+        found = {"schema": SCHEMA, **written(self)}
+        return found if self.time is not None else {k: v for k, v in found.items() if k != "time"}
 
     def told(self) -> Iterator[Line | Grid]:
         """The lines that ``check-task`` prints."""
         yield Line(f"{self.task}: human {self.human}; {self.facts} facts in {self.variables} variables")
+        if self.time is not None:
+            yield from self.time.told()
         yield Line()
         counts = [(name, str(count)) for name, count in self.actions.items()]
         yield Grid(("action", "ground actions"), [*counts, ("all", str(sum(self.actions.values())))])

@@ -1,11 +1,12 @@
 """Findings about a grounded task: goals out of reach, and agents that have nothing to do with them."""
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from collections.abc import Set as AbstractSet
 
 from serendipity.lint.report import Finding
 from serendipity.model import Condition, Deadline, GroundAction, Task
+from serendipity.model.task.script import moments
 
 Fact = tuple[int, bool]
 """A fact, and whether it is true."""
@@ -17,7 +18,7 @@ def missing(goal: Condition, reached: AbstractSet[Fact]) -> tuple[Fact, ...]:
 
 
 def reachable(task: Task, actions: Sequence[GroundAction], deadline: Deadline) -> set[Fact]:
-    """The literals that some sequence of the actions makes true, each by itself, and maybe more.
+    """The literals that some of the actions make true beside the script, each by itself, and maybe more.
 
     Made true once, a literal stays so, beside its opposite; so what is not reached here can't
     be reached at all, and what is may still be out of reach.
@@ -27,11 +28,11 @@ def reachable(task: Task, actions: Sequence[GroundAction], deadline: Deadline) -
     """
     reached = {(fact, fact in task.init) for fact in range(len(task.facts))}
     waiting: defaultdict[Fact, list[GroundAction]] = defaultdict(list)
-    pending = list(actions)
+    pending = list(moments(actions, task.script))
     while pending:
         deadline.tick()
         action = pending.pop()
-        lacking = next((literal for literal in _needs(action) if literal not in reached), None)
+        lacking = next((literal for literal in needs(action) if literal not in reached), None)
         if lacking is not None:
             waiting[lacking].append(action)
             continue
@@ -43,37 +44,40 @@ def reachable(task: Task, actions: Sequence[GroundAction], deadline: Deadline) -
 
 
 def relevant(task: Task, deadline: Deadline) -> list[bool]:
-    """For each action whether it may contribute to a goal, the human's or the robots'."""
+    """For each action whether it may contribute to a goal, the human's or the robots', or to bystanders."""
     makers: defaultdict[Fact, list[int]] = defaultdict(list)
     for i, action in enumerate(deadline.each(task.actions)):
         for literal in _makes(action):
             makers[literal].append(i)
     found = [False] * len(task.actions)
     pending = [*_literals(task.goal), *_literals(task.robot_goal)]
+    pending += [literal for deed in task.script.deeds for one in deed.variants for literal in needs(one)]
     seen = set(pending)
     while pending:
         for i in deadline.each(makers.pop(pending.pop(), ())):
             if not found[i]:
                 found[i] = True
-                new = [literal for literal in _needs(task.actions[i]) if literal not in seen]
+                new = [literal for literal in needs(task.actions[i]) if literal not in seen]
                 seen.update(new)
                 pending += new
     return found
 
 
-def _literals(goal: Condition) -> Iterable[Fact]:
+def _literals(goal: Condition) -> Iterator[Fact]:
     yield from ((fact, True) for fact in goal.positive)
     yield from ((fact, False) for fact in goal.negative)
 
 
-def _needs(action: GroundAction) -> Iterable[Fact]:
-    yield from ((fact, True) for fact in action.pre)
-    yield from ((fact, False) for fact in action.neg)
+def needs(action: GroundAction) -> Iterator[Fact]:
+    """The literals that an action asks for, at any time of it."""
+    for moment in action.moments:
+        yield from _literals(moment.precondition)
 
 
-def _makes(action: GroundAction) -> Iterable[Fact]:
-    yield from ((fact, True) for fact in action.add)
-    yield from ((fact, False) for fact in action.delete)
+def _makes(action: GroundAction) -> Iterator[Fact]:
+    for moment in action.moments:
+        yield from ((fact, True) for fact in moment.add)
+        yield from ((fact, False) for fact in moment.delete)
 
 
 _LISTED = 3
@@ -111,6 +115,8 @@ def _goals(task: Task, deadline: Deadline) -> Iterator[Finding]:
 def _agents(task: Task, deadline: Deadline) -> Iterator[Finding]:
     matters = relevant(task, deadline)
     for agent, name in enumerate(task.agents):
+        if agent in task.script.people:
+            continue
         own = [i for i, action in enumerate(deadline.each(task.actions)) if agent in action.participants]
         if not own:
             yield Finding("warning", "agent-idle", f"{name} can do nothing")

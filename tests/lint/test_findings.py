@@ -2,17 +2,20 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 
 import serendipity
 from serendipity.lint.task_rules import relevant
-from serendipity.model import Condition, Deadline, Task
+from serendipity.model import Condition, Deadline, Script, Task
 from serendipity.testing import cases
 from serendipity.testing.builders import task as built
 from serendipity.testing.strategies import tasks
+from serendipity.testing.strategies.time import bystander_tasks, scripted_tasks
 from tests.pddl.texts import action, domain, pair, problem
 from tests.show.test_wards import DATA
 
@@ -43,6 +46,63 @@ def test_what_does_not_matter_can_be_left_out(task: Task) -> None:
         action for action, matters in zip(task.actions, relevant(task, Deadline()), strict=True) if matters
     ]
     assert best(replace(task, actions=tuple(kept))) == best(task)
+
+
+@given(st.one_of(scripted_tasks(), bystander_tasks()))
+def test_what_the_script_changes_for_nothing_can_be_left_out(task: Task) -> None:
+    useless = {"script-changes-nothing", "script-never-matters"} & rules(task)
+    script = task.script
+    for one in script.facts:
+        left = replace(script, facts=tuple(other for other in script.facts if other != one))
+        without = replace(task, script=left)
+        if useless and rules(without) < rules(task):  # it was the only one
+            assert best(without, "individual") == best(task, "individual")
+            assert best(without) == best(task)
+
+
+def walk(**changes: object) -> Task:
+    """Somebody who goes through a door, and Carol, who shuts it behind her."""
+    actions = {"go h": "open -> in @ 1 [3]", "shut carol": "open -> !open", "sing carol": "moon -> song"}
+    built_in = built(agents="h r carol", init="open", goal="in", actions=actions | {"help r": "-> !open"})
+    return built_in.with_script(Script(**changes))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("script", "rule", "words"),
+    [
+        ({"facts": [(3, "!moon"), (9, "open")]}, "script-changes-nothing", "nothing: epoch 3 not moon"),
+        ({"facts": [(3, "moon"), (5, "moon")]}, "script-changes-nothing", "nothing: epoch 5 moon"),
+        ({"facts": [(3, "song")]}, "script-never-matters", "nobody asks for: epoch 3 song"),
+        ({"people": {"carol": ["sing carol"]}}, "bystander-impossible", "can never do this: sing carol"),
+        (
+            {"people": {"carol": ["shut carol", "shut carol"]}, "facts": [(9, "open")]},
+            "bystander-needs-help",
+            "plans say: epoch 2: 'shut carol' is not applicable: 'open' is false",
+        ),
+    ],
+)
+def test_scripts(script: dict[str, object], rule: str, words: str) -> None:
+    report = serendipity.check_task(walk(**script))
+    assert words in {finding.rule: finding.text for finding in report.findings}[rule]
+    assert report.right == (rule != "bystander-impossible")
+
+
+def test_the_time_of_a_task_is_told() -> None:
+    task = walk(facts=[(3, "moon"), (12, "!open")], people={"carol": [(4, "sing carol")]})
+    report = serendipity.check_task(replace(task, epoch=Fraction(5, 2)))
+    assert report.to_dict()["time"] == {
+        "epoch": 2.5,
+        "longest": 3,
+        "script_epochs": 12,
+        "script_facts": 2,
+        "bystanders": {"carol": 1},
+    }
+    assert str(report).splitlines()[1:4] == [
+        "an epoch is 2.5 long, the longest action takes 3 epochs",
+        "script: 2 changes of facts, until epoch 12",
+        "bystander carol: 1 action",
+    ]
+    assert "time" not in serendipity.check_task(serendipity.example("room2")).to_dict()
 
 
 def test_a_sound_task_has_no_finding() -> None:
