@@ -297,10 +297,10 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
 
 
 def _layers(context: SearchContext, plan: HumanPlan) -> list[list[tuple[Operator, JointAction]]]:
-    """Per epoch of ``pi_H`` what the human may do before the window; where waiting costs, also rest."""
-    idling = context.packed.idling
-    resting = context.followed(idling[-1:]) if context.packed.prices_waiting else []
-    return [[step, *resting] if step[0].action in idling[:-1] else [step] for step in context.followed(plan)]
+    """Per epoch of ``pi_H`` what the human may do before the window; where waiting costs, wait or rest."""
+    packed = context.packed
+    idle = [*context.followed(packed.idling)] if packed.prices_waiting else []
+    return [idle if idle and step[0].action in packed.idling else [step] for step in context.followed(plan)]
 
 
 def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:

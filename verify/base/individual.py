@@ -202,8 +202,8 @@ class IndividualOptimum:
         try:
             space = StateSpace(len(task.facts), task.init, task.actions, groups, self.deadline)
             operators = [
-                PackedOperator(a.pre, a.neg, a.add, a.delete, own.weight(i))
-                for i, a in ((i, task.actions[i]) for i in self.deadline.each(own.ids))
+                PackedOperator(a.pre, a.neg, a.add, a.delete, weight)
+                for a, weight in (own.whole(i) for i in self.deadline.each(own.ids))
             ]
             goal = task.goal.positive, task.goal.negative
             return PackedProblem(space, own.facts, operators, goal, self.deadline)

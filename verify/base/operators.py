@@ -1,16 +1,35 @@
 """The human's own actions as the checker's own search sees them."""
 
 from collections import Counter
+from dataclasses import replace
 from fractions import Fraction
 from itertools import chain
 from math import lcm
 from typing import Final
 
-from serendipity.model import Condition, Deadline, Task
+from serendipity.model import Condition, Deadline, GroundAction, Task
 from verify.base.fact_bits import BitOperator, FactBits, each_bit
 
 _LONGEST: Final = 10**9
 """More actions than any plan has that is ever compared."""
+
+
+def one_after_the_other(first: GroundAction, second: GroundAction) -> GroundAction:
+    """Two actions as one; of facts that the first settles, the second's conditions have to be as it does.
+
+    What can't be has a precondition that it also wants false.
+    """
+    add, delete = set(first.add), set(first.delete) - set(first.add)
+    pre, neg = set(first.pre) | set(second.pre) - add, set(first.neg) | set(second.neg) - delete
+    changed = (add - set(second.delete)) | set(second.add)
+    removed = (delete | set(second.delete)) - changed
+    return replace(
+        first,
+        pre=tuple(sorted(pre | (set(second.neg) & add))),
+        neg=tuple(sorted(neg | (set(second.pre) & delete))),
+        add=tuple(sorted(changed)),
+        delete=tuple(sorted(removed)),
+    )
 
 
 class OwnActions:
@@ -52,6 +71,26 @@ class OwnActions:
         if ratio not in self._weights:
             self._weights[ratio] = int(cost * self._unit) + 1
         return self._weights[ratio]
+
+    def whole(self, action: int) -> tuple[GroundAction, int]:
+        """An action with all that is due after it, as one, and what that weighs; the human is alone.
+
+        Nobody chooses anything while the human is at something (semantics 10.1), so the states between matter
+        to nobody; one in which they are at it already is left by what is still due.
+        """
+        ground, weight = self._task.actions[action], self.weight(action)
+        following = self._following(ground)
+        while following is not None:
+            ground = one_after_the_other(ground, self._task.actions[following])
+            weight += self.weight(following)
+            following = self._following(ground)
+        return ground, weight
+
+    def _following(self, ground: GroundAction) -> int | None:
+        """What is due for the human once an action is done."""
+        due = self._task.due_for
+        ids = (i for fact in ground.add if fact in due for each in due[fact] for i in each)
+        return next((i for i in ids if self._task.actions[i].participants == (self._task.human,)), None)
 
     def split(self, weight: int) -> tuple[Fraction, int]:
         """Cost and length of a plan of a weight."""
@@ -101,9 +140,9 @@ class OwnActions:
     def _operator(self, action: int) -> BitOperator:
         operator = self._operators.get(action)
         if operator is None:
-            ground, of = self._task.actions[action], self.bits.of
+            (ground, weight), of = self.whole(action), self.bits.of
             operator = self._operators[action] = BitOperator(
-                of(ground.pre), of(ground.neg), of(ground.add), of(ground.delete), self.weight(action), action
+                of(ground.pre), of(ground.neg), of(ground.add), of(ground.delete), weight, action
             )
         return operator
 

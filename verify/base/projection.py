@@ -25,7 +25,7 @@ class ProjectedCosts:
     def __init__(self, task: Task, own: OwnActions, deadline: Deadline) -> None:
         of, self._kept = own.bits.of, own.bits.of(_private_facts(task, own, deadline))
         goal = BitCondition(of(task.goal.positive) & self._kept, of(task.goal.negative) & self._kept)
-        moves = _moves(task, own, self._kept, deadline)
+        moves = _moves(own, self._kept, deadline)
         self._distances: BitDistances | None = BitDistances(moves, goal, limits().projected_states, deadline)
 
     def bound(self, state: int) -> int | None:
@@ -55,15 +55,14 @@ def _private_facts(task: Task, own: OwnActions, deadline: Deadline) -> frozenset
     return frozenset(kept)
 
 
-def _moves(task: Task, own: OwnActions, kept: int, deadline: Deadline) -> list[BitOperator]:
+def _moves(own: OwnActions, kept: int, deadline: Deadline) -> list[BitOperator]:
     """The distinct projected actions that change anything, each at its least weight."""
     moves: dict[tuple[int, int, int, int], int] = {}
     of = own.bits.of
     for i in deadline.each(own.ids):
-        action = task.actions[i]
+        action, weight = own.whole(i)
         add, delete = of(action.add) & kept, of(action.delete) & kept
         if add or delete:
             move = of(action.pre) & kept, of(action.neg) & kept, add, delete
-            weight = own.weight(i)
             moves[move] = min(weight, moves.get(move, weight))
     return [BitOperator(*move, weight) for move, weight in moves.items()]

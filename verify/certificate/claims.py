@@ -273,7 +273,7 @@ class Examiner:
         """
         with during("checking a counter-example"):
             baseline = self.call.baseline
-            opportunity = baseline is not None and found.cost < baseline
+            opportunity = self.call.human_plan is not None and (baseline is None or found.cost < baseline)
             report = self.checker.check(found_result(self.call, found, opportunity=opportunity))
         if not report.ok:
             raise UndecidedError(wording.EXAMPLE_BREAKS.format(report.first))

@@ -84,3 +84,15 @@ def test_what_the_script_brings_costs_robots_nothing() -> None:
     scripted = built.with_script(Script(facts=[(1, "shut"), (1, "at2")]))
     options = {"mode": "composite", "discount": 0, "horizon": "inf"}
     assert serendipity.plan(scripted, **options).cost == best(scripted, Options(**options)).cost == 2
+
+
+def test_who_rests_in_their_plan_may_wait_before_a_window_instead() -> None:
+    """The goal comes by itself in epoch 3; a robot wants something else, for which the human has to wait."""
+    built = task(init="k", goal="g", actions={"a h": "m -> !n @ 0", "b r": "k -> m @ 1/2"})
+    wanted = replace(built, robot_goal=Condition((), (built.facts.index("n"),)))
+    later = replace(wanted, init=wanted.init | {built.facts.index("n")})
+    later = later.with_script(Script(facts=[(3, "g")]))
+    options = {"window_weight": "0.25", "waiting_cost": "0.5", "horizon": 4}
+    found, expected = serendipity.plan(later, **options), best(later, Options(**options))
+    assert (found.objective, found.window) == (expected.objective, expected.window)
+    assert serendipity.verify(later, found).verdict == "proved"
