@@ -9,6 +9,7 @@ from serendipity.model import Certificate, Deadline, Result, Task
 from serendipity.model.arguments import PATH, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
+from serendipity.model.task.horizon import require_few_epochs
 from verify.certificate.by_rules import check_by_rules
 from verify.rules.header import require_same_task
 
@@ -41,10 +42,12 @@ def check(
 
     Raises:
         InputError: the result is for another task.
+        UsageError: actions or the script of the task have too many epochs.
     """
     start = perf_counter()
     limits = limits_from(time_limit, None, deadline)
     expect(TASK_IN_TIME, task=task)
+    require_few_epochs(task)
     expect(RESULT_IN_TIME, result=result)
     result = result.checked()
     require_same_task(task, result)
@@ -96,6 +99,7 @@ def verify(
     """
     limits = limits_from(time_limit, memory_limit, deadline)
     expect(TASK_IN_TIME, task=task)
+    require_few_epochs(task)
     expect(RESULT_IN_TIME, result=result)
     expect_or_none(PATH, proof=proof)
     from verify.certificate.certify import certify  # loads the solvers

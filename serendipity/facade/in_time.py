@@ -8,7 +8,7 @@ from search import PreparedTask, canonical_human_plan
 from serendipity.facade.call import Request, Solver
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
-from serendipity.model.task.horizon import horizon_of
+from serendipity.model.task.horizon import horizon_of, require_few_epochs
 from serendipity.model.task.plans import Step
 from serendipity.model.task.unit_steps import UnitSteps, unit_steps
 
@@ -25,6 +25,7 @@ def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
         UsageError: the call asks for something that is not answered for such tasks.
     """
     _require_known(call)
+    require_few_epochs(call.task)
     try:
         units = unit_steps(call.task, call.deadline, call.options.waiting_cost)
         inner = _in_units(call, units)

@@ -189,7 +189,8 @@ class TaskName(Group):
             raise UsageError(f"task: expected DOMAIN PROBLEM or one folder, got {len(files)} paths")
         robots = [*(self.robot or ())]
         if robots and robots != [ALL]:  # bystanders are agents, too
-            robots += [name for name, _ in self._people() if name not in map(canonical_name, robots)]
+            known = {*map(canonical_name, robots), canonical_name(self.human or "")}
+            robots += [name for name, _ in self._people() if name not in known]
         try:
             return read_pddl(domain, problem, human=self.human or "", robots=robots, **how)
         except UsageError as error:

@@ -88,6 +88,15 @@ class PlayedPlan:
             going.left -= 1
         self._going = [going for going in self._going if going.left]
 
+    def rest(self, until: int) -> int:
+        """Let epochs go by, to ``until`` at most, while nothing goes on and nothing happens; how many."""
+        if self._going:
+            return 0
+        calm = self._script.calm_until(self.epoch)
+        passed = max(0, (until if calm is None else min(calm, until)) - self.epoch)
+        self.epoch += passed
+        return passed
+
     def under_way(self) -> Iterator[GroundAction]:
         """The actions of the plan's that have not ended yet; those of bystanders don't count."""
         people = self._script.people

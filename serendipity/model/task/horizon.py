@@ -1,12 +1,37 @@
 """``T``, the epochs in which everything has to happen: decided here for every mode (semantics 2, 3.5, 8)."""
 
 from collections.abc import Iterable
+from typing import Final
 
 from serendipity.model.errors import UsageError
 from serendipity.model.keywords import Horizon
 from serendipity.model.options import INFINITE, MAX_EPOCH, Options
 from serendipity.model.task.plans_in_time import outlasts
 from serendipity.model.task.task import HumanPlan, Task
+
+MAX_DURATION: Final = 10_000
+"""Epochs of an action that is planned for: an epoch of it is a fact and an action of its own."""
+
+MAX_SCRIPT: Final = 100_000
+"""Epochs of a script that is planned for."""
+
+
+def require_few_epochs(task: Task) -> None:
+    """Check that actions and script have no more epochs than can be planned for.
+
+    Raises:
+        UsageError: one has.
+    """
+    longest = max(task.actions, key=lambda action: action.duration, default=None)
+    if longest is not None and longest.duration > MAX_DURATION:
+        raise UsageError(_too_long(f"'{longest.name}' takes", longest.duration, MAX_DURATION))
+    if task.script.last > MAX_SCRIPT:
+        raise UsageError(_too_long("the script takes", task.script.last, MAX_SCRIPT))
+
+
+def _too_long(what: str, epochs: int, most: int) -> str:
+    longer = "longer epochs can be asked for with --epoch"
+    return f"time: {what} {epochs:,} epochs, expected at most {most:,}: {longer}"
 
 
 def horizon_of(task: Task, options: Options, plan: HumanPlan | None) -> Horizon:

@@ -81,7 +81,8 @@ def broken_script(task: "Task", *, strict: bool = False) -> str | None:
         return None
     try:
         while course.epoch < task.script.last:
-            course.begin([])
+            if not course.rest(task.script.last):
+                course.begin([])
     except BrokenPlanError as error:
         return f"epoch {course.epoch}: {error}"
     return None
@@ -143,7 +144,10 @@ class _Human:
     def wait_until(self, epoch: int, where: str = "", step: int | None = None) -> None:
         """Let epochs go by."""
         while self.course.epoch < epoch:
-            self._begin([], where or f"epoch {self.course.epoch + 1}", step)
+            passed = self.course.rest(epoch)
+            self.states += [self.course.state] * passed
+            if not passed:
+                self._begin([], where or f"epoch {self.course.epoch + 1}", step)
 
     def _begin(self, actions: list[GroundAction], where: str, step: int | None) -> None:
         try:

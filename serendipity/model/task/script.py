@@ -1,5 +1,6 @@
 """The script: what happens anyway (semantics 10.3), by names as callers write it and by ids."""
 
+from bisect import bisect_right
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -97,6 +98,15 @@ class Timeline:
     def last(self) -> int:
         """The last epoch with which it changes anything; after it nothing depends on the epoch."""
         return max([0, *(one.epoch for one in self.facts), *(deed.end for deed in self.deeds)])
+
+    @cached_property
+    def _eventful(self) -> list[int]:
+        return sorted({*self._changes, *self._begun})
+
+    def calm_until(self, epoch: int) -> int | None:
+        """The last epoch before the script goes on after one; None where it does not."""
+        place = bisect_right(self._eventful, epoch)
+        return None if place == len(self._eventful) else self._eventful[place] - 1
 
     @cached_property
     def _changes(self) -> dict[int, tuple[frozenset[int], frozenset[int]]]:

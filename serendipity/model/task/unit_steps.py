@@ -35,6 +35,9 @@ RESTING: Final = "~rest"
 
 _FREE: Final = Fraction(0)
 
+_BYTES: Final = 1_000
+"""Of an epoch of an action or of the script; measured."""
+
 
 @dataclass(frozen=True)
 class UnitSteps:
@@ -111,9 +114,10 @@ def unit_steps(task: Task, deadline: Deadline | None = None, waiting_cost: Fract
         waiting_cost: of each epoch in which the human waits before an action of theirs.
 
     Raises:
-        LimitReachedError: the deadline came.
+        LimitReachedError: the deadline came, or all these epochs don't fit into memory.
     """
     deadline = deadline or Deadline()
+    deadline.require(_BYTES * (sum(action.duration for action in task.actions) + task.script.last))
     steps = _Steps(task, waiting_cost)
     for action in task.actions:
         deadline.tick()

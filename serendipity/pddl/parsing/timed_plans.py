@@ -19,6 +19,7 @@ from serendipity.model.task.plans import PlanEntry
 from serendipity.pddl.parsing.lists import action_of, actions_in, starts_json
 
 _TIME: Final = re.compile(r"^(\d+(?:\.\d*)?|\.\d+)\s*:\s*")
+_EARLY: Final = re.compile(r"^(-\d+(?:\.\d*)?)\s*:")
 _DURATION: Final = re.compile(r"\s*\[\s*(\d+(?:\.\d*)?|\.\d+)\s*\]$")
 _EPOCH: Final = re.compile(r"^[;#]\s*epoch\s+(\d+)\s*$", re.IGNORECASE)
 _COMMENT: Final = re.compile(r"[;#].*")
@@ -115,6 +116,9 @@ def timed_line(task: Task, epoch: int, name: str, duration: int) -> str:
 
 
 def _line(bare: str, path: object, number: int, what: str) -> PlanLine:
+    early = _EARLY.match(bare)
+    if early is not None:
+        raise InputError(f"{what}expected a time from 0 on, got {early[1]}", path, number)
     time = _TIME.match(bare)
     duration = _DURATION.search(bare)
     body = _DURATION.sub("", bare[time.end() :] if time else bare)
