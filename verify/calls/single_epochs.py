@@ -9,13 +9,24 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from serendipity.model import Claim, Deadline, HumanPlan, PlanError, PlanStep, Result, Task
+from serendipity.model.numbers import agrees
 from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.plans import Step
 from serendipity.model.task.plans_in_time import times_of
 from serendipity.model.task.unit_steps import UnitSteps, unit_steps
 from verify.base import wording
-from verify.base.execution import State, applicable, executed, is_calm, meant_by, met, participants, plan_step
+from verify.base.execution import (
+    State,
+    applicable,
+    executed,
+    is_calm,
+    meant_by,
+    met,
+    participants,
+    plan_step,
+    price,
+)
 from verify.base.obligations import is_tied, kind_of, needed
 from verify.base.undecided import UNDECIDED, why
 from verify.rules.report import Violation
@@ -40,7 +51,7 @@ def examined_in_time(
     try:
         epochs = SingleEpochs(task, result, deadline)
         if epochs.fault is not None:
-            return (Claim("replay", "refuted", str(epochs.fault)),)
+            return (Claim(epochs.fault.claim, "refuted", str(epochs.fault)),)
         said = epochs.result()
     except UNDECIDED as error:
         return tuple(Claim(name, "undecided", why(error)) for name in needed(result))
@@ -148,9 +159,14 @@ class SingleEpochs:
             expected = ", ".join(participants(task, ids[0]))
             words = f"its participants are {expected}, not {', '.join(step.agents) or 'nobody'}"
             return _violation("wrong-agents", words, *place)
-        length = task.actions[ids[0]].duration
+        action = task.actions[meant_by(task, step.action, step.agents)[0]]
+        length = action.duration
         if step.duration != length:
             return _violation("duration", f"it takes {length} epochs, not {step.duration}", *place)
+        cost = price(task, action, self._result.options.discount)
+        if not agrees(step.cost, cost):
+            words = f"costs {float(cost):g}, the result says {step.cost:g}"
+            return Violation("step-cost", "cost", "1", words, step.epoch, step.action)
         return None
 
     def _meant(self, step: PlanStep, state: State) -> GroundAction:
@@ -187,11 +203,10 @@ class SingleEpochs:
             epoch += 1
             here = [step for step in left if step.epoch <= epoch]
             left = left[len(here) :]
-            yield from here
             chosen = met(task, state, [self._first(step, state) for step in here])
             if said.options.waiting_cost and epoch < begun and not self._has_human(chosen):
                 chosen = (*chosen, self.units.waiting)
-            for i in chosen[len(here) :]:
+            for i in chosen:
                 yield plan_step(task, Step(epoch, i), said.options.discount)
             state = executed(state, [task.actions[i] for i in chosen], strict=said.options.strict)
         yield from left
@@ -218,8 +233,9 @@ class SingleEpochs:
         return step.action in self._original.named
 
     def _begun(self, step: PlanStep) -> PlanStep:
-        length = self._original.actions[self._original.named[step.action][0]].duration
-        return step if length == 1 else replace(step, duration=length)
+        action = meant_by(self._original, step.action, step.agents)[0]
+        found = plan_step(self._original, Step(step.epoch, action), self._result.options.discount)
+        return replace(found, duration=self._original.actions[action].duration)
 
 
 def _violation(rule: str, words: str, section: str, epoch: int, action: str) -> Violation:
