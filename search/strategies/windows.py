@@ -28,8 +28,7 @@ def while_bounds_are_exact(call: Call, part: Allowance) -> Iterator[None]:
 
 def ties(call: Call, part: Allowance) -> Iterator[None]:
     """Better windows and fewer actions for the same objective, as far as they come soon."""
-    space = call.space(part.deadline, call.best.key)
-    yield from best_first(space, call.best, call.progress, part.deadline, _ties(call))
+    yield from _search(call, part, _ties(call))
 
 
 def _search(
