@@ -43,7 +43,10 @@ class AloneBesideScript(IndividualOptimum):
     def moves(self, state: State) -> Iterator[tuple[int, State]]:
         """See :class:`IndividualOptimum`; waiting is one of them while anything happens."""
         task = self._task
-        his = [variants for variants in due(task, state) if variants[0] not in task.of_bystanders]
+        begun = [variants for variants in due(task, state) if variants[0] not in task.of_bystanders]
+        his = [variants for variants in begun if task.actions[variants[0]].participants == (task.human,)]
+        if len(his) < len(begun):
+            return  # a robot is at something
         free = (i for i in task.human_actions if i not in self._waiting or not is_calm(task, state))
         for i in his[0] if his else free:
             if applicable(task.actions[i], state):

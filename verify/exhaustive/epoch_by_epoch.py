@@ -29,7 +29,7 @@ from verify.base.relevance import Relevant
 from verify.base.subproblem import EXACT, FREE, WINDOW, PricedPlan, Subproblem
 from verify.base.undecided import UndecidedError
 from verify.exhaustive.layers import EpochLayer, advance, first
-from verify.exhaustive.team import NOBODY, Steps, TeamEpochs
+from verify.exhaustive.team import NOBODY, Bools, Steps, TeamEpochs
 from verify.exhaustive.team_problem import as_operator, team_problem
 from verify.limits import limits
 from verify.packed.cheapest_path import SumTooLargeError, TooManyPackedStatesError
@@ -313,7 +313,7 @@ class EpochSearch:
                 for la, n, e in layers
             ]
         )
-        still = where[:, 2] < self._question.horizon
+        still = (where[:, 2] < self._question.horizon) & self._robots_rest(states)
         for _ in range(limits().misfits):
             rows = np.flatnonzero(still)
             if not len(rows):
@@ -334,13 +334,17 @@ class EpochSearch:
                 self._offer(number, place, epoch, suffix)
         raise UndecidedError("too many ends of windows from which the human's plan takes too long")
 
+    def _robots_rest(self, states: Words) -> Bools:
+        """By state whether no robot is at anything: before that no window ends (semantics 10.1)."""
+        return self._table.test([f for f in self._question.task.at_rest if f in self._facts], ())(states)
+
     def _complete_one_by_one(self, places: list[tuple[int, int]]) -> None:
         """The same beside a script, where the human's way depends on the epoch: one end after the other."""
         for number, epoch in places:
             layer = self._layers[number]
-            for row in (
-                np.argsort(layer.paid, kind="stable").tolist() if epoch < self._question.horizon else ()
-            ):
+            rests = self._robots_rest(layer.states) & (epoch < self._question.horizon)
+            order = np.argsort(layer.paid, kind="stable")
+            for row in order[rests[order]].tolist():
                 self._deadline.check()
                 if int(layer.paid[row]) > self._limit():
                     break
