@@ -21,6 +21,7 @@ from serendipity.facade import certify, planning, session  # noqa: E402  # check
 from serendipity.facade.planning import AnytimeOptions, SessionOptions  # noqa: E402
 from serendipity.model import Certificate, Deadline, PlanStep, Result, Task, UsageError  # noqa: E402
 from serendipity.model.keywords import listing  # noqa: E402
+from serendipity.model.task.plans import PlanEntry  # noqa: E402
 
 __all__ = ["Session", "plan", "plan_anytime", "verify"]
 
@@ -29,23 +30,28 @@ T = TypeVar("T")
 
 @listing
 async def plan(
-    task: Task, *, human_plan: Iterable[str] | None = None, **options: Unpack[SessionOptions]
+    task: Task,
+    *,
+    human: Literal["any"] | None = None,
+    human_plan: Iterable[PlanEntry] | None = None,
+    **options: Unpack[SessionOptions],
 ) -> Result:
     """As :func:`serendipity.plan`; ``on_improvement`` is called in another thread.
 
     Args:
         task: the task.
+        human: ``"any"`` for whoever can be helped best.
         human_plan: names of the actions that the human is going to do; None predicts them.
         **options: of :func:`serendipity.plan`.
     """
     stop = threading.Event()
     options["deadline"] = _within(options.get("deadline"), stop)
-    return await _threaded(partial(planning.plan, task, human_plan=human_plan, **options), stop)
+    return await _threaded(partial(planning.plan, task, human=human, human_plan=human_plan, **options), stop)
 
 
 @listing
 async def plan_anytime(
-    task: Task, *, human_plan: Iterable[str] | None = None, **options: Unpack[AnytimeOptions]
+    task: Task, *, human_plan: Iterable[PlanEntry] | None = None, **options: Unpack[AnytimeOptions]
 ) -> AsyncGenerator[Result, None]:
     """As :func:`serendipity.plan_anytime`: ``async for answer in serendipity.aio.plan_anytime(task): ...``.
 

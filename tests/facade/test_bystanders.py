@@ -1,7 +1,6 @@
 """Predicted bystanders, and whoever can be helped best: as brute force and single calls have it."""
 
 from dataclasses import replace
-from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -22,15 +21,12 @@ OPTIONS = {"discount": "0.5", "window_weight": "0.25"}
 
 @st.composite
 def people(draw: st.DrawFn) -> Task:
-    """Tasks in which the human and others have goals of their own, and nothing but waiting is free."""
+    """Tasks in which the human and others have goals of their own."""
     built = draw(st.one_of(timed_tasks(of=SEVERAL), scripted_tasks(of=SEVERAL)))
     some = st.lists(st.sampled_from(range(len(built.facts))), min_size=1, max_size=2, unique=True)
     persons = draw(st.lists(st.sampled_from([1, 2]), min_size=1, unique=True))
     goals = tuple((agent, Condition(tuple(sorted(draw(some))))) for agent in sorted(persons))
-    paid = tuple(replace(action, cost=action.cost or Fraction(1)) for action in built.actions)
-    return replace(
-        built, actions=paid, own_goals=goals, robot_goal=Condition(), known_variables=built.variables
-    )
+    return replace(built, own_goals=goals, robot_goal=Condition(), known_variables=built.variables)
 
 
 @given(people())
