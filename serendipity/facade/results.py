@@ -11,7 +11,7 @@ from serendipity.model.answers.answer import Answer, ServedGoal, Tried
 from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
 from serendipity.model.numbers import figure, rounded
 from serendipity.model.task.execution import actions_of, participants, shares
-from serendipity.model.task.plans import PlanTimes
+from serendipity.model.task.plans import PlanTimes, TimedPlan
 from serendipity.model.task.plans_in_time import times_of, waited
 
 
@@ -91,8 +91,10 @@ def _names(task: Task, plan: HumanPlan | None) -> tuple[str, ...] | None:
 
 def _times(task: Task, plan: HumanPlan | None) -> PlanTimes | None:
     """The times of a human plan; None where its actions follow one another, an epoch each."""
-    times = None if plan is None else times_of(task, plan)
-    return None if times is None or times.plain else times
+    if plan is None or not (task.needs_time or isinstance(plan, TimedPlan)):
+        return None
+    times = times_of(task, plan)
+    return None if times.plain else times
 
 
 def _bystanders(task: Task) -> dict[str, tuple[PlanStep, ...]]:
