@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence, Set
 from dataclasses import dataclass, replace
 
 from serendipity.model import Deadline, Task
-from verify.base.execution import awake, idling, is_last
+from verify.base.execution import awake, is_last
 from verify.base.subproblem import Subproblem
 
 
@@ -51,7 +51,8 @@ def relevant_part(question: Subproblem, extra: Iterable[int] = ()) -> Relevant |
     # Nobody disturbs a bystander: what they need matters, and when they begin.
     forced += [i for i in task.of_bystanders if i in usable and not is_last(task.actions[i])]
     seeds.update(fact for fact, i in task.due if i in task.of_bystanders and not is_last(task.actions[i]))
-    forced += [i for i in idling(task) if i in usable and awake(task)]  # where it costs
+    if awake(task):  # where waiting costs, anything that the human does may be cheaper
+        forced += [i for i in usable if task.human in task.actions[i].participants]
     for i in forced:
         seeds.update(task.actions[i].pre, task.actions[i].neg)
     changing = true & false
