@@ -160,7 +160,7 @@ class SearchContext:
 
     def walks(self, plan: HumanPlan) -> Decoupled | None:
         """Robots' walks where they can be folded, and it pays: with several robots."""
-        if len(self.task.robots) < 2 or self.options.preservation == "state" or self.task.due:
+        if len(self.task.robots) < 2 or self.options.preservation == "state":
             return None
         walks = self.tables.robots.decoupled(self.deadline)
         if not walks.foldable or walks.touched_by(map(self.packed.op, plan)):
@@ -169,8 +169,9 @@ class SearchContext:
 
     def folded(self, walks: Decoupled) -> DecoupledSuccessors:
         """:meth:`successors` with walks left out."""
+        weights, strict = self.weights, self.options.strict
         return DecoupledSuccessors(
-            self.packed, walks, self.weights.team, self.deadline, strict=self.options.strict
+            self.packed, walks, weights.team, weights.of_walk, self.deadline, strict=strict
         )
 
     @cached_property

@@ -134,11 +134,17 @@ def private_fields(packed: PackedTask) -> list[int]:
 def whole_graph(packed: PackedTask, deadline: Deadline) -> Projected | None:
     """The human's graph over all their private fields; None where these are too many together.
 
-    What they could have together is tried for a while, where it could be too much.
+    What they could have together is tried for a while, where it could be too much.  How far an action has
+    come is left out where it is too much: the end of the action says what it leads to.
     """
     fields = _goal_first(packed)
     whole = _tractable(packed, fields) == fields
-    return _graph(packed, fields, _MAX_STATES if whole else _FEW_STATES, deadline)
+    found = _graph(packed, fields, _MAX_STATES if whole else _FEW_STATES, deadline)
+    rest = [field for field in fields if not field & packed.freedom]
+    if found is not None or rest == fields:
+        return found
+    whole = _tractable(packed, rest) == rest
+    return _graph(packed, rest, _MAX_STATES if whole else _FEW_STATES, deadline)
 
 
 def partial_graph(packed: PackedTask, deadline: Deadline) -> Projected:
@@ -149,8 +155,12 @@ def partial_graph(packed: PackedTask, deadline: Deadline) -> Projected:
 
 
 def _goal_first(packed: PackedTask) -> list[int]:
-    """The human's private fields, those first that the goal asks for."""
-    return sorted(private_fields(packed), key=lambda field: (not field & packed.goal.mask, field))
+    """The human's private fields, those first that the goal asks for; last of all how far actions are."""
+
+    def order(field: int) -> tuple[bool, bool, int]:
+        return bool(field & packed.freedom), not field & packed.goal.mask, field
+
+    return sorted(private_fields(packed), key=order)
 
 
 def _tractable(packed: PackedTask, fields: Sequence[int]) -> list[int]:

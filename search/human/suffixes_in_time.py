@@ -112,32 +112,34 @@ class SuffixInTime:
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
         """See :class:`.Suffix`."""
-        return min((self._best(rest)[0] for rest in self._begins(state, epochs, start)), default=INFINITE_KEY)
+        ends = (paid + self._best(rest)[0] for paid, rest in self._begins(state, epochs, start))
+        return min(min(ends, default=INFINITE_KEY), INFINITE_KEY)
 
     def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
         """See :class:`.Suffix`."""
-        rest = min(self._begins(state, epochs, start), key=lambda rest: self._best(rest)[0])
+        _, rest = min(self._begins(state, epochs, start), key=lambda begun: self._best(begun[1])[0])
         found = [self._packed.idling[-1]] * (epochs - rest.left)  # which is told apart by nobody
         while (way := self._best(rest)[1]) is not None:
             found += way.actions
             rest = way.rest
         return tuple(found)
 
-    def _begins(self, state: int, epochs: int, start: int) -> list[_Rest]:
-        """The points at which the suffix may begin, once the human is free."""
+    def _begins(self, state: int, epochs: int, start: int) -> list[tuple[int, _Rest]]:
+        """The points at which the suffix may begin, once the human is free; what they have paid by then."""
         if not self._packed.at_rest.holds(state):
             return []
+        paid = 0
         while (going_on := self._due.human(state)) is not None:
             after = self._due.after(state, going_on)
             epochs -= 1
             if after is None or epochs < 0:
                 return []
-            state = after
+            state, paid = after, paid + going_on[0].weight
         if self._expected is None:
-            return [_Rest(0, state, epochs, True)]
+            return [(paid, _Rest(0, state, epochs, True))]
         first = sum(first < start for first in self._plan.starts)
         expected = list(enumerate(self._expected))[first:]
-        return [_Rest(j, state, epochs, False) for j, at in expected if at.holds(state)]
+        return [(paid, _Rest(j, state, epochs, False)) for j, at in expected if at.holds(state)]
 
     def _best(self, wanted: _Rest) -> tuple[int, _Way | None]:
         """The least key from a point on, and the way that it takes; None where the plan ends there."""

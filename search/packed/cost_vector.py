@@ -182,6 +182,8 @@ class Weights:
         self._actions = packed.task.actions
         # By name: a human who does another variant of what they planned did not change their mind.
         self._planned = packed.task.names(plan or ()) if announces else frozenset()
+        self._robots_share = (1 - options.discount) / _own_scale(packed.costs)
+        self._walks: dict[tuple[int, int], int] = {}
 
     def team(self, op: Operator) -> int:
         """Increment of an op inside a composite plan, communication included."""
@@ -210,6 +212,15 @@ class Weights:
             at: (cost >> ACTIONS_BITS) * per_cost + ((cost & _ACTIONS) << action)
             for at, cost in costs.items()
         }
+
+    def of_walk(self, cost: int, ops: int) -> int:
+        """Increment of what a robot does by itself: a cost in the unit of :func:`own_costs`, a number of ops."""
+        found = self._walks.get((cost, ops))
+        if found is None:
+            keys = self.keys
+            found = keys.of_cost(cost * self._robots_share) + (ops << keys.action_shift)
+            self._walks[cost, ops] = found
+        return found
 
     def own_limit(self, limit: int) -> int:
         """A cost in the unit of :func:`own_weights` from which on no key is below a limit."""

@@ -180,6 +180,20 @@ class PackedTask:
         return 1 << agents.index(CLOCK) if CLOCK in agents else 0
 
     @cached_property
+    def freedom(self) -> int:
+        """The fields that say who is at nothing, where actions take time: then actions say what they lead to."""
+        task = self.task
+        free = {
+            *task.at_rest,
+            *(f for f in task.goal.positive if task.facts[f] == f"free {task.agents[task.human]}"),
+        }
+        mask = 0
+        for fact in free if task.due else ():
+            bits = self.fact_bits[fact]
+            mask |= 0 if bits is None else bits[0]
+        return mask
+
+    @cached_property
     def idling(self) -> tuple[int, ...]:
         """Ids of the human's waiting as an action; of several the last is free, and ends what they do."""
         last = self.task.actions[-2:]

@@ -5,17 +5,21 @@ it does, a *deed*, happens at one place.  Walks then commute with everything, so
 need not decide on them: a robot can do a deed at a place if it has been idle for as many
 epochs as the way there is long, and pays for the way then.  What would be a product of
 the robots' positions becomes a sum (decoupled search, Gnad and Hoffmann 2018, with the
-robots as leaves).  Plans get their walks back at the end, right before each deed.
+robots as leaves).  Plans get their walks back at the end, right before each deed.  Where a step takes several
+epochs (:mod:`serendipity.model.task.unit_steps`), the cheapest way may not be the fastest: a deed then comes
+once for each way that is not both slower and dearer than another.
 
 Glossary: *slot* - index of a robot among ``task.robots``; *idle* - per slot, for how many
 epochs a robot has done no deed, as far as it matters.
 """
 
-from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from heapq import heappop, heappush
+from itertools import count, product
 from typing import NamedTuple
 
 from search.engine.best_first import Node
+from search.packed.cost_vector import own_costs
 from search.packed.joint_actions import Idle, JointAction, together
 from search.packed.operator_index import LiteralIndex
 from search.packed.operators import Operator, Signature
@@ -41,6 +45,25 @@ class CenterAction(NamedTuple):
     at: tuple[tuple[int, int], ...]
 
 
+class Move(NamedTuple):
+    """A step of a walk: the place that it leads to, its epochs, its cost, and the ops of its epochs."""
+
+    there: int
+    epochs: int
+    cost: int
+    ops: tuple[Operator, ...]
+
+
+class Way(NamedTuple):
+    """A walk: its epochs, its cost, its last step: from which place, by which way to it, which action."""
+
+    epochs: int
+    cost: int
+    before: int
+    number: int
+    action: int
+
+
 CenterActionIndex = LiteralIndex[tuple[CenterAction, Operator]]
 """Ops of robots with their center actions."""
 
@@ -54,22 +77,29 @@ class Decoupled:
         deadline: polled while they are found.
 
     Attributes:
+        bits: per slot a robot in bit sets of agents.
         fields: per slot the place of a robot.
         mask: all of them.
         joint: joint deeds.
         led: deeds without the human, by their first robot.
+        joint_mask, led_mask: the fields that these ask for.
         foldable: whether every robot's walks can be folded.
     """
 
     def __init__(self, packed: PackedTask, places: PositionVariables, deadline: Deadline) -> None:
         self._packed = packed
-        self._bits = [1 << robot for robot in packed.task.robots]
-        self.fields = [places.field[bit] for bit in self._bits]
+        self.bits = [1 << robot for robot in packed.task.robots]
+        self.fields = [places.field[bit] for bit in self.bits]
         self.mask = sum(self.fields)
-        self._moves: list[dict[int, list[tuple[int, Operator]]]] = [{} for _ in self.fields]
-        self._from: dict[tuple[int, int], dict[int, tuple[int, int, int]]] = {}
+        self._moves: list[dict[int, list[Move]]] = [{} for _ in self.fields]
+        self._from: dict[tuple[int, int], dict[int, list[Way]]] = {}
+        self._most: dict[tuple[int, int], int] = {}
+        self._costs = own_costs(packed)
+        self._due = {(field, value): op for field, value, op in packed.due}
+        self._going_on = frozenset(action for _, action in packed.task.due)
         self.joint: CenterActionIndex = LiteralIndex()
         self.led: list[CenterActionIndex] = []
+        self.joint_mask = self.led_mask = 0
         # What only robots together move is the place of each of them, and of none alone.
         apart = all(self.fields) and len({*self.fields}) == len(self.fields)
         self.foldable = apart and self._fold(deadline)
@@ -83,7 +113,12 @@ class Decoupled:
         own_facts = self._place_facts()
         for form in (*packed.joint_forms, *packed.other_forms):
             deadline.check()
-            rest = self._without_walks(form, own_facts)
+            begun = form
+            if self._going_on:
+                if self._is_elsewhere(form):
+                    return False
+                begun = form._replace(ops=[op for op in form.ops if op.action not in self._going_on])
+            rest = self._without_walks(begun, own_facts)
             if not rest.ops:
                 continue
             deed = self._deed(rest)
@@ -95,38 +130,69 @@ class Decoupled:
                 led.setdefault(form.agents & -form.agents, []).append(deed)
         self.joint = _by_largest(joint, packed)
         self.led = [_by_largest(deeds, packed) for _, deeds in sorted(led.items())]
-        costs = [{op.cost for moves in way.values() for _, op in moves} for way in self._moves]
-        return all(len(cost) <= 1 for cost in costs)
+        self.joint_mask = _asked(joint)
+        self.led_mask = _asked(deed for deeds in led.values() for deed in deeds)
+        costs = [{move.cost for moves in way.values() for move in moves} for way in self._moves]
+        return bool(self._going_on) or all(len(cost) <= 1 for cost in costs)
 
     def _place_facts(self) -> list[set[int]]:
-        """Per slot the facts of its place."""
+        """Per slot the facts of its place, and of how far what it does is."""
+        rests = [0] * len(self.fields)
+        for fact in self._packed.task.at_rest:
+            bits, free = self._packed.fact_bits[fact], self._packed.task.facts[fact]
+            for slot, robot in enumerate(self._packed.task.robots):
+                if bits is not None and free == f"free {self._packed.task.agents[robot]}":
+                    rests[slot] = bits[0]
         found: list[set[int]] = [set() for _ in self.fields]
         for fact, bits in enumerate(self._packed.fact_bits):
-            if bits is not None and bits[0] & self.mask:
-                found[self.fields.index(bits[0])].add(fact)
+            for slot, place in enumerate(self.fields):
+                if bits is not None and bits[0] & (place | rests[slot]):
+                    found[slot].add(fact)
         return found
+
+    def _is_elsewhere(self, form: Signature) -> bool:
+        """Whether ops mention the place of a robot that takes no part."""
+        pairs = zip(self.bits, self.fields, strict=True)
+        return any(not form.agents & bit and form.mentions & place for bit, place in pairs)
 
     def _without_walks(self, form: Signature, facts: Sequence[set[int]]) -> Signature:
         """The form without the ops in which a robot does nothing but walk; those are noted."""
-        if form.agents not in self._bits:
+        if form.agents not in self.bits:
             return form
-        slot = self._bits.index(form.agents)
-        place = self.fields[slot]
-        if form.need_mask != place or form.forbids or not form.sets & place:
+        slot = self.bits.index(form.agents)
+        place, freedom = self.fields[slot], self._packed.freedom
+        if form.need_mask & ~freedom != place or form.forbids or not form.sets & (place | freedom):
             return form
         rest = []
         for op in form.ops:
-            action = self._packed.task.actions[op.action]
-            if facts[slot].issuperset((*action.pre, *action.neg, *action.add, *action.delete)):
-                self._moves[slot].setdefault(op.need & place, []).append((op.put & place, op))
-            else:
+            move = self._move(op, place, facts[slot])
+            if move is None:
                 rest.append(op)
+            else:
+                self._moves[slot].setdefault(op.need & place, []).append(move)
         return form._replace(ops=rest)
+
+    def _move(self, op: Operator, place: int, facts: set[int]) -> Move | None:
+        """A step of a walk from its first epoch on; None if it is none."""
+        actions, ops = self._packed.task.actions, [op]
+        state, freedom = op.need, self._packed.freedom
+        while True:
+            action = actions[ops[-1].action]
+            if not facts.issuperset((*action.pre, *action.neg, *action.add, *action.delete)):
+                return None
+            state = state & ops[-1].keep | ops[-1].put
+            field = freedom & ~ops[-1].keep
+            if not field or state & field == op.need & field:
+                break
+            ops.append(self._due[field, state & field])
+        cost = sum(self._costs[part.cost] for part in ops)
+        there = state & place
+        return None if there == op.need & place else Move(there, len(ops), cost, tuple(ops))
 
     def _deed(self, form: Signature) -> CenterAction | None:
         """None where the form leaves a place open, or asks for that of a robot that takes no part."""
         at = []
-        for slot, (bit, place) in enumerate(zip(self._bits, self.fields, strict=True)):
+        for slot, (bit, place) in enumerate(zip(self.bits, self.fields, strict=True)):
             if form.agents & bit:
                 if form.need_mask & place != place:
                     return None
@@ -141,56 +207,75 @@ class Decoupled:
         """Whether some of the human's ops mention a robot's place."""
         return any(self._packed.mentioned(op) & self.mask for op in ops)
 
-    def weights(self, weight: Callable[[Operator], int]) -> list[int]:
-        """Per slot the key increment of one step of a walk."""
-        steps = (next((op for moves in way.values() for _, op in moves), None) for way in self._moves)
-        return [0 if op is None else weight(op) for op in steps]
-
     def distance(self, slot: int, here: int, there: int) -> int:
-        """Steps from one place to another; -1 if no walk leads there."""
+        """Epochs from one place to another; -1 if no walk leads there."""
         found = self._ways(slot, here).get(there)
-        return -1 if found is None else found[0]
+        return -1 if found is None else found[0].epochs
+
+    def ways(self, slot: int, here: int, there: int) -> list[Way]:
+        """The ways to a place that can be reached, none both slower and dearer than another, fastest first."""
+        return self._ways(slot, here)[there]
 
     def farthest(self, slot: int, here: int) -> int:
-        """The most steps from a place to another."""
-        steps, _, _ = next(
-            reversed(self._ways(slot, here).values())
-        )  # breadth first: the last is the farthest
-        return steps
+        """The most epochs from a place to another."""
+        most = self._most.get((slot, here))
+        if most is None:
+            most = max(ways[-1].epochs for ways in self._ways(slot, here).values())
+            self._most[slot, here] = most
+        return most
 
-    def walk(self, slot: int, here: int, there: int) -> list[int]:
-        """The actions of a shortest walk."""
-        actions = []
+    def walk(self, slot: int, here: int, there: int, most: int) -> list[tuple[int, int]]:
+        """The cheapest walk within a number of epochs: actions, and how long before its end each begins."""
         ways = self._ways(slot, here)
+        number = max((i for i, way in enumerate(ways[there]) if way.epochs <= most), default=0)
+        actions, left = [], 0
         while there != here:
-            _, there, action = ways[there]
-            actions.append(action)
+            way = ways[there][number]
+            there, number = way.before, way.number
+            left += way.epochs - ways[there][number].epochs
+            actions.append((way.action, left))
         return actions[::-1]
 
-    def _ways(self, slot: int, here: int) -> dict[int, tuple[int, int, int]]:
-        """Per place the number of steps, the place before it, and the action from there."""
-        found = self._from.get((slot, here))
-        if found is None:
-            found = {here: (0, here, -1)}
-            pending = deque([here])
-            while pending:
-                place = pending.popleft()
-                for after, op in self._moves[slot].get(place, ()):
-                    if after not in found:
-                        found[after] = (found[place][0] + 1, place, op.action)
-                        pending.append(after)
-            self._from[slot, here] = found
+    def _ways(self, slot: int, here: int) -> dict[int, list[Way]]:
+        """Per place the ways to it, the faster ones first, the cheaper ones last."""
+        known = self._from.get((slot, here))
+        if known is not None:
+            return known
+        found: dict[int, list[Way]] = {}
+        ticket = count()
+        queue = [(0, 0, next(ticket), here, Way(0, 0, here, 0, -1))]
+        while queue:
+            epochs, cost, _, place, way = heappop(queue)
+            ways = found.setdefault(place, [])
+            if ways and ways[-1].cost <= cost:
+                continue
+            ways.append(way)
+            for move in self._moves[slot].get(place, ()):
+                after = Way(epochs + move.epochs, cost + move.cost, place, len(ways) - 1, move.ops[0].action)
+                if move.there not in found or found[move.there][-1].cost > after.cost:
+                    heappush(queue, (after.epochs, after.cost, next(ticket), move.there, after))
+        self._from[slot, here] = found
         return found
 
     def steps(self, node: Node) -> Iterator[Step]:
         """The walks that lead to a node's deeds, each right before its deed."""
         while node.parent is not None:
-            for op in map(self._packed.op, node.actions):
-                for slot, (bit, place) in enumerate(zip(self._bits, self.fields, strict=True)):
+            begun = (action for action in node.actions if action not in self._going_on)
+            for op in map(self._packed.op, begun):
+                for slot, (bit, place) in enumerate(zip(self.bits, self.fields, strict=True)):
                     if op.agents & bit:
-                        walk = self.walk(slot, node.parent.state & place, op.need & place)
-                        yield from map(Step, range(node.epoch - len(walk), node.epoch), walk)
+                        here, most = node.parent.state & place, node.parent.idle[slot]
+                        walk = self.walk(slot, here, op.need & place, most)
+                        yield from (Step(node.epoch - left, action) for action, left in walk)
             node = node.parent
+
+
+def _asked(deeds: Iterable[CenterAction]) -> int:
+    """The fields that deeds ask for."""
+    mask = 0
+    for deed in deeds:
+        mask |= deed.form.need_mask | deed.form.forbids
+    return mask
 
 
 def _by_largest(deeds: Iterable[CenterAction], packed: PackedTask) -> CenterActionIndex:
@@ -211,6 +296,7 @@ class DecoupledSuccessors(Successors):
         encoding: the packed task.
         walks: the robots' walks, foldable.
         weight: key increment of an op.
+        price: of a walk, by its cost (in the unit of :func:`.own_costs`) and its number of ops.
         deadline: polled while deeds are looked for.
         strict: strict interference (semantics 2).
     """
@@ -220,6 +306,7 @@ class DecoupledSuccessors(Successors):
         packed: PackedTask,
         walks: Decoupled,
         weight: Callable[[Operator], int],
+        price: Callable[[int, int], int],
         deadline: Deadline,
         *,
         strict: bool,
@@ -227,25 +314,36 @@ class DecoupledSuccessors(Successors):
         super().__init__(packed, weight, deadline, strict=strict, idle=True)
         self._walks = walks
         self._weight = weight
-        self._step = walks.weights(weight)
-        self._possible: StateCache[tuple[list[JointAction], list[list[JointAction]]]] = StateCache(MOST_KEPT)
+        self._price = price
+        self._joint_deeds: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
+        self._led_deeds: StateCache[list[list[JointAction]]] = StateCache(MOST_KEPT)
         self._rests: dict[Idle, Idle] = {}  # of equal ones, nodes keep the same
         self._latest: tuple[int, Idle, list[list[JointAction]]] = (-1, (), [])
 
     def joint(self, state: int) -> list[JointAction]:
         """See :class:`Successors`."""
-        return self._all(state)[0]
+        walks = self._walks
+        at = state & (walks.mask | walks.joint_mask)
+        found = self._joint_deeds.get(at)
+        if found is None:
+            found = self._options(walks.joint, state)
+            self._joint_deeds.keep(at, found, len(found))
+        return found
 
     def beside(
         self, first: JointAction, state: int, idle: Idle, promising: Callable[[JointAction], bool]
     ) -> list[JointAction]:
         """See :class:`Successors`."""
         found = [first]
+        if self._due:
+            found = [
+                together(first, others) for others in self._due.others(state) if self._fits(first, others)
+            ]
         for options in self._in_time(state, idle):
             more = [deed for deed in options if self._fits(deed, first) and promising(together(first, deed))]
             found += [together(chosen, deed) for deed in more for chosen in self._beside(deed, found)]
         found.sort(key=lambda option: option.weight)
-        return found
+        return [*self._due.with_last(iter(found), state)] if self._due else found
 
     def _beside(self, deed: JointAction, sets: list[JointAction]) -> list[JointAction]:
         """The sets that a deed fits."""
@@ -254,10 +352,11 @@ class DecoupledSuccessors(Successors):
 
     def rested(self, idle: Idle, option: JointAction, state: int) -> Idle:
         """See :class:`Successors`."""
-        busy = {slot for slot, _ in option.due}
-        walks = self._walks
+        walks, busy = self._walks, option.agents
         rests = tuple(
-            0 if slot in busy else min(epochs + 1, walks.farthest(slot, state & walks.fields[slot]))
+            0
+            if busy & walks.bits[slot]
+            else min(epochs + 1, walks.farthest(slot, state & walks.fields[slot]))
             for slot, epochs in enumerate(idle)
         )
         return self._rests.setdefault(rests, rests)
@@ -265,16 +364,17 @@ class DecoupledSuccessors(Successors):
     def _in_time(self, state: int, idle: Idle) -> list[list[JointAction]]:
         """Deeds to which the robots that lead them can have walked by now."""
         if self._latest[:2] != (state, idle):
-            ready = [[deed for deed in led if in_time(deed, idle)] for led in self._all(state)[1]]
+            ready = [[deed for deed in led if in_time(deed, idle)] for led in self._by_leader(state)]
             self._latest = state, idle, ready
         return self._latest[2]
 
-    def _all(self, state: int) -> tuple[list[JointAction], list[list[JointAction]]]:
-        found = self._possible.get(state)
+    def _by_leader(self, state: int) -> list[list[JointAction]]:
+        walks = self._walks
+        at = state & (walks.mask | walks.led_mask)
+        found = self._led_deeds.get(at)
         if found is None:
-            led = [self._options(index, state) for index in self._walks.led]
-            found = self._options(self._walks.joint, state), led
-            self._possible.keep(state, found, len(found[0]) + sum(map(len, led)))
+            found = [self._options(index, state) for index in walks.led]
+            self._led_deeds.keep(at, found, sum(map(len, found)))
         return found
 
     def _options(self, index: CenterActionIndex, state: int) -> list[JointAction]:
@@ -285,17 +385,20 @@ class DecoupledSuccessors(Successors):
             need = op.need & deed.need_mask
             if state & deed.need_mask != need or any(state & m == v for m, v in op.forbidden):
                 continue
-            weight, keep, put, due = self._weight(op), op.keep, op.put, []
+            keep, put, ways = op.keep, op.put, []
             for slot, field in deed.at:
-                place = op.need & field
-                steps = walks.distance(slot, state & field, place)
+                here, place = state & field, op.need & field
+                steps = walks.distance(slot, here, place)
                 if steps < 0:
                     break
-                weight += steps * self._step[slot]
                 if keep & field:
                     keep, put = keep & ~field, put | place
-                due.append((slot, steps))
+                fastest, *others = walks.ways(slot, here, place)
+                ways.append([(slot, steps, fastest.cost), *((slot, way.epochs, way.cost) for way in others)])
             else:
-                found.append(JointAction(weight, keep, put, (op.action,), op.agents, tuple(due)))
+                for chosen in product(*ways):
+                    weight = self._weight(op) + sum(self._price(cost, steps) for _, steps, cost in chosen)
+                    due = tuple((slot, steps) for slot, steps, _ in chosen)
+                    found.append(JointAction(weight, keep, put, (op.action,), op.agents, due))
         found.sort(key=lambda option: option.weight)
         return found

@@ -36,7 +36,7 @@ class PositionVariables:
             mine = [form for form in packed.other_forms if form.agents & bit]
             foreign = set_by(form for form in forms if not form.agents & bit)
             private = set_by(mine) & ~foreign
-            fields = [field for field in packed.fields if field & private]
+            fields = [field for field in packed.fields if field & private & ~packed.freedom]
             field = most_asked(fields, ((form.need_mask, len(form.ops)) for form in mine))
             self.field[bit] = field
             moves = self.moves[bit] = OperatorIndex(field)

@@ -2,9 +2,11 @@
 
 An action of ``d`` epochs becomes ``d`` actions of one, which have all the effects and ask for all the
 conditions of their epoch (semantics "Time"). A fact says which of them is due: while it holds, the action
-is done in the next epoch, whatever else is. The first has the name and the cost of the action itself, so a
-plan is told by those that begin in it. Agents at work are not *free*; all are at the end, but bystanders. A
-script is a chain, too: the epochs of a clock, each of which is due, with what bystanders begin in it.
+is done in the next epoch, whatever else is. The first has the name of the action itself, so a plan is told by
+those that begin in it. The last has its cost, and asks for what has to hold still, so that it alone says what
+the action is worth where it is not looked at who is free. Agents at work are not *free*; all are at the end,
+but bystanders. A script is a chain, too: the epochs of a clock, each of which is due, with what bystanders begin
+in it.
 
 The search works on these tasks, and nobody who judges it does: the brute force of the tests reads the task
 that was given.
@@ -20,7 +22,7 @@ from typing import Final
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
 from serendipity.model.task.plans import Step, TimedPlan
-from serendipity.model.task.script import Timeline
+from serendipity.model.task.script import Timeline, moments
 from serendipity.model.task.task import HumanPlan, Task
 from serendipity.model.task.variables import Variable, find_variables
 
@@ -127,6 +129,18 @@ def unit_steps(task: Task, deadline: Deadline | None = None, waiting_cost: Fract
     return steps.finished(deadline)
 
 
+def _kept_by(task: Task) -> list[frozenset[int]]:
+    """By fact those without whom nothing deletes it: while they are at something it stays."""
+    everybody = frozenset(range(len(task.agents)))
+    kept = [everybody] * len(task.facts)
+    for action in moments(task.actions, Timeline(deeds=task.script.deeds)):
+        for fact in action.delete:
+            kept[fact] = kept[fact].intersection(action.participants)
+    for change in task.script.facts:
+        kept[change.fact] = frozenset()
+    return kept
+
+
 class _Steps:
     """Facts and actions of the new task, as they are found.
 
@@ -153,6 +167,7 @@ class _Steps:
         # While it holds the human may begin something; without it they wait for nothing.
         self._awake = [self._fact("awake")] if waiting_cost else []
         self._start += self._awake
+        self._kept = _kept_by(task)
 
     def _fact(self, name: str) -> int:
         self._facts.append(name)
@@ -176,6 +191,12 @@ class _Steps:
         timing = action.timing
         if timing is None:
             return [begun]
+        begun = replace(begun, cost=_FREE)
+        still = [
+            fact
+            for fact in {*action.pre} - {*timing.start_delete}
+            if not self._kept[fact].isdisjoint(action.participants)
+        ]
         progress = [self._fact(f"{action.name} {epoch}") for epoch in range(2, action.duration + 1)]
         add, delete = sorted((*timing.start_add, progress[0])), sorted((*timing.start_delete, *free))
         epochs = [replace(begun, add=tuple(add), delete=tuple(delete))]
@@ -190,10 +211,10 @@ class _Steps:
             replace(
                 end,
                 name=f"{action.name} {action.duration}",
-                pre=tuple(sorted((*end.pre, last))),
+                pre=tuple(sorted({*end.pre, *still, last})),
                 add=tuple(sorted((*end.add, *free))),
                 delete=tuple(sorted((*end.delete, last))),
-                cost=_FREE,
+                cost=action.cost,
             )
         )
         self._due += zip(progress, epochs[1:], strict=True)
