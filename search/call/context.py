@@ -13,6 +13,7 @@ from search.engine.best_first import Node
 from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
 from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase
 from search.human.plan_graph import PlanGraph
+from search.human.strides import NearestGoal, StridingPlanner, may_stride
 from search.packed.cost_vector import INFINITE_KEY, Weights
 from search.packed.joint_actions import JointAction, as_option
 from search.packed.operators import Operator, changed
@@ -116,6 +117,10 @@ class SearchContext:
         bound = NOTHING_KNOWN if self._has_kernel else human.projection(self.deadline)
         # What it finds serves calls that weigh otherwise.
         memory = human.memory(strict=self.options.strict)
+        if packed.in_time and may_stride(packed):
+            alone = human.alone(self.deadline)
+            nearest = bound if alone is None else NearestGoal(human.projection(self.deadline), alone)
+            return StridingPlanner(packed, packed.goal, nearest, memory, self.deadline, prices=self.weights)
         return IndividualPlanner(packed, packed.goal, bound, memory, self.deadline, prices=self.weights)
 
     def _alone_to(self, goal: PackedGoal) -> IndividualPlanner:
@@ -159,8 +164,8 @@ class SearchContext:
         )
 
     def walks(self, plan: HumanPlan) -> Decoupled | None:
-        """Robots' walks where they can be folded, and it pays: with several robots."""
-        if len(self.task.robots) < 2 or self.options.preservation == "state":
+        """Robots' walks where they can be folded, and it pays: several robots, or walks that take time."""
+        if (len(self.task.robots) < 2 and not self.task.due) or self.options.preservation == "state":
             return None
         walks = self.tables.robots.decoupled(self.deadline)
         if not walks.foldable or walks.touched_by(map(self.packed.op, plan)):

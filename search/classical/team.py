@@ -118,9 +118,23 @@ def team_planner(
     actions: list[tuple[int, ...]] = [(op.action,) for op in operators]
     actions += [tuple(op.action for op in circle) for circle in together]
     operators += [reduce(_both, circle) for circle in together]
-    fields = [(field, len(packed.values(field))) for field in packed.fields]
+    kept = packed.lasting
+    if kept != packed.all_ones:  # plans are but bounds then: which epochs they take is left out
+        seen = {_projected(op, kept): number for number, op in reversed([*enumerate(operators)])}
+        numbers = sorted(number for op, number in seen.items() if ~op.keep & kept)
+        operators = [_projected(operators[number], kept) for number in numbers]
+        costs, actions = [costs[number] for number in numbers], [actions[number] for number in numbers]
+        goal = goal.within(kept)
+    fields = [(field, len(packed.values(field))) for field in packed.fields if field & kept]
     problem = classical_problem(fields, operators, costs, goal, map(len, actions))
     return None if problem is None else Team(ClassicalPlanner(kernel, problem, deadline), actions)
+
+
+def _projected(op: Operator, kept: int) -> Operator:
+    """An op as some fields see it; those that look alike are equal."""
+    forbidden = tuple((field, value) for field, value in op.forbidden if field & kept)
+    need_mask, keep = op.need_mask & kept, op.keep | ~kept
+    return Operator(need_mask, op.need & kept, keep, op.put & kept, forbidden, 0, op.agents, op.cost)
 
 
 def _both(a: Operator, b: Operator) -> Operator:

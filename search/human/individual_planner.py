@@ -6,11 +6,10 @@ search per projection, and a search also fills in the states along its result.
 """
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 from search.engine.astar import AStar
 from search.human.own_options import own_options
-from search.human.pattern_database import PatternDatabase
 from search.human.plan_graph import PlanGraph, edges_into
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
@@ -71,7 +70,18 @@ class FoundPlan(NamedTuple):
     generated: int
 
 
-class _TakenOverError(Exception):
+class GoalBound(Protocol):
+    """A lower bound on what is left to the human."""
+
+    @property
+    def mask(self) -> int:
+        """The fields that it looks at."""
+
+    def __call__(self, state: int) -> int:
+        """The bound from a packed state."""
+
+
+class TakenOverError(Exception):
     """The kernel goes on."""
 
 
@@ -92,7 +102,7 @@ class IndividualPlanner:
         self,
         packed: PackedTask,
         goal: PackedGoal,
-        bound: PatternDatabase,
+        bound: GoalBound,
         memory: Memory,
         deadline: Deadline,
         prices: Weights | None = None,
@@ -105,7 +115,7 @@ class IndividualPlanner:
         self._mask = packed.all_ones if packed.clock_bit else goal.mask | bound.mask | packed.own_mask
         self._memory = memory
         self._lookup, self._known, self._at_least = memory.lookup, memory.known, memory.at_least
-        self._blind = bool(goal.mask & ~bound.mask)
+        self._blind = bool(goal.mask & ~bound.mask & ~packed.freedom)
 
     @property
     def mask(self) -> int:
@@ -135,7 +145,7 @@ class IndividualPlanner:
         if self._memory.classical is None:
             try:
                 return self._search(state, limit)
-            except _TakenOverError:
+            except TakenOverError:
                 pass
         return self._by_kernel(state, limit)
 
@@ -198,13 +208,13 @@ class IndividualPlanner:
             number: how many states have come up before in this search.
 
         Raises:
-            _TakenOverError: the kernel has been made ready to go on.
+            TakenOverError: the kernel has been made ready to go on.
         """
         self._memory.expanded += 1
         if number == _MANY or (self._blind and self._memory.expanded == 1):
             self._take_over()
             if self._memory.classical is not None:
-                raise _TakenOverError
+                raise TakenOverError
 
     def _take_over(self) -> None:
         """Make the kernel ready to go on, where it can."""
@@ -238,7 +248,7 @@ class IndividualPlanner:
         if self._memory.classical is None:
             try:
                 graph = self._graph(start)
-            except _TakenOverError:
+            except TakenOverError:
                 pass
             else:
                 if graph is None:
@@ -285,7 +295,7 @@ class IndividualPlanner:
         start = state & self._mask
         try:
             return self._graph(start)
-        except _TakenOverError:
+        except TakenOverError:
             return self._graph(start)
 
     def proved(self, state: int, plan: HumanPlan) -> None:

@@ -169,11 +169,38 @@ def _tractable(packed: PackedTask, fields: Sequence[int]) -> list[int]:
     return [field for field, size in zip(fields, sizes, strict=True) if size <= _MAX_STATES]
 
 
-def _graph(packed: PackedTask, fields: Sequence[int], most: int, deadline: Deadline) -> Projected | None:
-    """The human's graph over some fields; None where it has too many states."""
+def alone_projection(packed: PackedTask, deadline: Deadline) -> PatternDatabase | None:
+    """Costs to the human's goal alone in all that they change themselves; None where that is too much.
+
+    What a script changes, and how far actions have come, is left out.  A state that is not listed is one that
+    they don't come by without others: nothing is known of it.
+    """
+    fields = [field for field in packed.fields if field & set_by(packed.own_forms) & packed.lasting]
+    whole = _tractable(packed, fields) == fields
+    graph = _graph(packed, fields, _MAX_STATES if whole else _FEW_STATES, deadline, packed.own_forms)
+    return None if graph is None else own_projection(packed, graph, deadline)
+
+
+def _graph(
+    packed: PackedTask,
+    fields: Sequence[int],
+    most: int,
+    deadline: Deadline,
+    forms: Iterable[Signature] | None = None,
+) -> Projected | None:
+    """The human's graph over some fields; None where it has too many states.
+
+    Args:
+        packed: the packed task.
+        fields: the fields.
+        most: states that it may have.
+        deadline: polled.
+        forms: of their actions; None for all of them.
+    """
     weights = own_weights(packed)
+    forms = (*packed.own_forms, *packed.joint_forms) if forms is None else forms
     # The cheapest last, so that it stays where forms look alike.
-    dearest_first = sorted((*packed.own_forms, *packed.joint_forms), key=lambda form: -form.cost)
+    dearest_first = sorted(forms, key=lambda form: -form.cost)
     weighed = [(form, weights[form.cost], packed.is_interaction(form)) for form in dearest_first]
     mask = sum(fields)
     return _explore(mask, packed.init & mask, _transitions(fields, weighed, deadline), most, deadline)

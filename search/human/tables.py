@@ -7,6 +7,7 @@ from search.human.individual_planner import Memory
 from search.human.pattern_database import (
     PatternDatabase,
     Projected,
+    alone_projection,
     human_steps,
     own_projection,
     partial_graph,
@@ -29,6 +30,7 @@ class HumanTables:
         graph: the human's actions, projected onto their private variables, or onto as many as stay tractable.
         projection: their private distances to the goal, in the unit of :func:`.own_weights`.
         steps: the same, counting their actions.
+        alone: what :func:`.alone_projection` finds.
     """
 
     def __init__(
@@ -41,6 +43,7 @@ class HumanTables:
         own = KeptTable(lambda deadline: own_projection(packed, graph(deadline), deadline))
         projection = own if project is None else KeptTable(project)
         self._whole = whole if project is None else None
+        self.alone = KeptTable(lambda deadline: alone_projection(packed, deadline))
         self.graph: KeptTable[Projected] = graph
         self.projection: KeptTable[PatternDatabase] = projection
         if len(packed.costs) == 1:  # every action costs the same: the cheapest way is the shortest

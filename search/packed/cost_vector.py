@@ -214,7 +214,7 @@ class Weights:
         }
 
     def of_walk(self, cost: int, ops: int) -> int:
-        """Increment of what a robot does by itself: a cost in the unit of :func:`own_costs`, a number of ops."""
+        """Increment of a robot's walk: its cost in the unit of :func:`own_costs`, its number of ops."""
         found = self._walks.get((cost, ops))
         if found is None:
             keys = self.keys

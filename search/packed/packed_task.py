@@ -174,6 +174,17 @@ class PackedTask:
         return tuple((*bits, self.op(action)) for bits, action in placed if bits is not None)
 
     @cached_property
+    def _due_at(self) -> dict[tuple[int, int], Operator]:
+        return {(field, value): op for field, value, op in self.due if op.agents != self.clock_bit}
+
+    def following(self, op: Operator) -> Operator | None:
+        """What is due after an epoch of an action; None after its last."""
+        if not self.task.due:
+            return None
+        sets = self.assigned(self.all_ones & ~op.keep, op.put)
+        return next((self._due_at[at] for at in sets if at in self._due_at), None)
+
+    @cached_property
     def clock_bit(self) -> int:
         """The clock's bit in sets of agents; 0 where there is no script."""
         agents = self.task.agents
@@ -181,7 +192,7 @@ class PackedTask:
 
     @cached_property
     def freedom(self) -> int:
-        """The fields that say who is at nothing, where actions take time: then actions say what they lead to."""
+        """The fields that say who is at nothing, where actions take time; last epochs do not need them."""
         task = self.task
         free = {
             *task.at_rest,
@@ -192,6 +203,12 @@ class PackedTask:
             bits = self.fact_bits[fact]
             mask |= 0 if bits is None else bits[0]
         return mask
+
+    @cached_property
+    def lasting(self) -> int:
+        """All fields but those that say who is at what, and which epoch it is."""
+        clock = (field for field, _, op in self.due if op.agents == self.clock_bit)
+        return self.all_ones & ~self.freedom & ~next(clock, 0)
 
     @cached_property
     def idling(self) -> tuple[int, ...]:

@@ -95,7 +95,6 @@ class Decoupled:
         self._from: dict[tuple[int, int], dict[int, list[Way]]] = {}
         self._most: dict[tuple[int, int], int] = {}
         self._costs = own_costs(packed)
-        self._due = {(field, value): op for field, value, op in packed.due}
         self._going_on = frozenset(action for _, action in packed.task.due)
         self.joint: CenterActionIndex = LiteralIndex()
         self.led: list[CenterActionIndex] = []
@@ -175,16 +174,16 @@ class Decoupled:
     def _move(self, op: Operator, place: int, facts: set[int]) -> Move | None:
         """A step of a walk from its first epoch on; None if it is none."""
         actions, ops = self._packed.task.actions, [op]
-        state, freedom = op.need, self._packed.freedom
+        state = op.need
         while True:
             action = actions[ops[-1].action]
             if not facts.issuperset((*action.pre, *action.neg, *action.add, *action.delete)):
                 return None
             state = state & ops[-1].keep | ops[-1].put
-            field = freedom & ~ops[-1].keep
-            if not field or state & field == op.need & field:
+            following = self._packed.following(ops[-1])
+            if following is None:
                 break
-            ops.append(self._due[field, state & field])
+            ops.append(following)
         cost = sum(self._costs[part.cost] for part in ops)
         there = state & place
         return None if there == op.need & place else Move(there, len(ops), cost, tuple(ops))
@@ -213,7 +212,7 @@ class Decoupled:
         return -1 if found is None else found[0].epochs
 
     def ways(self, slot: int, here: int, there: int) -> list[Way]:
-        """The ways to a place that can be reached, none both slower and dearer than another, fastest first."""
+        """The ways to a place that can be reached: the fastest, and slower ones that are cheaper."""
         return self._ways(slot, here)[there]
 
     def farthest(self, slot: int, here: int) -> int:

@@ -16,6 +16,7 @@ from search.bounds.private_distances import Corridor
 from search.call.context import SearchContext
 from search.engine.dominance import ParetoFront
 from search.human.pattern_database import NOTHING_KNOWN
+from search.human.strides import StridingPlanner
 from search.human.suffix_rules import Lasting, Preserved, Replan, Subplan, Suffix
 from search.human.suffixes_in_time import SuffixInTime
 from search.packed.cost_vector import INFINITE_KEY, NEVER, CostLayout
@@ -82,6 +83,7 @@ def window_space(
         suffix=suffix_rule(context, plan),
         labels=ParetoFront(no_worse(context.keys, options, most_cost)),
         relevant=context.relevant,
+        opens_late=context.packed.in_time and options.suffix == "replan" and options.preservation == "kernel",
     )
 
 
@@ -318,10 +320,11 @@ def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
         return Preserved(steps, context.goals, expected)
     if options.suffix == "subplan":
         return Subplan(steps, context.goals, context.deadline)
+    lasts = isinstance(context.alone, StridingPlanner) and not context.alone_to_both and not packed.awake
     # Beside a script robots' goals may be reached, or lost, once the human is done: Lasting asks for them.
-    theirs = packed.condition(Condition()) if packed.clock_bit else packed.robot_goal
+    theirs = packed.condition(Condition()) if packed.clock_bit and not lasts else packed.robot_goal
     replan = Replan(context.alone, context.alone_to_both, theirs, packed.at_rest, context.keys)
-    if not packed.clock_bit and not (packed.in_time and (packed.awake or replan.both)):
+    if lasts or (not packed.clock_bit and not (packed.in_time and (packed.awake or replan.both))):
         return replan
     due = Due(packed, context.weights.team, strict=options.strict)
     return Lasting(replan, context.goals, due, packed)

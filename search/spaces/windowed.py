@@ -135,6 +135,8 @@ class Windowed:
         on_the_way: lower bound in the prefix.
         suffix: rule 3.
         labels: dominance among nodes of the window.
+        opens_late: whether no window has to open in an epoch in which the human goes on with something: one
+            that opens with the next epoch is as good, and later.
         relevant: the fields that matter to the human alone, and to goals: what robots do in the last epoch
             of a window changes one of them, or it is in vain.
     """
@@ -153,6 +155,7 @@ class Windowed:
     suffix: Suffix
     labels: ParetoFront
     relevant: int
+    opens_late: bool = False
 
     def __post_init__(self) -> None:
         self._followed = ParetoFront()
@@ -181,6 +184,8 @@ class Windowed:
 
     def _open(self, node: Node) -> Iterator[tuple[int, Node]]:
         start = node.epoch + 1
+        if self.opens_late and start < self.last and self.successors.going_on(node.state) is not None:
+            return
         key = node.key + self.keys.of_start(start, self.horizon)
         bound = node.key + self.on_the_way.opening(node.epoch, node.state, node.idle)
         bound = max(bound, key + self.keys.epoch_weight + self.bounds.team(node.state))

@@ -74,8 +74,7 @@ def _take_all(call: Call, plans: "Iterable[Sets]") -> Iterator[None]:
     """Offer what plans of the team suggest; the last of them costs least."""
     for sets in plans:
         call.has_joint_plan = True
-        steps = schedule(call.task, sets)
-        if _suggest(call, steps):
+        if not call.context.packed.in_time and _suggest(call, schedule(call.task, sets)):
             yield
     _raise(call, _team(call).planner.least if call.has_joint_plan else INFINITE_KEY)
 

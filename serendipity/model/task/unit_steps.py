@@ -4,9 +4,9 @@ An action of ``d`` epochs becomes ``d`` actions of one, which have all the effec
 conditions of their epoch (semantics "Time"). A fact says which of them is due: while it holds, the action
 is done in the next epoch, whatever else is. The first has the name of the action itself, so a plan is told by
 those that begin in it. The last has its cost, and asks for what has to hold still, so that it alone says what
-the action is worth where it is not looked at who is free. Agents at work are not *free*; all are at the end,
-but bystanders. A script is a chain, too: the epochs of a clock, each of which is due, with what bystanders begin
-in it.
+the action is worth where it is not looked at who is free. Agents at work are not *free*; all are at the
+end, but bystanders. A script is a chain, too: the epochs of a clock, each of which is due, with what
+bystanders begin in it.
 
 The search works on these tasks, and nobody who judges it does: the brute force of the tests reads the task
 that was given.
