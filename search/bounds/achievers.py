@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 
 from search.bounds.achiever_automaton import AchieverAutomaton
 from search.bounds.achiever_costs import AchieverCosts
@@ -53,7 +53,8 @@ class Provided:
         """
         if not idle:
             return self._steps(state) // self.unit
-        return max(0, min(epochs - rest for epochs, rest in zip(self.each(state), idle, strict=True)))
+        each = zip_longest(self.each(state), idle, fillvalue=0)  # bystanders and the clock never rest
+        return max(0, min(epochs - rest for epochs, rest in each))
 
     def each(self, state: int) -> tuple[int, ...]:
         """The same without a rest, per robot that may act first."""

@@ -1,7 +1,7 @@
 """The bound while the human follows ``pi_H``, by when the window opens (see :mod:`.first_interaction`)."""
 
 from collections.abc import Iterator, Sequence
-from itertools import accumulate
+from itertools import accumulate, zip_longest
 from typing import Final, NamedTuple
 
 from search.bounds.achievers import Provided
@@ -91,7 +91,7 @@ class Offer(NamedTuple):
         """In how many epochs from now robots can provide it, having been idle for some."""
         if not idle:
             return min(self.epochs)
-        return max(0, min(epochs - rest for epochs, rest in zip(self.epochs, idle, strict=False)))
+        return max(0, min(epochs - rest for epochs, rest in zip_longest(self.epochs, idle, fillvalue=0)))
 
 
 class FirstInteractionOnTheWay:
