@@ -15,6 +15,7 @@ from search.strategies.first_answer import (
     canonical_human_plan,
     first_answer,
     optimal_human_plans,
+    optimal_plans_in_time,
 )
 from search.strategies.portfolio import solve
 from search.strategies.warm_start import WarmStart
@@ -28,6 +29,7 @@ __all__ = [
     "first_answer",
     "least_over_ties",
     "optimal_human_plans",
+    "optimal_plans_in_time",
     "preload",
     "prepare",
     "solve",

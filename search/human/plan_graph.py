@@ -54,6 +54,27 @@ class PlanGraph:
                 yield tuple(path)
                 path.pop()
 
+    def distinct(self, name: Callable[[int], str]) -> Iterator[tuple[int, ...]]:
+        """Those that differ in names, each as it comes first.
+
+        Args:
+            name: of an action; nothing where it is no action of its own.
+        """
+        seen: set[tuple[int, tuple[str, ...]]] = set()
+        told: set[tuple[str, ...]] = set()
+        pending: list[tuple[int, tuple[int, ...], tuple[str, ...]]] = [(self.start, (), ())]
+        while pending:
+            state, plan, names = pending.pop()
+            if (state, names) in seen:
+                continue
+            seen.add((state, names))
+            if state not in self.edges and names not in told:
+                told.add(names)
+                yield plan
+            for action, after in reversed(self.edges.get(state, ())):
+                mine = name(action)
+                pending.append((after, (*plan, action), (*names, mine) if mine else names))
+
     def ending(self, fits: Callable[[int], bool]) -> tuple[int, ...] | None:
         """The first plan whose last state fits; None where none does."""
         useless: set[int] = set()

@@ -63,8 +63,11 @@ class Due:
         return happens == (None, None, None)
 
     def may_end(self, state: int, epoch: int, horizon: int | None) -> bool:
-        """Whether a plan may end with an epoch: what has been reached is not lost again before ``T``."""
-        return epoch == horizon or self.is_calm(state)
+        """Whether a plan may end with an epoch: what has been reached is not lost again before ``T``.
+
+        Without a horizon it ends wherever the goals hold.
+        """
+        return horizon is None or epoch == horizon or self.is_calm(state)
 
     def after_waiting(self, state: int) -> int | None:
         """The state after an epoch in which nobody does what is not due; None where that is impossible."""

@@ -31,6 +31,28 @@ def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None
     return SearchContext(prepared, Options(), deadline or Deadline()).optimal_plans()
 
 
+def optimal_plans_in_time(
+    prepared: PreparedTask, deadline: Deadline, options: Options
+) -> Iterator[HumanPlan]:
+    """The human's optimal plans, in single epochs, that differ in the names of what they begin.
+
+    Args:
+        prepared: a task in single epochs.
+        deadline: polled.
+        options: of the call.
+
+    Raises:
+        LimitReachedError: the deadline ran out.
+    """
+    context = SearchContext(prepared, options, deadline)
+    graph, packed = context.optimal_plans(), context.packed
+
+    def name(action: int) -> str:
+        return packed.task.actions[action].name if packed.counted(action) else ""
+
+    return iter(()) if graph is None else graph.distinct(name)
+
+
 def canonical_human_plan(prepared: PreparedTask, deadline: Deadline, options: Options) -> HumanPlan | None:
     """The canonical plan of the human alone (semantics 1), or None where they have none.
 

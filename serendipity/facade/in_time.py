@@ -3,13 +3,16 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
+from itertools import islice
 
-from search import PreparedTask, canonical_human_plan
+from search import PreparedTask, canonical_human_plan, optimal_plans_in_time
+from serendipity.facade import ties
 from serendipity.facade.call import Request, Solver
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.task.horizon import horizon_of, require_few_epochs
 from serendipity.model.task.plans import Step
+from serendipity.model.task.task import HumanPlan
 from serendipity.model.task.unit_steps import UnitSteps, unit_steps
 
 
@@ -29,6 +32,7 @@ def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
     try:
         units = unit_steps(call.task, call.deadline, call.options.waiting_cost)
         inner = _in_units(call, units)
+        plans = [] if call.given is not None else _tied(call, units)
     except LIMITS as limit:
         yield Answer("unknown", reason=limit_reason(limit))
         return
@@ -37,7 +41,8 @@ def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
         return
     epochs = call.options.head_start if call.options.mode == "individual" else 0
     horizon = call.options.horizon
-    for number, answer in enumerate(solver(inner)):
+    answers = solver(inner) if not plans else iter((ties.beside_each(inner, plans, call.options.ties),))
+    for number, answer in enumerate(answers):
         told = _told(units, _later(units, answer, epochs))
         if not number and told.human_plan is not None and horizon is not None:
             horizon_of(call.task, call.options, told.human_plan)  # which says whether what it reaches lasts
@@ -52,7 +57,7 @@ def _in_units(call: Request, units: UnitSteps) -> Request:
         PlanError: as :func:`answers_in_time`.
     """
     prepared, given = PreparedTask(units.task), None if call.given is None else units.plan(call.given)
-    options, epochs = call.options.but(head_start=0), call.options.head_start
+    options, epochs = call.options.but(head_start=0, ties="fixed"), call.options.head_start
     if given is not None:  # it may come too late, or be in a bystander's way
         call.task.replay_alone(units.begun(units.after_waiting(given, epochs)), strict=options.strict)
     inner = replace(call, prepared=prepared, given=given, options=options)
@@ -72,13 +77,32 @@ def _in_units(call: Request, units: UnitSteps) -> Request:
     return replace(inner, given=units.after_waiting(plan, epochs), optimum=least)
 
 
+def _tied(call: Request, units: UnitSteps) -> list[HumanPlan]:
+    """The human's optimal plans in single epochs, where the answer is one over all of them.
+
+    Raises:
+        LimitReachedError: the deadline came.
+        UsageError: there are more than ``max_ties``.
+    """
+    options, epochs = call.options, call.options.head_start
+    if options.ties == "fixed" or options.mode not in ("serendipity", "communication"):
+        return []
+    state = units.waited(epochs, strict=options.strict)
+    if state is None:
+        return []
+    later = PreparedTask(units.task.at(state))
+    found = optimal_plans_in_time(later, call.deadline, options)
+    plans = [units.after_waiting(plan, epochs) for plan in islice(found, options.max_ties + 1)]
+    if len(plans) > options.max_ties:
+        raise UsageError(f"max_ties: the human has more than {options.max_ties} optimal plans")
+    return plans
+
+
 def _require_known(call: Request) -> None:
     """Check that a call asks for nothing that is not answered in time."""
     options = call.options
     if options.mode == "assistance":
         raise UsageError("mode: 'assistance' takes turns, which have no length: not where actions take time")
-    if options.ties != "fixed" and options.mode in ("serendipity", "communication"):
-        raise UsageError(f"ties: where actions take time, expected fixed, got {options.ties}")
     if options.human_model != "omniscient":
         raise UsageError(
             "human_model: where actions take time, expected omniscient: what others notice of an action that "
@@ -110,5 +134,6 @@ def _told(units: UnitSteps, answer: Answer) -> Answer:
     return answer._replace(
         human_plan=None if answer.human_plan is None else units.begun(answer.human_plan),
         steps=None if answer.steps is None else units.steps(answer.steps),
+        ties=None if answer.ties is None else tuple(_told(units, one) for one in answer.ties),
         realised={},
     )

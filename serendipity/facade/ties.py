@@ -1,6 +1,6 @@
 """One answer from the answers for each of the human's optimal plans (semantics 1)."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 from typing import Final
@@ -8,7 +8,7 @@ from typing import Final
 from search import FirstAnswer, PlanGraph, first_answer, least_over_ties, optimal_human_plans
 from serendipity.facade import one_plan
 from serendipity.facade.call import Request
-from serendipity.model import Deadline, UsageError
+from serendipity.model import Deadline, HumanPlan, UsageError
 from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.errors import LIMITS, limit_reason
 
@@ -102,6 +102,22 @@ def _beside_all(call: Request, known: FirstAnswer, graph: PlanGraph) -> Answer:
     elif answer.status == "feasible":
         answer = answer._replace(lower_bound=max(known.least, answer.lower_bound or Fraction(0)))
     return answer._replace(optimal_plans=count)
+
+
+def beside_each(call: Request, plans: Sequence[HumanPlan], ties: str) -> Answer:
+    """The answer over optimal plans that are known, as long as they make a difference.
+
+    Args:
+        call: the call.
+        plans: all of them.
+        ties: ``robust``, ``optimistic`` or ``expected``.
+    """
+    bounded = not call.task.robot_goal
+    each = map(partial(one_plan.last_answer, call), plans)
+    found = list(until_settled(each, ties, bounded=bounded, least=lambda: None))
+    everyone, limit = len(found) == len(plans), call.deadline.reached()
+    answer = combined(found, ties, bounded=bounded, everyone=everyone, limit=limit)
+    return answer._replace(optimal_plans=len(plans))
 
 
 def _by_itself(call: Request, answer: Answer) -> Answer:

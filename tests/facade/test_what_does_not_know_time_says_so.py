@@ -66,7 +66,7 @@ def test_what_has_a_head_start_is_refused_elsewhere() -> None:
 
 
 def test_options_that_are_not_for_time_are_refused() -> None:
-    for name, value in {"ties": "robust", "human_model": "observant"}.items():
+    for name, value in {"human_model": "observant"}.items():
         with pytest.raises(UsageError, match=f"{name}: where actions take time, expected"):
             serendipity.plan(slow(), **{name: value})
 

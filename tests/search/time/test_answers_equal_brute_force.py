@@ -1,9 +1,13 @@
 """Answers where actions take time, the human waits, or something happens anyway: those of brute force."""
 
+from dataclasses import replace
+
 from hypothesis import given
+from hypothesis import strategies as st
 
 import serendipity
 from serendipity.model import PlanError, UsageError
+from serendipity.model.keywords import Ties
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies.time import calls_in_time
@@ -30,3 +34,12 @@ def expected(call: Call) -> tuple[object, ...]:
 @given(calls_in_time())
 def test_answers_are_those_of_brute_force(call: Call) -> None:
     assert answered(call) == expected(call)
+
+
+@given(
+    calls_in_time(modes=("serendipity", "communication")),
+    st.sampled_from(["robust", "optimistic", "expected"]),
+)
+def test_answers_over_ties_are_those_of_brute_force(call: Call, ties: Ties) -> None:
+    over = replace(call, options=call.options.but(ties=ties), human_plan=None)
+    assert answered(over) == expected(over)
