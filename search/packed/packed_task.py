@@ -366,10 +366,9 @@ class PackedTask:
 
 
 def _priced(task: Task) -> Iterator[int]:
-    """Ids of the human's waiting where it costs something."""
-    last = len(task.actions) - 1
-    if last > 0 and task.actions[last].name == RESTING:
-        yield from (last - 1, last)
+    """Ids of all that the human takes part in where waiting costs: anything may be cheaper than that."""
+    if task.actions and task.actions[-1].name == RESTING:
+        yield from (i for i, action in enumerate(task.actions) if task.human in action.participants)
 
 
 def _distinct_costs(task: Task) -> tuple[Fraction, ...]:
