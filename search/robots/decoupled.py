@@ -206,14 +206,9 @@ class Decoupled:
         """Whether some of the human's ops mention a robot's place."""
         return any(self._packed.mentioned(op) & self.mask for op in ops)
 
-    def distance(self, slot: int, here: int, there: int) -> int:
-        """Epochs from one place to another; -1 if no walk leads there."""
-        found = self._ways(slot, here).get(there)
-        return -1 if found is None else found[0].epochs
-
     def ways(self, slot: int, here: int, there: int) -> list[Way]:
-        """The ways to a place that can be reached: the fastest, and slower ones that are cheaper."""
-        return self._ways(slot, here)[there]
+        """The ways to a place: the fastest, and slower ones that are cheaper; none if no walk leads there."""
+        return self._ways(slot, here).get(there, [])
 
     def farthest(self, slot: int, here: int) -> int:
         """The most epochs from a place to another."""
@@ -387,13 +382,12 @@ class DecoupledSuccessors(Successors):
             keep, put, ways = op.keep, op.put, []
             for slot, field in deed.at:
                 here, place = state & field, op.need & field
-                steps = walks.distance(slot, here, place)
-                if steps < 0:
+                there = walks.ways(slot, here, place)
+                if not there:
                     break
                 if keep & field:
                     keep, put = keep & ~field, put | place
-                fastest, *others = walks.ways(slot, here, place)
-                ways.append([(slot, steps, fastest.cost), *((slot, way.epochs, way.cost) for way in others)])
+                ways.append([(slot, way.epochs, way.cost) for way in there])
             else:
                 for chosen in product(*ways):
                     weight = self._weight(op) + sum(self._price(cost, steps) for _, steps, cost in chosen)

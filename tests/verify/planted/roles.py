@@ -83,7 +83,7 @@ PLACES = {
     "robots' walks in the transition graph": "search.robots.transition_graphs:TransitionGraph.__init__",
     # decoupled walks
     "whether a walk ends in time": "search.packed.successor_generator:in_time",
-    "length of a walk": "search.robots.decoupled:Decoupled.distance",
+    "length of a walk": "search.robots.decoupled:Decoupled.ways",
     "how long robots have been idle": "search.robots.decoupled:DecoupledSuccessors.rested",
     "whether pi_H asks where robots are": "search.robots.decoupled:Decoupled.touched_by",
     "writing walks down": "search.robots.decoupled:Decoupled.steps",

@@ -6,12 +6,15 @@ from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 
 def _short_cut(original: Any, self: Any, slot: int, here: int, there: int) -> int:
-    steps: int = original(self, slot, here, there)
-    return steps - 1 if steps > 1 else steps
+    ways = original(self, slot, here, there)
+    return [
+        way._replace(epochs=way.epochs - 1, cost=way.cost - way.cost // way.epochs) if way.epochs > 1 else way
+        for way in ways
+    ]
 
 
 def _take_no_time(original: Any, self: Any, idle: Any, joint_action: Any, state: int) -> Any:
-    return original(self, idle, joint_action._replace(due=()), state)
+    return original(self, idle, joint_action._replace(agents=0), state)
 
 
 def _stays(original: Any, self: Any, node: Any) -> Any:
@@ -26,7 +29,7 @@ BUGS = (
         crashes="InputError",
     ),
     Bug("length of a walk", "a step shorter", wrapped(_short_cut)),
-    Bug("length of a walk", "nothing is in reach", replaced(always(-1))),
+    Bug("length of a walk", "nothing is in reach", replaced(always([]))),
     Bug("how long robots have been idle", "what they do takes no time", wrapped(_take_no_time)),
     Bug("whether pi_H asks where robots are", "never", replaced(always(False))),
     Bug("writing walks down", "a walk is left out", wrapped(_stays)),
