@@ -11,9 +11,10 @@ from serendipity.facade.call import Request, Solver
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.task.horizon import horizon_of, require_few_epochs
-from serendipity.model.task.plans import Step
-from serendipity.model.task.task import HumanPlan
+from serendipity.model.task.plans import Step, TimedPlan
+from serendipity.model.task.task import HumanPlan, Task
 from serendipity.model.task.unit_steps import UnitSteps, unit_steps
+from serendipity.model.task.whole_actions import whole_actions
 
 
 def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
@@ -29,6 +30,10 @@ def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
     """
     _require_known(call)
     require_few_epochs(call.task)
+    whole = whole_actions(call.task) if _is_alone(call) else None
+    if whole is not None:
+        yield from _alone(call, solver, whole)
+        return
     try:
         units = unit_steps(call.task, call.deadline, call.options.waiting_cost)
         inner = _in_units(call, units)
@@ -47,6 +52,28 @@ def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
         if not number and told.human_plan is not None and horizon is not None:
             horizon_of(call.task, call.options, told.human_plan)  # which says whether what it reaches lasts
         yield told
+
+
+def _is_alone(call: Request) -> bool:
+    """Whether it is asked what the human does, with nobody beside them and waiting free."""
+    return call.options.mode == "individual" and call.given is None and not call.options.waiting_cost
+
+
+def _alone(call: Request, solver: Solver, whole: Task) -> Iterator[Answer]:
+    """Answers about the human alone, by a task in which each action is one step."""
+    task, epochs = call.task, call.options.head_start
+    options = call.options.but(head_start=0, horizon=None)
+    for answer in solver(replace(call, prepared=PreparedTask(whole), options=options)):
+        plan = answer.human_plan
+        if plan is None:
+            yield answer
+            continue
+        starts = [start + epochs for start in task.starts_of(plan)]
+        if epochs:
+            plan = TimedPlan(plan, starts, task.epochs_of(plan) + epochs)
+        steps = None if answer.steps is None else tuple(map(Step, starts, plan))
+        horizon = horizon_of(task, call.options, plan)
+        yield answer._replace(human_plan=plan, steps=steps, horizon=horizon, realised={})
 
 
 def _in_units(call: Request, units: UnitSteps) -> Request:
