@@ -16,6 +16,7 @@ from serendipity.facade.planning import plan_anytime
 from serendipity.model import INFINITE, Deadline, Options, Result
 from serendipity.model.errors import InputError, LimitReachedError, PlanError, SerendipityError, UsageError
 from serendipity.model.resources.limits import limits_from
+from serendipity.model.task.plans import PlanEntry
 from serendipity.up.kinds import ENGINE, with_metric
 from serendipity.up.plans import human_plan_of, plan_of
 from serendipity.up.predicting import predict
@@ -175,7 +176,7 @@ class Answers:
         if last is not None:
             yield self._answer(last, reading, self._status(last, reading))
 
-    def _human_plan(self, reading: Reading, limits: Deadline) -> tuple[str, ...] | None:
+    def _human_plan(self, reading: Reading, limits: Deadline) -> tuple[PlanEntry, ...] | None:
         if self._call.human_plan is not None:
             return human_plan_of(self._call.human_plan, reading)
         if self._call.predict_with is not None:
@@ -183,7 +184,7 @@ class Answers:
         return None
 
     def _status(self, result: Result, reading: Reading) -> PlanGenerationResultStatus:
-        whole = self._call.exact and not reading.left_out
+        whole = self._call.exact and not reading.left_out and not reading.in_time
         match result.status:
             case "optimal" if whole and with_metric(self._problem):
                 return Status.SOLVED_OPTIMALLY

@@ -18,7 +18,7 @@ from unified_planning.plans import ActionInstance, Plan, PlanKind
 from serendipity.model import GroundAction, SerendipityError, Task, UsageError
 from serendipity.model.task.actions import apply
 from serendipity.up.answers import Answers, call_of
-from serendipity.up.kinds import ENGINE, PLANS, supported_kind, with_metric
+from serendipity.up.kinds import ENGINE, PLANS, in_time, supported_kind, with_metric
 from serendipity.up.plans import depend, in_order
 from serendipity.up.reading import Reading, read
 
@@ -220,12 +220,17 @@ class SerendipityEngine(Engine, OneshotPlannerMixin, AnytimePlannerMixin, PlanVa
         call = self._call if not more else self._call.but(more)
         if self.optimality_metric_required and not call.exact:
             raise UPUsageError(f"{ENGINE}: {call.inexact}: then plans are not optimal for the problem")
+        if self.optimality_metric_required and in_time(problem):
+            raise UPUsageError(f"{ENGINE}: plans in time are optimal among those in whole epochs only")
         given = {"heuristic": heuristic, "output_stream": output_stream, "warm_start_plan": warm_start_plan}
         return Answers(problem, call, timeout, [name for name in given if given[name] is not None])
 
     def _validate(self, problem: AbstractProblem, plan: Plan) -> ValidationResult:
         try:
-            verdict = judged(plan, read(problem, *self._call.who(problem)))
+            reading = read(problem, *self._call.who(problem))
+            if reading.in_time:
+                raise UsageError("plans in time are validated by 'time_triggered_plan_validator'")
+            verdict = judged(plan, reading)
         except SerendipityError as error:
             raise UPUsageError(f"{ENGINE}: {error}") from None
         if verdict.valid is None:

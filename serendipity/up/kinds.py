@@ -4,7 +4,7 @@ from typing import Final
 
 from unified_planning import environment
 from unified_planning.engines import factory
-from unified_planning.model import AbstractProblem, ProblemKind
+from unified_planning.model import AbstractProblem, DurativeAction, ProblemKind
 from unified_planning.model.problem_kind_versioning import LATEST_PROBLEM_KIND_VERSION
 from unified_planning.plans import PlanKind
 
@@ -54,6 +54,13 @@ _FEATURES: Final = (
     "REAL_NUMBERS_IN_ACTIONS_COST",
     "AGENT_SPECIFIC_PRIVATE_GOAL",
     "AGENT_SPECIFIC_PUBLIC_GOAL",
+    "CONTINUOUS_TIME",
+    "TIMED_EFFECTS",
+    "SELF_OVERLAPPING",
+    "DURATION_INEQUALITIES",
+    "STATIC_FLUENTS_IN_DURATIONS",
+    "INT_TYPE_DURATIONS",
+    "REAL_TYPE_DURATIONS",
 )
 
 PLANS: Final = (PlanKind.SEQUENTIAL_PLAN, PlanKind.PARTIAL_ORDER_PLAN)
@@ -64,8 +71,6 @@ _HELPED: Final = {
     "STATE_INVARIANTS": "the compiler STATE_INVARIANTS_REMOVING",
     "TRAJECTORY_CONSTRAINTS": "the compiler TRAJECTORY_CONSTRAINTS_REMOVING",
     "OVERSUBSCRIPTION": "the engine oversubscription[serendipity]",
-    "TIMED_EFFECTS": "the compiler TIMED_TO_SEQUENTIAL",
-    "CONTINUOUS_TIME": "the compiler TIMED_TO_SEQUENTIAL",
 }
 """What of unified-planning itself turns problems that have a feature into problems without it."""
 
@@ -87,6 +92,13 @@ def require_supported(problem: AbstractProblem) -> None:
         helps = dict.fromkeys(_HELPED[feature] for feature in beyond if feature in _HELPED)
         hint = f"; {' and '.join(helps)} of unified-planning may help" if helps else ""
         raise refusal(problem, f"{', '.join(beyond)}: not supported{hint}")
+
+
+def in_time(problem: AbstractProblem) -> bool:
+    """Whether there are durative actions or timed effects: plans say when actions begin."""
+    teams = getattr(problem, "agents", None) or [problem]
+    durative = (isinstance(action, DurativeAction) for team in teams for action in team.actions)
+    return bool(getattr(problem, "timed_effects", ())) or any(durative)
 
 
 def refusal(problem: AbstractProblem, message: str) -> InputError:

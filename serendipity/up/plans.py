@@ -2,21 +2,37 @@
 
 Epochs become a partial order: what has to come before what, and nothing else.  Actions that share no
 agent, and of which neither changes what the other asks for or undoes what it does, may come in any order.
-So every order that the partial one allows is a plan, and they all end in the same state.
+So every order that the partial one allows is a plan, and they all end in the same state.  Plans in time say
+when each action begins.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import groupby, permutations
-from typing import Any
+from typing import Any, Final
 
 import networkx
-from unified_planning.plans import ActionInstance, PartialOrderPlan, Plan, PlanKind, SequentialPlan
+from unified_planning.model import DurativeAction
+from unified_planning.plans import (
+    ActionInstance,
+    PartialOrderPlan,
+    Plan,
+    PlanKind,
+    SequentialPlan,
+    TimeTriggeredPlan,
+)
 
 from serendipity.model import GroundAction, PlanError, PlanStep, Result, Task, UsageError
 from serendipity.model.task.actions import apply, disables
+from serendipity.model.task.plans import PlanEntry
 from serendipity.up.reading import Reading, read
+from serendipity.up.schedule import start_times
+from serendipity.up.steps import variant_in
 from serendipity.up.vocabulary import ALONE, UPProblem, Vocabulary
+
+_NEAR: Final = Fraction(1, 100)
+"""Of an epoch: a little time between actions is none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +57,7 @@ def ordered(task: Task, steps: Iterable[PlanStep]) -> Ordered:
     """
     state, done, actions = task.init, list[PlanStep](), list[GroundAction]()
     for epoch, group in groupby(sorted(steps, key=lambda step: step.epoch), lambda step: step.epoch):
-        together = [(step, _variant(task, step, state)) for step in group]
+        together = [(step, variant_in(task, step, state)) for step in group]
         for step, action in _in_turn(epoch, together):
             done.append(step)
             actions.append(action)
@@ -66,15 +82,6 @@ def _touches(a: GroundAction, b: GroundAction) -> bool:
         set(a.add).isdisjoint((*b.pre, *b.neg, *b.delete))
         and set(a.delete).isdisjoint((*b.pre, *b.neg, *b.add))
     )
-
-
-def _variant(task: Task, step: PlanStep, state: frozenset[int]) -> GroundAction:
-    ids = task.named.get(step.action, ())
-    for i in ids:
-        if task.actions[i].applicable(state):
-            return task.actions[i]
-    what = "applicable" if ids else "an action of the problem"
-    raise PlanError(f"epoch {step.epoch}: '{step.action}' is not {what}")
 
 
 def _in_turn(
@@ -124,7 +131,8 @@ def to_plan(result: Result, problem: UPProblem, *, sequential: bool = False) -> 
         result: the answer of a planning call.
         problem: the problem.
         sequential: whether a ``SequentialPlan`` is wanted; else what several agents do is an
-            :class:`EpochPlan`, a ``PartialOrderPlan`` all of whose orders are plans.
+            :class:`EpochPlan`, a ``PartialOrderPlan`` all of whose orders are plans.  Where actions take time
+            it is a ``TimeTriggeredPlan`` anyway.
 
     Returns:
         The plan; None where the result has none.
@@ -145,6 +153,8 @@ def plan_of(result: Result, reading: Reading, *, sequential: bool = False) -> Pl
     """:func:`to_plan` for those who have read the problem."""
     if result.plan is None:
         return None
+    if reading.in_time:
+        return _in_time(result.plan, reading)
     order = ordered(reading.task, result.plan)
     instances = [reading.vocabulary.instance(step.action) for step in order.steps]
     environment = reading.vocabulary.problem.environment
@@ -157,8 +167,21 @@ def plan_of(result: Result, reading: Reading, *, sequential: bool = False) -> Pl
     return EpochPlan(after, environment, epochs)
 
 
-def human_plan_of(plan: Plan | Iterable[str], reading: Reading) -> tuple[str, ...]:
-    """What the human does in a plan, as names of actions.
+def _in_time(steps: Sequence[PlanStep], reading: Reading) -> TimeTriggeredPlan:
+    task = reading.task
+    instances = [reading.vocabulary.instance(step.action) for step in steps]
+    lasting = [isinstance(instance.action, DurativeAction) for instance in instances]
+    times = start_times(task, steps, lasting)
+    durations = [task.actions[task.named[step.action][0]].duration * task.epoch for step in steps]
+    timed = [
+        (time, instance, duration if lasts else None)
+        for time, instance, duration, lasts in zip(times, instances, durations, lasting, strict=True)
+    ]
+    return TimeTriggeredPlan(timed, reading.vocabulary.problem.environment)
+
+
+def human_plan_of(plan: Plan | Iterable[str], reading: Reading) -> tuple[PlanEntry, ...]:
+    """What the human does in a plan, as names of actions, with epochs where the plan has times.
 
     Args:
         plan: a plan of the problem, in which others may act as well, or names.
@@ -169,7 +192,9 @@ def human_plan_of(plan: Plan | Iterable[str], reading: Reading) -> tuple[str, ..
     """
     if not isinstance(plan, Plan):
         return tuple(plan)
-    names = [reading.vocabulary.name_of(instance) for instance in in_order(plan)]
+    timed = plan.kind == PlanKind.TIME_TRIGGERED_PLAN
+    done = [one for _, one, _ in _by_time(plan)] if timed else in_order(plan)
+    names = [reading.vocabulary.name_of(instance) for instance in done]
     task = reading.task
     human = task.agents[task.human]
     own = {task.actions[i].name for i in task.human_actions}
@@ -179,7 +204,14 @@ def human_plan_of(plan: Plan | Iterable[str], reading: Reading) -> tuple[str, ..
     )
     if joint is not None:
         raise UsageError(f"human_plan: '{joint}' is not an action that {human} can do alone")
-    return tuple(name for name in names if name not in others)
+    if not timed:
+        return tuple(name for name in names if name not in others)
+    epochs = [int(time / task.epoch + _NEAR) + 1 for time, _, _ in _by_time(plan)]
+    return tuple(entry for entry in zip(epochs, names, strict=True) if entry[1] not in others)
+
+
+def _by_time(plan: TimeTriggeredPlan) -> list[tuple[Fraction, ActionInstance, Fraction | None]]:
+    return sorted(plan.timed_actions, key=lambda timed: timed[0])
 
 
 def in_order(plan: Plan) -> list[ActionInstance]:

@@ -52,8 +52,11 @@ def predict(task: Task, engine: str, *, time_limit: float | None = None) -> tupl
         Names of actions, for ``human_plan=``; None if the engine says that the human has no plan.
 
     Raises:
-        UsageError: there is no such engine, it can't have such problems, or it found neither.
+        UsageError: there is no such engine, it can't have such problems, or it found neither; or actions
+            take time.
     """
+    if task.needs_time:
+        raise UsageError("predict_with: is for tasks in which no action takes time")
     solved = solve_with(engine, own_problem(task), time_limit)
     if solved.actions is not None:
         return tuple(task.actions[task.human_actions[i]].name for i in solved.actions)

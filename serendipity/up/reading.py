@@ -3,9 +3,18 @@
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import Final, TypeAlias
 
-from unified_planning.model import Action, Fluent, FNode, InstantaneousAction, Object, Problem
+from unified_planning.model import (
+    Action,
+    DurativeAction,
+    Fluent,
+    FNode,
+    InstantaneousAction,
+    Object,
+    Problem,
+)
 from unified_planning.model import Type as UPType
 from unified_planning.model.fluent import get_all_fluent_exp
 from unified_planning.model.metrics import MinimizeActionCosts, PlanQualityMetric
@@ -14,17 +23,21 @@ from serendipity.model import Deadline, Task
 from serendipity.pddl.grounding.assemble import Blueprint, Source, assemble
 from serendipity.pddl.grounding.instantiate import Participants
 from serendipity.pddl.parsing import lifted
+from serendipity.pddl.parsing.types import Type
 from serendipity.pddl.participants import by_arguments, by_owner
 from serendipity.pddl.work import Work, within_limits
 from serendipity.up.agents import Cast, cast_of
 from serendipity.up.conditions import Reader, effects_of
-from serendipity.up.kinds import refusal, require_supported
+from serendipity.up.durations import durative_schema, timed_literals
+from serendipity.up.expressions import number_of
+from serendipity.up.kinds import in_time, refusal, require_supported
 from serendipity.up.vocabulary import Owner, UPProblem, Vocabulary
 
 Named: TypeAlias = str | Object | UPType
 """An agent: its name, its object, or the type of the objects that are agents."""
 
-_OPERATORS: Final = (("is_plus", "+"), ("is_minus", "-"), ("is_times", "*"), ("is_div", "/"))
+_OVER: Final = lifted.Literal(("~over",))
+"""All timed effects have come: goals of the library hold at the end of all."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +53,11 @@ class Reading:
     task: Task
     vocabulary: Vocabulary
     left_out: list[str] = field(default_factory=list)
+
+    @property
+    def in_time(self) -> bool:
+        """Whether plans say when actions begin."""
+        return in_time(self.vocabulary.problem)
 
 
 def from_problem(
@@ -91,7 +109,7 @@ def _read(vocabulary: Vocabulary, cast: Cast, left_out: list[str], work: Work) -
     writer = _Translator(vocabulary, work)
     schemas = {owner: tuple(writer.schemas(owner)) for owner in vocabulary.owners}
     domain = writer.domain(tuple(schema for some in schemas.values() for schema in some))
-    goals = writer.unit(domain, cast.goals)
+    goals = writer.unit(domain, cast.goals, lasting=True)
     sources = [Source(goals, some, _participants(cast, owner)) for owner, some in schemas.items()]
 
     def reason(key: lifted.Key) -> str:
@@ -123,7 +141,7 @@ class _Translator:
         self.vocabulary = vocabulary
         self.problem = vocabulary.problem
         self._work = work
-        self._costs = _cost_metric(vocabulary)
+        self._metric = _metric(vocabulary)
         self._initial = _Initial(vocabulary)
 
     def schemas(self, owner: Owner) -> Iterator[lifted.Schema]:
@@ -136,17 +154,22 @@ class _Translator:
     def domain(self, schemas: tuple[lifted.Schema, ...]) -> lifted.Domain:
         """All but the initial state and the goal."""
         vocabulary = self.vocabulary
-        predicates = {}
+        predicates: dict[str, tuple[Type, ...]] = {}
         for owner, fluent in vocabulary.fluents():
             if not _numeric(fluent):
                 types = [vocabulary.type(parameter.type) for parameter in fluent.signature]
                 value = [] if fluent.type.is_bool_type() else [vocabulary.type(fluent.type)]
                 predicates[vocabulary.predicate(owner, fluent)] = (*types, *value)
+        predicates[_OVER.key[0]] = ()
         return lifted.Domain(_title(self.problem), vocabulary.types(), {}, predicates, {}, schemas)
 
-    def unit(self, domain: lifted.Domain, goals: Sequence[tuple[Owner, FNode]]) -> lifted.Unit:
-        """The problem with some of its goals."""
-        parts = tuple(Reader(self.vocabulary, owner).formula(goal) for owner, goal in goals)
+    def unit(
+        self, domain: lifted.Domain, goals: Sequence[tuple[Owner, FNode]], *, lasting: bool = False
+    ) -> lifted.Unit:
+        """The problem with some of its goals; ``lasting``: once all timed effects have come."""
+        parts = [Reader(self.vocabulary, owner).formula(goal) for owner, goal in goals]
+        if lasting and self._timed:
+            parts.append(_OVER)
         checked = lifted.Problem(
             name=_title(self.problem),
             domain_name=None,
@@ -154,20 +177,32 @@ class _Translator:
             init=self._initial.true,
             denied={},
             values=self._initial.values,
-            goal=lifted.And(parts),
+            goal=lifted.And(tuple(parts)),
             goal_line=None,
-            metric=self._costs is not None,
+            metric=self._metric is not None,
+            timed=self._timed,
         )
         return lifted.Unit(None, _title(self.problem), _title(self.problem), domain, checked)
 
+    @cached_property
+    def _timed(self) -> tuple[lifted.TimedLiteral, ...]:
+        """What timed effects make of facts, and that all have come."""
+        effects = self.problem.timed_effects if isinstance(self.problem, Problem) else {}
+        reader = Reader(self.vocabulary)
+        found = [one for timing, some in effects.items() for one in timed_literals(reader, timing, some)]
+        last = max((literal.time for literal in found), default=None)
+        return () if last is None else (*found, lifted.TimedLiteral(last, _OVER, 0))
+
     def _schema(self, owner: Owner, action: Action) -> lifted.Schema:
+        name, reader = self.vocabulary.schema(owner, action), Reader(self.vocabulary, owner)
+        if isinstance(action, DurativeAction):
+            return durative_schema(reader, action, name, self._increases(action))
         if not isinstance(action, InstantaneousAction) or action.simulated_effect is not None:
             raise refusal(self.problem, f"action '{action.name}': {type(action).__name__} is not supported")
-        reader = Reader(self.vocabulary, owner)
         precondition: lifted.Formula = lifted.And(tuple(map(reader.formula, action.preconditions)))
         effects = tuple(e for effect in action.effects for e in effects_of(reader, effect, precondition))
         return lifted.Schema(
-            self.vocabulary.schema(owner, action),
+            name,
             0,
             tuple(map(reader.parameter, action.parameters)),
             precondition,
@@ -177,21 +212,10 @@ class _Translator:
         )
 
     def _increases(self, action: Action) -> tuple[lifted.Expression, ...]:
-        cost = None if self._costs is None else self._costs.get_action_cost(action)
-        return () if cost is None else (self._number(cost),)
-
-    def _number(self, node: FNode) -> lifted.Expression:
-        if node.is_constant():
-            return Fraction(node.constant_value())
-        if node.is_fluent_exp():
-            terms = (Reader(self.vocabulary).term(argument, {}) for argument in node.args)
-            return lifted.FunctionValue(
-                (node.fluent().name, *(word for term in terms for word in term.words))
-            )
-        for test, operator in _OPERATORS:
-            if getattr(node, test)():
-                return lifted.Operation(operator, tuple(map(self._number, node.args)))
-        raise refusal(self.problem, f"'{node}' is not supported as a cost")
+        if not isinstance(self._metric, MinimizeActionCosts):
+            return () if self._metric is None else (Fraction(1),)
+        cost = self._metric.get_action_cost(action)
+        return () if cost is None else (number_of(Reader(self.vocabulary), cost, "a cost"),)
 
 
 class _Initial:
@@ -246,8 +270,8 @@ def _title(problem: UPProblem) -> str:
     return problem.name or "problem"
 
 
-def _cost_metric(vocabulary: Vocabulary) -> MinimizeActionCosts | None:
+def _metric(vocabulary: Vocabulary) -> PlanQualityMetric | None:
     metrics: list[PlanQualityMetric] = list(getattr(vocabulary.problem, "quality_metrics", ()))
     if len(metrics) > 1:
         raise refusal(vocabulary.problem, f"expected at most one metric, got {len(metrics)}")
-    return next((metric for metric in metrics if metric.is_minimize_action_costs()), None)
+    return next(iter(metrics), None)

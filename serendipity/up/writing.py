@@ -1,12 +1,23 @@
 """Tasks as problems of unified-planning."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from math import lcm
 from typing import Any
 
 from unified_planning.environment import Environment, get_environment
-from unified_planning.model import Fluent, InstantaneousAction, Object, Problem
+from unified_planning.model import (
+    Action,
+    DurativeAction,
+    EndTiming,
+    Fluent,
+    GlobalStartTiming,
+    InstantaneousAction,
+    Object,
+    OpenTimeInterval,
+    Problem,
+    StartTiming,
+)
 from unified_planning.model.metrics import MinimizeActionCosts, MinimizeSequentialPlanLength
 from unified_planning.model.multi_agent import Agent, MultiAgentProblem
 
@@ -25,7 +36,8 @@ def to_problem(
     of a type of its own, and an action's parameters are its participants:
     ``from_problem(to_problem(task), human=..., robots=...)`` is the task again up to names and what
     nothing depends on.  A ``Problem`` does not say whose a goal is, so robots' own goals are the
-    problem's; its plans are the composite ones without a horizon.
+    problem's; its plans are the composite ones without a horizon.  In time all actions are durative, and
+    the script is timed effects.
 
     Args:
         task: the task.
@@ -35,8 +47,10 @@ def to_problem(
         environment: of the problem; None for the global one.
 
     Raises:
-        UsageError: a ``MultiAgentProblem`` can't say it; it names the action.
+        UsageError: a ``MultiAgentProblem`` can't say it; it names the action.  Or there are bystanders.
     """
+    if task.script.deeds:
+        raise UsageError("the plans of bystanders can't be said in a problem of unified-planning")
     taken = exact(discount, "discount")
     writer = _Writer(task, environment or get_environment())
     if multi_agent:
@@ -73,6 +87,7 @@ class _Writer:
         self._types = _words([f"type of {name}" for name in ("agent", *task.agents)], used)
         self._fluents = [Fluent(word, environment=environment) for word in _words(task.facts, used)]
         self._names = _words([action.name for action in task.actions], used)
+        self._in_time = task.needs_time
 
     def single(
         self,
@@ -87,11 +102,14 @@ class _Writer:
         problem = Problem(self._task.name, self._environment)
         kinds = self._agents(problem) if named else None
         self._facts(problem.add_fluent, problem.set_initial_value)
-        costs: dict[InstantaneousAction, Any] = {}
+        costs: dict[Action, Any] = {}
         for i in actions:
             action = self._action(i, kinds)
             problem.actions.append(action)  # add_action looks through all others for its name
             costs[action] = _number(self._task.team_cost(self._task.actions[i], discount) * scale)
+        for fact in self._task.script.facts:
+            at = GlobalStartTiming(_number(fact.epoch * self._task.epoch))
+            problem.add_timed_effect(at, self._fluents[fact.fact], fact.true)
         for goal in goals:
             self._goal(goal, problem.add_goal)
         if not named and len(set(costs.values())) == 1:
@@ -107,6 +125,8 @@ class _Writer:
         if unfit is not None:
             why = "has several participants" if unfit.joint else f"costs {float(unfit.cost):g}"
             raise UsageError(f"a MultiAgentProblem can't say that action '{unfit.name}' {why}")
+        if task.script:
+            raise UsageError("a MultiAgentProblem has no timed effects")
         problem = MultiAgentProblem(task.name, self._environment)
         agents = [Agent(name, problem) for name in task.agents]
         self._facts(problem.ma_environment.add_fluent, problem.set_initial_value)
@@ -134,16 +154,40 @@ class _Writer:
         for fact in sorted(self._task.init):
             set_value(self._values.FluentExp(self._fluents[fact]), True)
 
-    def _action(self, number: int, kinds: Sequence[Any] | None) -> InstantaneousAction:
+    def _action(self, number: int, kinds: Sequence[Any] | None) -> InstantaneousAction | DurativeAction:
         ground: GroundAction = self._task.actions[number]
         who = {} if kinds is None else {self._task.agents[i]: kinds[i] for i in ground.participants}
+        if self._in_time:
+            return self._durative(self._names[number], ground, who)
         action = InstantaneousAction(self._names[number], _env=self._environment, **who)
-        for literal in self._literals(Condition(ground.pre, ground.neg)):
+        for literal in self._literals(ground.precondition):
             action.add_precondition(literal)
-        for facts, value in ((ground.delete, False), (ground.add, True)):
-            for fact in facts:
-                action.add_effect(self._fluents[fact], value)
+        for fluent, value in self._changes(ground.add, ground.delete):
+            action.add_effect(fluent, value)
         return action
+
+    def _durative(self, name: str, ground: GroundAction, who: dict[str, Any]) -> DurativeAction:
+        action = DurativeAction(name, _env=self._environment, **who)
+        action.set_fixed_duration(_number(ground.duration * self._task.epoch))
+        start, end, timing = StartTiming(), EndTiming(), ground.timing
+        for literal in self._literals(ground.precondition):
+            action.add_condition(start, literal)
+        for fluent, value in self._changes(ground.add, ground.delete):
+            action.add_effect(end, fluent, value)
+        if timing is not None:
+            for interval, condition in (
+                (OpenTimeInterval(start, end), timing.over_all),
+                (end, timing.at_end),
+            ):
+                for literal in self._literals(condition):
+                    action.add_condition(interval, literal)
+            for fluent, value in self._changes(timing.start_add, timing.start_delete):
+                action.add_effect(start, fluent, value)
+        return action
+
+    def _changes(self, add: Iterable[int], delete: Iterable[int]) -> Iterator[tuple[Fluent, bool]]:
+        yield from ((self._fluents[fact], False) for fact in delete)
+        yield from ((self._fluents[fact], True) for fact in add)
 
     def _goal(self, goal: Condition, add: Callable[[Any], Any]) -> None:
         for literal in self._literals(goal):

@@ -11,7 +11,7 @@ from unified_planning.engines.mixins.anytime_planner import AnytimeGuarantee
 from unified_planning.engines.mixins.oneshot_planner import OptimalityGuarantee
 from unified_planning.environment import get_environment
 from unified_planning.exceptions import UPNoSuitableEngineAvailableException, UPUsageError
-from unified_planning.model import AbstractProblem, DurativeAction, Fluent, Problem, Timing
+from unified_planning.model import AbstractProblem, DurativeAction, Fluent, Problem
 from unified_planning.plans import PartialOrderPlan, SequentialPlan
 from unified_planning.shortcuts import (
     Always,
@@ -20,7 +20,6 @@ from unified_planning.shortcuts import (
     IntType,
     MinimizeSequentialPlanLength,
     Not,
-    StartTiming,
 )
 from unified_planning.test.examples.multi_agent import get_example_problems
 
@@ -55,14 +54,10 @@ def test_the_factory_picks_it_where_it_fits() -> None:
         assert not planner.ensures(AnytimeGuarantee.OPTIMAL_PLANS)
 
 
-def durative() -> Problem:
-    problem = Problem("durative")
-    done = problem.add_fluent(Fluent("done", BoolType()), default_initial_value=False)
-    action = DurativeAction("wait")
-    action.set_fixed_duration(3)
-    action.add_effect(Timing(0, StartTiming().timepoint), done, True)
-    problem.add_action(action)
-    problem.add_goal(done)
+def discrete() -> Problem:
+    problem = Problem("discrete")
+    problem.discrete_time = True
+    problem.add_action(DurativeAction("wait"))
     return problem
 
 
@@ -73,7 +68,7 @@ def numeric() -> Problem:
     return problem
 
 
-@pytest.mark.parametrize(("problem", "beyond"), [(durative(), "CONTINUOUS_TIME"), (numeric(), "INT_FLUENTS")])
+@pytest.mark.parametrize(("problem", "beyond"), [(discrete(), "DISCRETE_TIME"), (numeric(), "INT_FLUENTS")])
 def test_it_is_not_picked_where_it_does_not_fit(problem: Problem, beyond: str) -> None:
     with pytest.raises(UPNoSuitableEngineAvailableException):
         FACTORY.OneshotPlanner(problem_kind=problem.kind)

@@ -8,10 +8,10 @@ from unified_planning.engines import PlanGenerationResultStatus, SequentialPlanV
 from unified_planning.environment import get_environment
 from unified_planning.plans import (
     ActionInstance,
+    ContingentPlan,
     PartialOrderPlan,
     PlanKind,
     SequentialPlan,
-    TimeTriggeredPlan,
 )
 
 import serendipity
@@ -98,8 +98,8 @@ def test_the_humans_plan_is_taken_from_a_plan_of_all() -> None:
     assert human_plan_of(BEST, reading) == BEST
     with pytest.raises(UsageError, match="'hand_over robot ann' is not an action that ann can do alone"):
         human_plan_of(plan_of(problem, "hand_over robot ann"), reading)
-    with pytest.raises(UsageError, match="TIME_TRIGGERED_PLAN: expected"):
-        human_plan_of(TimeTriggeredPlan([]), reading)
+    with pytest.raises(UsageError, match="CONTINGENT_PLAN: expected"):
+        human_plan_of(ContingentPlan(None), reading)
     stranger = corridor()
     other = SequentialPlan(
         [ActionInstance(stranger.agent("Ann").action("push"), agent=stranger.agent("Ann"))]
