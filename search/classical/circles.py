@@ -106,9 +106,7 @@ def _disabled(packed: PackedTask, operators: Sequence[Operator], deadline: Deadl
     pairs = 0
     for number, op in enumerate(operators):
         deadline.tick()
-        for field in packed.fields:
-            if not field & ~op.keep:
-                continue
+        for field in packed.split(packed.all_ones & ~op.keep):
             put = op.put & field
             asked = [op.need & field] if op.need_mask & field else packed.values(field)
             groups = [needing.get((field, value), {}) for value in asked if value != put]
@@ -133,9 +131,9 @@ def _asking(packed: PackedTask, operators: Sequence[Operator], deadline: Deadlin
     forbidding: Asking = {}
     for number, op in enumerate(operators):
         deadline.tick()
-        for field in packed.fields:
+        for field in packed.split(op.need_mask):
             # Two may both make true what both need to be false: adding a fact twice is no conflict.
-            if op.need_mask & field and (op.keep & field or not op.need & field):
+            if op.keep & field or not op.need & field:
                 by_agents = needing.setdefault((field, op.need & field), {})
                 by_agents.setdefault(op.agents, []).append(number)
         for field, value in op.forbidden:

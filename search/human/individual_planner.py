@@ -5,7 +5,7 @@ Costs are cached on the facts that their own actions mention, so a state costs o
 search per projection, and a search also fills in the states along its result.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 from search.engine.astar import AStar
@@ -19,7 +19,7 @@ from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan
 
 if TYPE_CHECKING:
-    from search.classical.planner import ClassicalPlanner
+    from search.human.whole_actions import OwnPlanner
 
 _MANY: Final = 2_000
 """States in one search after which the kernel takes over."""
@@ -52,7 +52,7 @@ class Memory:
         self.known: dict[int, int] = {}
         self.at_least: dict[int, int] = {}
         self.expanded = 0
-        self.classical: ClassicalPlanner | None = None
+        self.classical: OwnPlanner | None = None
         self.plans: tuple[int, PlanGraph | None] | None = None
 
 
@@ -219,9 +219,9 @@ class IndividualPlanner:
     def _take_over(self) -> None:
         """Make the kernel ready to go on, where it can."""
         if self._prices is not None and self._memory.classical is None and not self._packed.clock_bit:
-            from search.human.own_problem import own_planner  # only here: most calls come by without
+            from search.human.whole_actions import alone_planner  # only here: most calls come by without
 
-            self._memory.classical = own_planner(self._packed, self._goal, self._mask, self._deadline)
+            self._memory.classical = alone_planner(self._packed, self._goal, self._mask, self._deadline)
 
     def _rest(self, state: int) -> int | None:
         """The human's optimal key where it is known or a goal is reached; else None."""
@@ -254,35 +254,29 @@ class IndividualPlanner:
                 if graph is None:
                     return None
                 return FoundPlan(graph.canonical(), graph.expanded, graph.generated)
-        from search.classical.canonical import canonical_plan  # only here, as below
-
         if self._least_from(start) >= INFINITE_KEY:
             return None
         assert self._memory.classical is not None, "it has taken over"
-        return self._found(canonical_plan(self._memory.classical, start, self._deadline))
+        return self._found(self._memory.classical.canonical(start, self._deadline))
 
     def best_plan(self, state: int) -> FoundPlan | None:
         """The best plan from a packed state that searches have come across so far; None: no plan yet."""
         classical = self._memory.classical
         return None if classical is None else self._found(classical.best_so_far(state & self._mask))
 
-    def _found(self, numbers: Sequence[int] | None) -> FoundPlan | None:
+    def _found(self, actions: tuple[int, ...] | None) -> FoundPlan | None:
         """What the kernel has found."""
         classical = self._memory.classical
-        if numbers is None or classical is None:
+        if actions is None or classical is None:
             return None
         expanded, generated, _ = classical.counts()
-        actions = tuple(self._packed.own[number].action for number in numbers)
         return FoundPlan(actions, self._memory.expanded + expanded, generated)
 
     def first_plan(self, state: int) -> tuple[int, ...] | None:
         """Some plan from a packed state, soon; None where there is none, or no way to find one soon."""
         self._take_over()
         classical = self._memory.classical
-        if classical is None:
-            return None
-        numbers = classical.first_plan(state & self._mask, self._deadline)
-        return None if numbers is None else tuple(self._packed.own[number].action for number in numbers)
+        return None if classical is None else classical.first_plan(state & self._mask, self._deadline)
 
     def least(self, state: int) -> int:
         """What is known so far that no key from a packed state is below."""
