@@ -41,7 +41,7 @@ _LATER: Final = (
     "search.classical.canonical",
     "search.classical.team",
     "search.kernel.signatures",
-    "search.human.own_problem",
+    "search.human.whole_actions",
 )
 
 
