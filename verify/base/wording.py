@@ -38,7 +38,7 @@ NEEDS_MORE_THAN_A_WALK: Final = (
     "not examined: it takes more than a walk through the policy; verify looks at it"
 )
 NOT_IN_TIME: Final = (
-    "not examined: several goals, ties, humans who replan and preserved states are not known in time yet"
+    "not examined in time: several goals, humans who replan, preserved states, ties beside a script"
 )
 NOTHING_TO_EXAMINE: Final = "there is no answer to examine"
 RESULT_BREAKS_RULE: Final = "the result breaks a rule already"

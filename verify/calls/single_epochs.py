@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from serendipity.model import Claim, Deadline, HumanPlan, PlanError, PlanStep, Result, Task
+from serendipity.model.answers.result_parts import TiedAnswer
 from serendipity.model.numbers import agrees
 from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
@@ -45,8 +46,7 @@ def examined_in_time(
         deadline: polled.
         examine: makes the claims of a task and a result in single epochs.
     """
-    preserved = result.options.windowed and result.options.preservation == "state"
-    if kind_of(result) != "a plan" or is_tied(result) or preserved:
+    if not _is_known(task, result):
         return tuple(Claim(name, "undecided", wording.NOT_IN_TIME) for name in needed(result))
     try:
         epochs = SingleEpochs(task, result, deadline)
@@ -56,6 +56,17 @@ def examined_in_time(
     except UNDECIDED as error:
         return tuple(Claim(name, "undecided", why(error)) for name in needed(result))
     return tuple(map(epochs.told, examine(epochs.task, said)))
+
+
+def _is_known(task: Task, result: Result) -> bool:
+    """Whether such a result is examined in time; over ties only where all optimal plans begin at once."""
+    options = result.options
+    if options.windowed and options.preservation == "state":
+        return False
+    if not is_tied(result):
+        return kind_of(result) == "a plan"
+    waits = bool(task.script) or options.head_start > 0 or options.human_model != "omniscient"
+    return not waits and all(tied.plan is None for tied in result.ties or ())
 
 
 class SingleEpochs:
@@ -78,7 +89,7 @@ class SingleEpochs:
     def __init__(self, task: Task, result: Result, deadline: Deadline) -> None:
         self._original, self._result, self._deadline = task, result, deadline
         self.units: UnitSteps = unit_steps(task, deadline, result.options.waiting_cost)
-        self.human_plan = self._human_plan()
+        self.human_plan = self._human_plan(result)
         self.fault = self._mistold() or self._played()
 
     @property
@@ -91,8 +102,14 @@ class SingleEpochs:
         said = self._result
         return replace(
             said,
-            human_plan=self._human_names(),
+            human_plan=self._human_names(said),
             human_plan_times=None,
+            ties=None
+            if said.ties is None
+            else tuple(
+                replace(each, human_plan=self._human_names(each) or (), human_plan_times=None)
+                for each in said.ties
+            ),
             bystanders={},
             plan=None if said.plan is None else tuple(self._steps()),
             agent_costs=self._agent_costs(),
@@ -175,19 +192,21 @@ class SingleEpochs:
 
     # -- single epochs
 
-    def _human_plan(self) -> HumanPlan | None:
+    def _human_plan(self, said: Result | TiedAnswer) -> HumanPlan | None:
         """``pi_H``; None where there is none, or it is none of the human's."""
+        names, times = said.human_plan, said.human_plan_times
         try:
-            entries = self._result.human_entries
+            entries = names if times is None or names is None else times.entries(names)
             return None if entries is None else self._original.plan_from_names(entries)
         except PlanError:
             return None
 
-    def _human_names(self) -> tuple[str, ...] | None:
+    def _human_names(self, said: Result | TiedAnswer) -> tuple[str, ...] | None:
         """``pi_H`` by the names of single epochs; as it is where it is none of the human's."""
-        if self.human_plan is None:
-            return self._result.human_plan
-        return tuple(self.task.actions[i].name for i in self.units.plan(self.human_plan))
+        plan = self._human_plan(said)
+        if plan is None:
+            return said.human_plan
+        return tuple(self.task.actions[i].name for i in self.units.plan(plan))
 
     def _steps(self) -> Iterator[PlanStep]:
         """The plan with all that is due, up to ``T``; as it is from where on it can't be executed."""

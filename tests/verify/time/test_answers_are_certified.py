@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.model import PlanError, Result, Task, UsageError
+from serendipity.model.keywords import Ties
 from serendipity.model.numbers import figure
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
@@ -31,6 +32,18 @@ def test_answers_are_proved(call: Call, method: str) -> None:
     certificate = certify(call.task, result, method=method)
     assert certificate.verdict == "proved", certificate
     assert all(claim.verdict != "refuted" for claim in serendipity.check(call.task, result).claims)
+
+
+@given(
+    calls_in_time(modes=("serendipity", "communication")),
+    st.sampled_from(["robust", "optimistic", "expected"]),
+)
+def test_answers_over_ties_are_proved_beside_no_script(call: Call, ties: Ties) -> None:
+    if call.task.script:
+        return
+    options = call.options.but(ties=ties, head_start=0)
+    result = answered(replace(call, options=options, human_plan=None))
+    assert serendipity.verify(call.task, result).verdict == "proved"
 
 
 @given(calls_in_time())
