@@ -1,0 +1,42 @@
+"""Where the planner forgets what is due, some of its answers are refuted."""
+
+from typing import Any
+
+import pytest
+from hypothesis import Phase, find, settings
+
+import serendipity
+from search.packed.due import Due
+from search.packed.joint_actions import NOTHING
+from serendipity.model import SerendipityError
+from serendipity.testing.call import Call
+from serendipity.testing.strategies.time import calls_in_time
+
+BUGS: dict[str, tuple[str, Any]] = {
+    "the human may leave what goes on": ("human", lambda *_: None),
+    "nobody else goes on, or is there": ("others", lambda *_: [NOTHING]),
+    "the script never happens": ("last", lambda *_: None),
+    "all is over when the goal holds": ("may_end", lambda *_: True),
+}
+
+
+def is_refuted(call: Call) -> bool:
+    """Whether the planner answers a call, and the verifier refutes that."""
+    try:
+        found = serendipity.plan(call.task, human_plan=call.human_entries, **call.keywords())
+    except (SerendipityError, AssertionError, RecursionError):
+        return False
+    return serendipity.verify(call.task, found).verdict == "refuted"
+
+
+@pytest.mark.parametrize("name", BUGS)
+def test_a_planner_that_forgets_what_is_due_is_refuted(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    method, bug = BUGS[name]
+    calls = calls_in_time(modes=("serendipity", "composite"))
+    monkeypatch.setattr(Due, method, bug)
+    chosen = settings(
+        max_examples=1000, derandomize=True, database=None, phases=[Phase.generate], deadline=None
+    )
+    found = find(calls, is_refuted, settings=chosen)
+    monkeypatch.undo()
+    assert not is_refuted(found)
