@@ -9,8 +9,8 @@ from serendipity.model.arguments import PATH, TEXT, WHOLE, expect, expect_or_non
 from serendipity.scenarios.usar import Building, Usar, figure2, pddl_files, random_building
 from serendipity.writing.together import write_together
 
-_WORKED_EXAMPLES: Final = {"room2": "room2", "room5": "room5", "room7": "room7"}
-"""Sections III-B to III-D of the paper: where medkit 1 lies; all else is the same (semantics 5)."""
+_WORKED_EXAMPLES: Final = ("room2", "room5", "room7")
+"""Sections III-B to III-D of the paper, by where medkit 1 lies; all else is the same (semantics 5)."""
 
 PRESETS: Final = ("figure2", *_WORKED_EXAMPLES)
 """``figure2``: the building, positions by the seed; the others: worked examples in it."""
@@ -26,7 +26,7 @@ def worked_example(name: str) -> Usar:
         building=figure2(),
         robots=("robot",),
         agents_at=("room13", "room4"),
-        medkits_at=(_WORKED_EXAMPLES[name], "room3"),
+        medkits_at=(name, "room3"),
         triage_in="room1",
     )
 

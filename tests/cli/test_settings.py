@@ -127,7 +127,7 @@ def test_settings_that_do_not_go_together_are_named(run: Runs) -> None:
 
 def test_files_that_can_not_be_read_are_one_line_and_others_are_told_in_the_log(run: Runs) -> None:
     Path("serendipity.toml").write_bytes(b"mode = '\xff'")
-    assert_one_line(run(PLAN), "serendipity.toml: can't be read: it is not UTF-8")
+    assert_one_line(run(PLAN), "serendipity.toml: expected a text in UTF-8")
     Path("serendipity.toml").write_text("discount = 0.6\n")
     assert "settings from" in run(f"{PLAN} -v").err
 

@@ -98,12 +98,12 @@ def bench(
     markdown: Annotated[bool, option("--markdown", "A suite's tables as Markdown.")] = False,
 ) -> int:
     """Measure the search beside integer programs and others. -o writes every timing."""
-    _check_files(output_file, plot)
+    form = _checked_form(output_file, plot)
 
     def told(text: str, table: Table | None, plotted: str, rows: Sequence[Any]) -> None:
         answers = [output.Answer(text, None)]
         if output_file is not None and table is not None:
-            answers.append(output.Answer(written(table, _form(output_file)), output_file))
+            answers.append(output.Answer(written(table, form), output_file))
         if plot is not None:
             from serendipity.evaluation.benchmark import plot as plots
 
@@ -242,14 +242,16 @@ def _scaling(axes: str, seeds: int, time_limit: float, tell: _Tell) -> int:
     return ExitCode.ANSWERED
 
 
-def _check_files(output_file: Path | None, plot: Path | None) -> None:
+def _checked_form(output_file: Path | None, plot: Path | None) -> str:
+    """How the rows are written: as the file's name ends, else CSV; both files can be written."""
     output.check_output(output_file)
-    _form(output_file)
+    form = output.choose_format(None, output_file, ROWS)
     if plot is not None:
         from serendipity.evaluation.benchmark.plot import check_suffix
 
         output.check_output(plot, "--plot")
         check_suffix(plot.suffix)
+    return form
 
 
 def _listed(text: str | None, default: Iterable[str]) -> list[str]:
@@ -262,11 +264,6 @@ def _present(names: Sequence[str], known: "Mapping[str, Contender]") -> tuple[li
     reasons = {name: known[name].absent() for name in names if name in known}
     absent = tuple(dict.fromkeys(reason for reason in reasons.values() if reason is not None))
     return [name for name in names if reasons.get(name) is None], absent
-
-
-def _form(output_file: Path | None) -> str:
-    """How the rows are written: as the file's name ends, else CSV."""
-    return output.choose_format(None, output_file, ROWS)
 
 
 def _loaded(folder: Path, stride: int, errors: dict[str, Exception]) -> Iterator[Task]:

@@ -29,8 +29,7 @@ def check_proof(
     result: Result | None = None
     answer: Path | None = None
     if others:
-        task, answer, result = task.with_result("check-proof")
-        loaded = task.load(deadline, interference=result.options.interference)
+        loaded, answer, result = task.with_result("check-proof", deadline)
     elif any((task.human, task.robot, task.agent, task.team, task.example)):
         raise UsageError("check-proof: expected TASK and RESULT.json behind the proof, or neither")
     with about(answer), progress.working("checking"), limits.during("checking the proof"):

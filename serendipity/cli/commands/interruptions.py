@@ -1,7 +1,7 @@
 """``serendipity interruptions``: in which windows the human could be helped, and by how much."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import Annotated, Final
 
 import serendipity
 from serendipity.cli.choices import option
@@ -17,9 +17,6 @@ _PICTURES: Final = (".svg", ".png")
 
 _WRITE_SHARE: Final = {"json": 0.4} | dict.fromkeys(("text", *ROWS), 0.05)
 """What of the time limit is kept for writing: thousands of windows, in JSON each with its plan."""
-
-if TYPE_CHECKING:
-    from serendipity.facade.interruptibility import InterruptionReport
 
 
 def interruptions(
@@ -55,10 +52,6 @@ def interruptions(
 
         answers.append(output.Answer(drawn(report, heat_map.suffix), heat_map, "--heat-map"))
     output.write_answers(answers)
-    return _code(report)
-
-
-def _code(report: "InterruptionReport") -> ExitCode:
     if report.human_plan is None:
         return ExitCode.INFEASIBLE
     return ExitCode.ANSWERED if report.complete or report.windows else ExitCode.UNDECIDED

@@ -96,20 +96,15 @@ def reproduce(
     output.write_answers(answers)
     if journal is None and kept is not None and not run.errors:
         kept.unlink(missing_ok=True)  # the answer holds all of it
-    _tell([answer.file for answer in answers if answer.file is not None])
+    for answer in answers:  # on a terminal, or in the log
+        if answer.file is not None and is_terminal() and not is_quiet():
+            tell(f"Wrote {answer.file}")
+        elif answer.file is not None:
+            log.info("wrote %s", message(str(answer.file)))
     if run.errors:
         return broken_tasks(run.errors)
     known = any(row.status != "unknown" for row in run.rows)
     return ExitCode.ANSWERED if known else ExitCode.UNDECIDED
-
-
-def _tell(written: list[Path]) -> None:
-    """Where the files are: on a terminal, or in the log."""
-    for path in written:
-        if is_terminal() and not is_quiet():
-            tell(f"Wrote {path}")
-        else:
-            log.info("wrote %s", message(str(path)))
 
 
 def _listed(text: str) -> list[Any]:

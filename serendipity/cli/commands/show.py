@@ -32,8 +32,7 @@ def show(
     if epoch is not None and output_file.suffix == ".html":
         raise UsageError("--epoch: is for stills (.svg, .png) only; a page shows every epoch")
     output.check_output(output_file)
-    named, answer, result = task.with_result("show")
-    loaded = named.load(interference=result.options.interference)
+    loaded, answer, result = task.with_result("show")
     wrong = broken_rule(loaded, result, answer)
     if wrong is not None and strict:
         tell(f"Error: {wrong}")

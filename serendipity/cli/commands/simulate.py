@@ -26,8 +26,7 @@ def simulate(
     form = to.prepare()
     modules = ("serendipity.facade.simulation", "serendipity.facade.certify", "serendipity.cli.text.render")
     deadline = limited.begin(*modules, *limits.PLANNING)
-    named, answer, result = task.with_result("simulate")
-    loaded = named.load(deadline, interference=result.options.interference)
+    loaded, answer, result = task.with_result("simulate", deadline)
     wrong = broken_rule(loaded, result, answer, deadline)
     if wrong is not None and strict:
         tell(f"Error: {wrong}")

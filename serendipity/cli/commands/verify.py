@@ -25,8 +25,7 @@ def verify(
     output.check_output(proof, "--proof")
     modules = ("serendipity.facade.certify", "verify.certificate.certify", "serendipity.cli.text.answers")
     deadline = limited.begin(*modules, *limits.CHECKING)
-    named, answer, result = task.with_result("verify")
-    loaded = named.load(deadline, interference=result.options.interference)
+    loaded, answer, result = task.with_result("verify", deadline)
     with about(answer), progress.working("verifying"):
         certificate = serendipity.verify(
             loaded,

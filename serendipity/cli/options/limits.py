@@ -7,6 +7,7 @@ from typing import Annotated, Final
 
 from serendipity.cli.choices import option
 from serendipity.cli.groups import Group
+from serendipity.cli.options.planning import given
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.resources.limits import limits_from
@@ -31,8 +32,7 @@ class Limits(Group):
     @property
     def given(self) -> dict[str, str]:
         """Those that the user gave, for answers that name them among their options."""
-        limits = {"time_limit": self.time_limit, "memory_limit": self.memory_limit}
-        return {name: limit for name, limit in limits.items() if limit is not None}
+        return given(time_limit=self.time_limit, memory_limit=self.memory_limit)
 
     def begin(self, *modules: str) -> Deadline:
         """The deadline of a command, which starts now: it covers reading, the work, and checking it.

@@ -119,20 +119,23 @@ class TaskName(Group):
         output.warn(*task.warnings)
         return task
 
-    def with_result(self, command: str) -> "tuple[TaskName, Path, Result]":
-        """The name without its last file, which is that of a result; that file; the result.
+    def with_result(self, command: str, deadline: Deadline | None = None) -> tuple[Task, Path, Result]:
+        """The task of all files but the last, which is that of a result; that file; the result.
 
         Args:
             command: named in errors.
+            deadline: of reading the task.
 
         Raises:
             UsageError: the last file can't be a result.
-            InputError: it can't be read, or is no result.
+            InputError: it can't be read, or is no result; or as for :meth:`load`.
         """
         *named, answer = self.files or []
         if answer.suffix == ".pddl" or answer.is_dir():
             raise UsageError(f"{command}: expected TASK and then RESULT.json, got {answer} last")
-        return self.but(files=named), answer, Result.from_dict(read_json(answer), answer)
+        result = Result.from_dict(read_json(answer), answer)
+        task = self.but(files=named).load(deadline, interference=result.options.interference)
+        return task, answer, result
 
     def settled(self) -> "TaskName":
         """The words, and those of the settings where the command line says nothing."""

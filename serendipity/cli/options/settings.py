@@ -49,11 +49,6 @@ class Settings:
     team: str | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
 
-    def defaults(self, command: str) -> dict[str, Any]:
-        """What a command's options are where the command line says nothing."""
-        others = _NAMESAKES.get(command, ())
-        return {name: value for name, value in self.options.items() if name not in others}
-
 
 _NONE: Final = Settings()
 _in_force: ContextVar[Settings] = ContextVar("settings", default=_NONE)
@@ -77,7 +72,8 @@ def begin(command: str) -> dict[str, Any]:
     except FileNotFoundError:  # somebody has removed it
         found = _NONE
     _in_force.set(found)
-    return found.defaults(command)
+    others = _NAMESAKES.get(command, ())
+    return {name: value for name, value in found.options.items() if name not in others}
 
 
 def in_force() -> Settings:
@@ -197,19 +193,13 @@ def _there(file: Path) -> bool:
         return False
 
 
-def _text(file: Path) -> str:
-    try:
-        return file.read_text(encoding="utf-8")
-    except (OSError, UnicodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8"
-        raise InputError(f"can't be read: {reason}", file) from None
-
-
 def _parsed(file: Path) -> dict[str, Any]:
     import tomllib
 
+    from serendipity.cli.files.reading import read_text
+
     try:
-        return tomllib.loads(_text(file))
+        return tomllib.loads(read_text(file))
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"expected TOML: {error}", file) from None
     except RecursionError:

@@ -16,7 +16,7 @@ def svg(picture: drawing.Picture, *, inline: bool = False, **attributes: str) ->
         **attributes: of the element, e.g. ``id``.
     """
     width, height = number(picture.width), number(picture.height)
-    own = {
+    own: dict[str, str | float] = {
         "xmlns": "http://www.w3.org/2000/svg",
         "viewBox": f"0 0 {width} {height}",
         "width": width,
@@ -47,13 +47,11 @@ def _shape(shape: drawing.Shape) -> Iterator[str]:
     match shape:
         case drawing.Rect():
             place = {"x": shape.x, "y": shape.y, "width": shape.width, "height": shape.height}
-            corner = {"rx": number(shape.round)} if shape.round else {}
-            where = {key: number(value) for key, value in place.items()}
-            yield f"<rect{_attributes({**where, **corner, **_paint(shape.style)})}/>"
+            corner = {"rx": shape.round} if shape.round else {}
+            yield f"<rect{_attributes({**place, **corner, **_paint(shape.style)})}/>"
         case drawing.Circle():
             place = {"cx": shape.x, "cy": shape.y, "r": shape.radius}
-            where = {key: number(value) for key, value in place.items()}
-            yield f"<circle{_attributes({**where, **_paint(shape.style)})}/>"
+            yield f"<circle{_attributes({**place, **_paint(shape.style)})}/>"
         case drawing.Polyline():
             drawn = {"d": path(shape.points, closed=shape.closed), **_paint(shape.style)}
             joins = {"stroke-linejoin": "round", "stroke-linecap": "round"}
@@ -63,8 +61,7 @@ def _shape(shape: drawing.Shape) -> Iterator[str]:
         case drawing.Group():
             placed = {"transform": f"translate({number(shape.x)} {number(shape.y)})"}
             moved = placed if shape.x or shape.y or shape.data else {}
-            faint = {"opacity": number(shape.opacity)} if shape.opacity < 1 else {}
-            yield f"<g{_attributes({**moved, **faint, **_data(shape.data)})}>"
+            yield f"<g{_attributes({**moved, **_data(shape.data)})}>"
             if shape.title:
                 yield f"<title>{markup(shape.title)}</title>"
             for inner in shape.shapes:
@@ -73,10 +70,10 @@ def _shape(shape: drawing.Shape) -> Iterator[str]:
 
 
 def _text(text: drawing.Text) -> str:
-    attributes = {
-        "x": number(text.x),
-        "y": number(text.y),
-        "font-size": number(text.size),
+    attributes: dict[str, str | float] = {
+        "x": text.x,
+        "y": text.y,
+        "font-size": text.size,
         "fill": text.colour,
         "text-anchor": text.anchor,
         "dy": ".35em",
@@ -100,5 +97,6 @@ def _data(data: Mapping[str, str]) -> dict[str, str]:
     return {f"data-{key}": value for key, value in data.items()}
 
 
-def _attributes(values: Mapping[str, str]) -> str:
-    return "".join(f' {key}="{markup(value)}"' for key, value in values.items())
+def _attributes(values: Mapping[str, str | float]) -> str:
+    written = {key: value if isinstance(value, str) else number(value) for key, value in values.items()}
+    return "".join(f' {key}="{markup(value)}"' for key, value in written.items())

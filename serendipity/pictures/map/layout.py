@@ -19,21 +19,49 @@ from numpy.typing import NDArray
 from serendipity.pictures.map.names import natural
 from serendipity.pictures.map.places import Places
 
+CELL: Final = 100.0
+"""Least side of a cell in the picture's units."""
+
 
 @dataclass(frozen=True, slots=True)
-class Cell:
-    """A rectangle of the plan in cells: centre, width and height 1."""
+class Box:
+    """A place on the picture: its centre and size, and whether it belongs to a corridor."""
 
     x: float
     y: float
-    width: float
-    corridor: bool
+    width: float = CELL
+    height: float = CELL
+    corridor: bool = False
+
+    @property
+    def left(self) -> float:
+        """Its edges, like the others."""
+        return self.x - self.width / 2
+
+    @property
+    def right(self) -> float:
+        """See ``left``."""
+        return self.x + self.width / 2
+
+    @property
+    def top(self) -> float:
+        """See ``left``."""
+        return self.y - self.height / 2
+
+    @property
+    def bottom(self) -> float:
+        """See ``left``."""
+        return self.y + self.height / 2
+
+    def moved(self, dx: float, dy: float) -> "Box":
+        """The same box elsewhere."""
+        return replace(self, x=self.x + dx, y=self.y + dy)
 
 
-def floor_plan(tree: "nx.Graph[str]") -> dict[str, Cell]:
-    """The cells of a tree's places; the corridor is row 0, ``y`` grows downwards."""
+def floor_plan(tree: "nx.Graph[str]") -> dict[str, Box]:
+    """The places of a tree, in cells of side 1; the corridor is row 0, ``y`` grows downwards."""
     row = corridor(tree)
-    cells: dict[str, Cell] = {}
+    cells: dict[str, Box] = {}
     on_row = set(row)
     column = 0.0
     for i, place in enumerate(row):
@@ -44,16 +72,16 @@ def floor_plan(tree: "nx.Graph[str]") -> dict[str, Cell]:
             branches.remove(beyond)
         above, below = _sides(tree, place, branches)
         if beyond is not None and i == 0:
-            cells[beyond] = Cell(column + 0.5, 0, 1, corridor=False)
+            cells[beyond] = Box(column + 0.5, 0, 1, 1)
             column += 1
         spans = [sum(_span(tree, place, p) for p in side) for side in (above, below)]
         width = max(1, *spans)
-        cells[place] = Cell(column + width / 2, 0, width, corridor=True)
+        cells[place] = Box(column + width / 2, 0, width, 1, corridor=True)
         for side, span, direction in ((above, spans[0], -1), (below, spans[1], 1)):
             _place_row(tree, place, side, column + (width - span) / 2, direction, direction, cells)
         column += width
         if beyond is not None and i > 0:
-            cells[beyond] = Cell(column + 0.5, 0, 1, corridor=False)
+            cells[beyond] = Box(column + 0.5, 0, 1, 1)
             column += 1
     return cells
 
@@ -102,11 +130,11 @@ def _place_row(
     column: float,
     y: int,
     direction: int,
-    cells: dict[str, Cell],
+    cells: dict[str, Box],
 ) -> None:
     for place in row:
         width = _span(tree, parent, place)
-        cells[place] = Cell(column + width / 2, y, width, corridor=False)
+        cells[place] = Box(column + width / 2, y, width, 1)
         beyond = sorted((p for p in tree.neighbors(place) if p != parent), key=natural)
         _place_row(tree, place, beyond, column, y + direction, direction, cells)
         column += width
@@ -121,8 +149,6 @@ def _depth(tree: "nx.Graph[str]", parent: str, place: str) -> int:
     return 1 + max((_depth(tree, place, p) for p in tree.neighbors(place) if p != parent), default=0)
 
 
-CELL: Final = 100.0
-"""Least side of a cell in the picture's units."""
 _SPREAD: Final = 1.45  # usual distance of the closest places of a graph, in cells
 _APART: Final = 1.2  # their least distance, across or along
 _WAY: Final = 20.0  # between large places, in the picture's units
@@ -137,41 +163,6 @@ Size = tuple[float, float]
 """Width and height."""
 _USUAL: Final = ((3, 115.0), (6, 140.0), (sys.maxsize, 165.0))
 """Sides of a cell by the most things that can be anywhere, where it is not known how many will be."""
-
-
-@dataclass(frozen=True, slots=True)
-class Box:
-    """A place on the picture: its centre and size, and whether it belongs to a corridor."""
-
-    x: float
-    y: float
-    width: float = CELL
-    height: float = CELL
-    corridor: bool = False
-
-    @property
-    def left(self) -> float:
-        """Its edges, like the others."""
-        return self.x - self.width / 2
-
-    @property
-    def right(self) -> float:
-        """See ``left``."""
-        return self.x + self.width / 2
-
-    @property
-    def top(self) -> float:
-        """See ``left``."""
-        return self.y - self.height / 2
-
-    @property
-    def bottom(self) -> float:
-        """See ``left``."""
-        return self.y + self.height / 2
-
-    def moved(self, dx: float, dy: float) -> "Box":
-        """The same box elsewhere."""
-        return replace(self, x=self.x + dx, y=self.y + dy)
 
 
 @dataclass(frozen=True, slots=True)

@@ -126,7 +126,6 @@ class Group:
     y: float = 0.0
     data: Mapping[str, str] = field(default_factory=dict)
     title: str = ""
-    opacity: float = 1.0
 
 
 Shape = Rect | Circle | Polyline | Text | Group
