@@ -1,10 +1,11 @@
 """The tasks that are shipped with the program."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from serendipity.model import Deadline, Task, UsageError
+from serendipity.model import Deadline, Script, Task, UsageError
 from serendipity.model.arguments import DEADLINE, expect_or_none, shown
 from serendipity.model.numbers import Number
 from serendipity.pddl import read_pddl
@@ -22,6 +23,7 @@ class Example:
         domain: the PDDL domain, relative to the data folder.
         problem: the PDDL problem, relative to the data folder.
         robots: the robots' names.
+        bystanders: of these the ones whose plans are fixed, with their actions one after another.
     """
 
     name: str
@@ -30,6 +32,7 @@ class Example:
     problem: str
     human: str
     robots: tuple[str, ...]
+    bystanders: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def load(self, deadline: Deadline | None = None, epoch: Number | None = None) -> Task:
         """The task, with epochs of that length.
@@ -38,17 +41,19 @@ class Example:
             LimitReachedError: the deadline came first.
         """
         domain, problem = DATA / self.domain, DATA / self.problem
-        return read_pddl(
+        task = read_pddl(
             domain, problem, human=self.human, robots=self.robots, epoch=epoch, deadline=deadline
         )
+        return task.with_script(Script(people=self.bystanders)) if self.bystanders else task
 
 
 def _usar(name: str, summary: str) -> Example:
     return Example(name, summary, "usar/domain.pddl", f"usar/{name}.pddl", "commx", ("robot",))
 
 
-def _domain(name: str, summary: str, human: str, *robots: str) -> Example:
-    return Example(name, summary, f"{name}/domain.pddl", f"{name}/{name}.pddl", human, robots)
+def _domain(name: str, summary: str, human: str, *robots: str, **bystanders: tuple[str, ...]) -> Example:
+    files = f"{name}/domain.pddl", f"{name}/{name}.pddl"
+    return Example(name, summary, *files, human, (*robots, *bystanders), bystanders)
 
 
 EXAMPLES: Final = {
@@ -60,6 +65,16 @@ EXAMPLES: Final = {
         _domain("parcels", "a parcel lies where the van comes past, and a detour is spared", "dora", "rolo"),
         _domain("flights", "a passenger has come half of the way, and no fuel is needed", "ada", "kite"),
         _domain("taxis", "one taxi makes way for another, which takes the next guest", "tom", "uno", "due"),
+        _domain(
+            "morning", "breakfast is made while its eater sleeps and washes, minute by minute", "ann", "robi"
+        ),
+        _domain(
+            "office",
+            "a meeting has the projector, a colleague the lift, and a talk is prepared upstairs",
+            "eve",
+            "rolf",
+            carl=("walk carl post lobby", "ride carl lobby landing"),
+        ),
     )
 }
 """By name, in the order in which they are listed."""

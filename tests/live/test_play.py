@@ -229,9 +229,10 @@ def test_shipped_domains_have_sentences_for_everything(name: str) -> None:
     labels = labels_for(task)
     assert labels.complete(task)
     assert labels.about
-    view = SharedRounds(setting(name=name, task=task)).view()
-    texts = [part["text"] for part in (*view["goal"], *view["can"])]
-    assert not any(mark in text for text in texts for mark in "_{}")
+    if not task.needs_time:  # what does is not played yet
+        view = SharedRounds(setting(name=name, task=task)).view()
+        texts = [part["text"] for part in (*view["goal"], *view["can"])]
+        assert not any(mark in text for text in texts for mark in "_{}")
 
 
 def test_sentences_of_a_file(tmp_path: Path) -> None:

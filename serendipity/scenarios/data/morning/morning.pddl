@@ -1,0 +1,10 @@
+; Ann's alarm rings after 6 minutes, and the water is hot after 18; her robot charges in the hall.
+(define (problem morning)
+  (:domain morning)
+  (:objects ann robi - agent hall - room)
+  (:init (at ann bedroom) (at robi hall) (awake robi)
+         (door bedroom hall) (door hall bedroom) (door bath hall) (door hall bath)
+         (door kitchen hall) (door hall kitchen)
+         (at 6 (awake ann))
+         (at 18 (hot-water)))
+  (:goal (and (clean ann) (fed ann))))
