@@ -18,7 +18,8 @@ from tests.live.server import serving
 from tests.show.browser import chromium, chromium_path
 
 IMAGES = Path(__file__).parent / "images"
-STILLS = ("parcels", "flights", "taxis")
+STILLS = {"parcels": None, "flights": None, "taxis": None, "morning": 14, "office": 10}
+"""Each with its epoch; None: the one that says most."""
 EPOCHS = (1, 6, 11)
 WALK = ("hall8", "hall7", "hall6", "hall5", "hall4")
 """Until the robot is met, in III-C."""
@@ -28,9 +29,9 @@ COLOURS = 256
 
 def main() -> int:
     """Draw the stills, and photograph the page at some epochs."""
-    for name in STILLS:
+    for name, epoch in STILLS.items():
         still = IMAGES / f"{name}.svg"
-        still.write_text(str(drawn(name, "0.5", ".svg")), encoding="utf-8")
+        still.write_text(str(drawn(name, "0.5", ".svg", epoch)), encoding="utf-8")
         sys.stdout.write(f"{still.relative_to(Path.cwd())}\n")
     path = chromium_path()
     if path is None:
@@ -67,10 +68,10 @@ def photograph(page: Any, name: str, *, whole: bool = True) -> None:
     sys.stdout.write(f"{image.relative_to(Path.cwd())}\n")
 
 
-def drawn(name: str, discount: str, suffix: str) -> str | bytes:
+def drawn(name: str, discount: str, suffix: str, epoch: int | None = None) -> str | bytes:
     """The picture of an example's answer."""
     task = serendipity.example(name)
-    return draw(build_scene(task, serendipity.plan(task, discount=discount)), suffix)
+    return draw(build_scene(task, serendipity.plan(task, discount=discount)), suffix, epoch)
 
 
 if __name__ == "__main__":

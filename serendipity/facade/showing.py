@@ -5,7 +5,7 @@ from pathlib import Path
 
 from serendipity.facade.interruptibility import InterruptionReport, drawn
 from serendipity.model import InputError, Options, Result, Task, UsageError
-from serendipity.model.arguments import PATH, RESULT, TASK, expect
+from serendipity.model.arguments import PATH, RESULT_IN_TIME, TASK_IN_TIME, expect
 from serendipity.pictures import Scene, build_scene, check_epoch, draw
 
 
@@ -83,7 +83,7 @@ def show(
         UsageError: there is no such epoch.
         InputError: the answer is to another task.
     """
-    expect(TASK, task=task)
+    expect(TASK_IN_TIME, task=task)
     if isinstance(answer, InterruptionReport):
         if epoch is not None or answer.human not in task.agents:
             raise UsageError("show: a report on windows has no epochs, and is about somebody of the task")
@@ -91,7 +91,7 @@ def show(
     human = task.agents[task.human]
     if answer is None:
         answer = Result("individual", "unknown", human, Options(mode="individual"))
-    expect(RESULT, answer=answer)
+    expect(RESULT_IN_TIME, answer=answer)
     if answer.human != human:
         raise InputError(f"result: is for another task: its human is '{answer.human}'")
     scene = build_scene(task, answer)

@@ -62,7 +62,7 @@ def kept_apart(scene: Scene, epoch: int) -> dict[str, Drawn]:
     return tokens
 
 
-@pytest.mark.parametrize("name", ["room2", "parcels", "flights", "taxis"])
+@pytest.mark.parametrize("name", ["room2", "parcels", "flights", "taxis", "morning", "office"])
 def test_labels_lie_apart_and_within_their_places(name: str) -> None:
     task = serendipity.example(name)
     scene = build_scene(task, serendipity.plan(task, discount="0.5"))

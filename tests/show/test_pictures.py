@@ -27,10 +27,6 @@ def test_a_still_is_well_formed_and_says_what_it_shows(room2: Scene) -> None:
     assert {"room1", "hall4", "mk2", "13", "commx"} <= texts
 
 
-def test_stills_of_different_epochs_differ(room2: Scene) -> None:
-    assert draw(room2, ".svg", 1) != draw(room2, ".svg", 11)
-
-
 def test_there_is_no_still_of_an_epoch_beyond_the_end(room2: Scene) -> None:
     with pytest.raises(UsageError, match="0 to 13"):
         draw(room2, ".svg", 14)
@@ -52,12 +48,6 @@ def test_every_agent_and_object_has_a_token_in_every_frame(room2: Scene) -> None
         keys = set(tokens(room2, frame))
         assert {"agent-0", "agent-1", "object-0", "object-1"} <= keys
         assert ("former" in keys) == (frame.former_at != frame.at[room2.human])
-
-
-def test_tokens_in_one_place_stand_apart(room2: Scene) -> None:
-    for frame in room2.frames:
-        spots = [token.at for token in tokens(room2, frame).values()]
-        assert len(set(spots)) == len(spots)
 
 
 def test_png_is_a_picture(room2: Scene) -> None:

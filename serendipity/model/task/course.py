@@ -47,6 +47,7 @@ class PlayedPlan:
     Attributes:
         epoch: the last one that is over; 0 at first.
         state: after it.
+        begun: what began in it, by bystanders too.
     """
 
     def __init__(
@@ -54,6 +55,7 @@ class PlayedPlan:
     ) -> None:
         self.epoch = 0
         self.state = init
+        self.begun: list[GroundAction] = []
         self._facts = facts
         self._script = script
         self._strict = strict
@@ -69,7 +71,7 @@ class PlayedPlan:
         for going in self._going:
             assert going.action.timing is not None
             self._ask(going.action.timing.over_all, going.action, "can't go on")
-        begun = [*actions, *self._deeds()]
+        self.begun = begun = [*actions, *self._deeds()]
         for action in begun:
             self._ask(action.precondition, action, "is not applicable")
         self._require_free(begun)

@@ -19,7 +19,7 @@ _WIDE: Final = 1200.0
 _SMALLEST: Final = 0.46  # nearly all of a building of nine cells on a phone
 _SMALLEST_WIDE: Final = 0.65
 _LARGEST: Final = 1.35
-_PRINTED: Final = 8  # epochs beside each other on paper
+_PRINTED: Final = 800.0  # width of a row on paper
 
 
 def page(scene: Scene) -> str:
@@ -67,12 +67,11 @@ def _data(scene: Scene) -> dict[str, Any]:
         "frames": [_frame(scene, frame) for frame in scene.frames],
         "trails": {key: [path(points)[1:] for points in steps] for key, steps in trails(scene).items()},
         "meetings": [{"epoch": meeting.epoch, "text": printable(meeting.text)} for meeting in scene.meetings],
-        "column": timeline.COLUMN,
+        "column": timeline.column(scene),
         "margin": MARGIN,
         "most": max(float(scene.frames[-1].cost), float(scene.frames[-1].former_spent), 1e-9),
         "colours": {str(i): colour for i, colour in agent_colours(len(scene.agents), scene.human).items()},
         "human": agent_key(scene.human),
-        "start": 0,
     }
 
 
@@ -86,6 +85,7 @@ def _frame(scene: Scene, frame: Frame) -> dict[str, Any]:
         "formerValue": float(frame.former_spent),
         "spent": [float(frame.spent[agent]) for agent in scene.lanes],
         "window": frame.in_window,
+        "clock": scene.clock(frame.epoch),
         "made": [*map(printable, frame.made)],
         "undone": [*map(printable, frame.undone)],
     }
@@ -103,9 +103,10 @@ def _token(key: str, token: Token) -> list[float | int | str | None]:
 def _rows(scene: Scene) -> str:
     """The timeline in rows, for paper, which can't be scrolled."""
     labels = svg(timeline.lane_labels(scene), inline=True)
+    printed = int(_PRINTED / timeline.column(scene))
     ends = [
-        (first, min(first + _PRINTED, timeline.columns(scene)) - 1)
-        for first in range(0, timeline.columns(scene), _PRINTED)
+        (first, min(first + printed, timeline.columns(scene)) - 1)
+        for first in range(0, timeline.columns(scene), printed)
     ]
     return "".join(
         f"<div>{labels}{svg(timeline.timeline_picture(scene, first, last), inline=True)}</div>"
@@ -117,9 +118,9 @@ def _legend(scene: Scene) -> str:
     colours = agent_colours(len(scene.agents), scene.human)
     items = []
     for agent in scene.lanes:
-        kind = "person" if agent == scene.human else "machine"
+        kind = "person" if agent in scene.people else "machine"
         sample = f'<i class="{kind}" style="background:{colours[agent]};color:{on(colours[agent])}"></i>'
-        items.append(f"{sample}{markup(scene.agents[agent])}")
+        items.append(f"{sample}{markup(scene.title(agent))}")
     texts = {kind: markup(text.replace("'s f", "’s f")) for kind, text in scene.legend.items()}
     items += [f'<i class="{kind}"></i>{text}' for kind, text in texts.items()]
     if scene.goals:
@@ -144,7 +145,7 @@ def _bars(scene: Scene) -> str:
 
 def _table(scene: Scene) -> str:
     """The plan as a table, full names and all."""
-    head = "".join(f'<th scope="col">{markup(scene.agents[agent])}</th>' for agent in scene.lanes)
+    head = "".join(f'<th scope="col">{markup(scene.title(agent))}</th>' for agent in scene.lanes)
     if scene.deviates:
         head += f'<th scope="col">{markup(scene.agents[scene.human])}’s former plan</th>'
     rows = []

@@ -10,12 +10,13 @@ and things stand on each other, there is one place with towers in it.
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from itertools import pairwise
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import chain, pairwise
 
 import networkx as nx
 
-from serendipity.model import Task
+from serendipity.model import GroundAction, Task
 from serendipity.pictures.map.names import Parts, common_ends, find, natural, parts, spellings, without
 from serendipity.pictures.map.stacks import Stacks
 
@@ -37,7 +38,7 @@ class Whereabouts:
     riders: tuple[int, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Places:
     """The map of a task; empty where the task has none.
 
@@ -66,6 +67,11 @@ class Places:
     still: dict[str, str] = field(default_factory=dict)
     levels: tuple[str, ...] = ()
     towers: bool = False
+
+    @cached_property
+    def facts(self) -> frozenset[int]:
+        """Ids of the facts that tell where somebody or something is."""
+        return frozenset(chain(*self.positions.values(), *self.objects.values()))
 
     @property
     def vehicles(self) -> frozenset[str]:
@@ -159,6 +165,22 @@ def _towers(task: Task) -> Places:
     )
 
 
+def whole(action: GroundAction) -> GroundAction:
+    """An action of several epochs as one of a single epoch, with what its start and its end change."""
+    timing = action.timing
+    if timing is None:
+        return action
+    add = set(timing.start_add).difference(action.delete).union(action.add)
+    delete = set(timing.start_delete).difference(action.add).union(action.delete)
+    return replace(action, add=tuple(sorted(add)), delete=tuple(sorted(delete)), timing=None)
+
+
+def _wholes(task: Task) -> Iterator[GroundAction]:
+    """What can be done in a task, and what bystanders do."""
+    deeds = (action for deed in task.script.deeds for action in deed.variants)
+    return map(whole, chain(task.actions, deeds))
+
+
 def _links(moves: "nx.Graph[int]", places: dict[int, str]) -> set[tuple[str, str]]:
     """The places that moves join."""
     joined = ((places[source], places[target]) for source, target in moves.edges)
@@ -168,7 +190,7 @@ def _links(moves: "nx.Graph[int]", places: dict[int, str]) -> set[tuple[str, str
 def _levels(task: Task, at: Mapping[int, str], names: Sequence[str]) -> tuple[str, ...]:
     """The places from the highest to the lowest, if actions that lead up and down put them in order."""
     below: nx.DiGraph[str] = nx.DiGraph()
-    for action in task.actions:
+    for action in _wholes(task):
         ways = {"up", "down"}.intersection(re.split("[ _-]", action.name))
         left, reached = ({at[f] for f in facts if f in at} for facts in (action.delete, action.add))
         if not left or not reached:
@@ -195,7 +217,7 @@ def _moves(task: Task) -> "dict[int, nx.Graph[int]]":
     """By agent: the facts of equal predicates that actions of its own exchange."""
     words = [parts(fact) for fact in task.facts]
     found: dict[int, nx.Graph[int]] = {agent: nx.Graph() for agent in range(len(task.agents))}
-    for action in task.actions:
+    for action in _wholes(task):
         if action.joint:
             continue
         for fact in action.delete:

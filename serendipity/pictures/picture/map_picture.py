@@ -314,8 +314,8 @@ def _tokens(scene: Scene, epoch: int) -> Iterator[Shape]:
         yield _token(FORMER_TOKEN, now, shapes, title)
     for agent in scene.lanes:
         if agent_key(agent) in ever:
-            paint = _person if agent == scene.human else _machine
-            yield _token(agent_key(agent), now, paint(letters[agent], colours[agent]), scene.agents[agent])
+            paint = _person if agent in scene.people else _machine
+            yield _token(agent_key(agent), now, paint(letters[agent], colours[agent]), scene.title(agent))
     for index, name in enumerate(frame.objects):
         key = object_key(index)
         if key in ever:

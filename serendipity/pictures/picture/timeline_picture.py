@@ -5,6 +5,7 @@ A still has a title, the map at one epoch, the timeline in rows that fit below i
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import accumulate
 from typing import Final
 
 from serendipity.pictures.picture.drawing import (
@@ -33,9 +34,15 @@ from serendipity.pictures.scene.scene import Act, Change, Scene, headline, subti
 
 COLUMN: Final = 98.0
 LABELS: Final = 140.0
+_NARROWEST: Final = 24.0  # an epoch, in time
+_NARROWEST_ACT: Final = 56.0
+_WIDE_HEAD: Final = 90.0  # an epoch with room for words
+_ROW: Final = 15 * COLUMN
 _HEAD: Final = 34.0
+_CLOCK: Final = 16.0
 _LANE: Final = 66.0
 _FORMER: Final = 64.0
+_SCRIPT: Final = 44.0
 _FACT: Final = 34.0
 _MOST_FACTS: Final = 14
 _LONG: Final = 36  # letters of a label from which on it has three lines
@@ -47,23 +54,33 @@ def columns(scene: Scene) -> int:
     return len(scene.frames)
 
 
+def column(scene: Scene) -> float:
+    """The width of an epoch; in time as narrow as short actions allow, where there are many."""
+    if scene.unit is None:
+        return COLUMN
+    shortest = min((act.duration for act in (*scene.acts, *scene.former_acts)), default=1)
+    return min(COLUMN, max(_NARROWEST, _NARROWEST_ACT / shortest, _ROW / columns(scene)))
+
+
 def lane_labels(scene: Scene) -> Picture:
     """What the lanes are called: a picture of its own, so that a page can keep it in sight."""
     colours = agent_colours(len(scene.agents), scene.human)
     shapes: list[Shape] = [Text(8, _HEAD / 2, "epoch", 14, FAINT_INK, "start")]
-    for agent, top in _lane_tops(scene).items():
-        text, size = fitted(scene.agents[agent], LABELS - 34, 16, 11, bold=True)
-        y, paint = top + _LANE / 2, Style(colours[agent])
-        own = agent == scene.human
-        marker = Circle(14, y, 7, paint) if own else Rect(7.5, y - 6.5, 13, 13, paint, round=3)
-        shapes += [marker, Text(26, top + _LANE / 2, text, size, INK, "start", bold=True)]
-    if scene.deviates:
-        middle = _former_top(scene) + _FORMER / 2
-        text, size = fitted(f"{scene.agents[scene.human]}'s", LABELS - 12, 14, 10)
-        shapes += [
-            Text(8, middle - 9, text, size, FAINT_INK, "start"),
-            Text(8, middle + 9, "former plan", 14, FAINT_INK, "start"),
-        ]
+    if scene.unit is not None:
+        shapes.append(Text(8, _HEAD, "time", 12, FAINT_INK, "start"))
+    tops = _tops(scene)
+    for agent in scene.lanes:
+        text, size = fitted(scene.title(agent), LABELS - 34, 16, 10, bold=True)
+        y, paint = tops[agent] + _LANE / 2, Style(colours[agent])
+        person = agent in scene.people
+        marker = Circle(14, y, 7, paint) if person else Rect(7.5, y - 6.5, 13, 13, paint, round=3)
+        shapes += [marker, Text(26, y, text, size, INK, "start", bold=True)]
+    below = [("former", _FORMER, f"{scene.agents[scene.human]}'s", "former plan")] if scene.deviates else []
+    below += [("script", _SCRIPT, "what happens", "anyway")] if scene.marks else []
+    for lane, height, first, second in below:
+        middle = tops[lane] + height / 2
+        shapes.append(Text(8, middle - 9, *fitted(first, LABELS - 12, 14, 10), FAINT_INK, "start"))
+        shapes.append(Text(8, middle + 9, second, 14, FAINT_INK, "start"))
     for change, top in _fact_tops(scene):
         text = f"goal: {change.label}" if change.goal else change.label
         lines, size = wrapped(text, LABELS - 12, (12, 11, 10), 3 if len(text) > _LONG else 2)
@@ -85,110 +102,136 @@ def timeline_picture(
         now: the epoch that is marked.
     """
     end = columns(scene) - 1 if last is None else last
-    width = (end - first + 1) * COLUMN
-    tops = [*_lane_tops(scene).values(), _former_top(scene), *(top for _, top in _fact_tops(scene))]
+    width = (end - first + 1) * column(scene)
+    tops = [top for lane, top in _tops(scene).items() if lane != "facts"]
+    tops += [top for _, top in _fact_tops(scene)]
     shapes = [
         *_columns(scene, first, end),
-        *_window(scene, first, end),
         *(Polyline(((0, top), (width, top)), Style(stroke=_RULE, width=1)) for top in tops),
+        *_marks(scene, first, end),
         *_acts(scene, first, end),
         *_facts(scene, first, end),
     ]
     if now is not None and first <= now <= end:
-        shapes.append(cursor(scene, (now - first) * COLUMN))
+        shapes.append(cursor(scene, (now - first) * column(scene)))
     steps = [
         f"epoch {act.epoch}: {', '.join(scene.agents[i] for i in act.agents)} {act.action}"
         for act in scene.acts
     ]
+    steps += [f"with epoch {epoch}: {', '.join(texts)}" for epoch, texts in scene.marks.items()]
     return Picture(width, _height(scene), tuple(shapes), f"Timeline. {'; '.join(steps)}")
 
 
 def cursor(scene: Scene, x: float = 0.0) -> Group:
     """The frame about the column of the epoch that is shown."""
-    frame = Rect(1.5, 1.5, COLUMN - 3, _height(scene) - 3, Style(stroke=INK, width=3), round=8)
+    frame = Rect(1.5, 1.5, column(scene) - 3, _height(scene) - 3, Style(stroke=INK, width=3), round=8)
     return Group((frame,), x, 0, {"cursor": ""})
 
 
-def _lane_tops(scene: Scene) -> dict[int, float]:
-    return {agent: _HEAD + i * _LANE for i, agent in enumerate(scene.lanes)}
-
-
-def _former_top(scene: Scene) -> float:
-    return _HEAD + len(scene.lanes) * _LANE
+def _tops(scene: Scene) -> dict[int | str, float]:
+    """Where the lane of each agent begins, and what is below: the former plan, the script, the facts."""
+    heights: dict[int | str, float] = dict.fromkeys(scene.lanes, _LANE)
+    heights["former"] = _FORMER if scene.deviates else 0
+    heights |= {"script": _SCRIPT} if scene.marks else {}
+    head = _HEAD if scene.unit is None else _HEAD + _CLOCK
+    return dict(zip((*heights, "facts"), accumulate(heights.values(), initial=head), strict=True))
 
 
 def _fact_tops(scene: Scene) -> list[tuple[Change, float]]:
-    top = _former_top(scene) + (_FORMER if scene.deviates else 0) + 6
+    top = _tops(scene)["facts"] + 6
     return [(change, top + i * _FACT) for i, change in enumerate(scene.changes[:_MOST_FACTS])]
 
 
 def _height(scene: Scene) -> float:
     facts = _fact_tops(scene)
-    return (facts[-1][1] + _FACT if facts else _former_top(scene) + (_FORMER if scene.deviates else 0)) + 4
+    return (facts[-1][1] + _FACT if facts else _tops(scene)["facts"]) + 4
 
 
 def _columns(scene: Scene, first: int, last: int) -> Iterator[Shape]:
     """The heads; each column is a group that a page can make react to clicks."""
-    height = _height(scene)
+    width, height = column(scene), _height(scene)
     for epoch in range(first, last + 1):
-        x = (epoch - first) * COLUMN
-        area = Rect(0, 0, COLUMN, height, Style(PAPER))
-        head = Text(COLUMN / 2, _HEAD / 2, str(epoch) if epoch else "start", 16, INK, bold=True)
-        yield Group((area, head), x, 0, {"column": str(epoch)})
+        inside = scene.frames[epoch].in_window
+        sign = " · window" if width > _WIDE_HEAD else " *"
+        words = f"{epoch}{sign}" if inside else str(epoch) if epoch else "start"
+        text, size = fitted(words, width - 2, 14 if inside else 16, 8, bold=True)
+        shapes: list[Shape] = [
+            Rect(0, 0, width, height, Style(WINDOW if inside else PAPER)),
+            Text(width / 2, _HEAD / 2, text, size, INK, bold=True),
+        ]
+        time = scene.clock(epoch).partition("–")[2]  # at the end of the epoch
+        shapes += [Text(width - 3, _HEAD, *fitted(time, width - 4, 12, 7), FAINT_INK, "end")] if time else []
+        title = "the window: the human may be met" if inside else ""
+        yield Group(tuple(shapes), (epoch - first) * width, 0, {"column": str(epoch)}, title)
 
 
-def _window(scene: Scene, first: int, last: int) -> Iterator[Shape]:
-    if scene.window is None:
-        return
-    start, end = max(first, scene.window.start), min(last + 1, scene.window.end)
-    for epoch in range(start, end):
-        x = (epoch - first) * COLUMN
-        area = Rect(0, 0, COLUMN, _height(scene), Style(WINDOW))
-        head = Text(COLUMN / 2, _HEAD / 2, f"{epoch} · window", 14, INK, bold=True)
-        yield Group((area, head), x, 0, {"column": str(epoch)}, "the window: the human may be met")
+def _marks(scene: Scene, first: int, last: int) -> Iterator[Shape]:
+    """What the script changes at the end of an epoch: a line through all lanes, and words before it."""
+    tops, before = _tops(scene), first - 1
+    for epoch, texts in scene.marks.items():
+        if not first <= epoch <= last:
+            continue
+        middle = tops["script"] + _SCRIPT / 2
+        x, room = (epoch - first + 1) * column(scene), (epoch - before) * column(scene) - 16
+        lines, size = wrapped(", ".join(texts), room, (13, 12, 11, 10, 9), 3)
+        heights = _stacked(len(lines), middle, min(14, _SCRIPT / len(lines)))
+        shapes: list[Shape] = [
+            Polyline(
+                ((x, tops[scene.human]), (x, _height(scene))), Style(stroke=INK, width=1.5, dash=(3, 4))
+            ),
+            Polyline(
+                ((x - 6, middle), (x, middle - 6), (x + 6, middle), (x, middle + 6)), Style(INK), closed=True
+            ),
+            *(Text(x - 10, y, line, size, INK, "end") for line, y in zip(lines, heights, strict=True)),
+        ]
+        yield Group(tuple(shapes), title=f"with epoch {epoch}: {', '.join(texts)}")
+        before = epoch
 
 
 def _acts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
     colours = agent_colours(len(scene.agents), scene.human)
-    tops = _lane_tops(scene)
+    tops = _tops(scene)
     for act in scene.acts:
-        if not first <= act.epoch <= last:
-            continue
-        x = (act.epoch - first) * COLUMN
-        shapes: list[Shape] = []
-        middles = [tops[agent] + _LANE / 2 for agent in act.agents]
-        if len(middles) > 1:
-            bond = Style(stroke=MEETING, width=10)
-            shapes.append(Polyline(((COLUMN / 2, min(middles)), (COLUMN / 2, max(middles))), bond))
-        joint = len(act.agents) > 1
-        for agent, middle in zip(act.agents, middles, strict=True):
-            edge = MEETING if joint else colours[agent]
-            paint = Style(tint(colours[agent]), edge, 3.5 if joint else 1.5)
-            shapes += _label(act, middle, _LANE - 8, paint, INK)
-        yield Group(tuple(shapes), x, 0, {"act": str(act.epoch)}, act.action)
+        if act.epoch <= last and first <= act.end:
+            joint = len(act.agents) > 1
+            paints = {
+                tops[i] + _LANE / 2: Style(
+                    tint(colours[i]), MEETING if joint else colours[i], 3.5 if joint else 1.5
+                )
+                for i in act.agents
+            }
+            yield _bar(scene, act, range(first, last + 1), paints, _LANE - 8, INK)
     if scene.deviates:
-        yield from _former(scene, first, last)
+        former = {tops["former"] + _FORMER / 2: Style(PAPER, FORMER, 1.5, (4, 3))}
+        for act in scene.former_acts:
+            if act.epoch <= last and first <= act.end:
+                yield _bar(scene, act, range(first, last + 1), former, _FORMER - 6, FAINT_INK)
 
 
-def _former(scene: Scene, first: int, last: int) -> Iterator[Shape]:
-    middle = _former_top(scene) + _FORMER / 2
-    for act in scene.former_acts:
-        if first <= act.epoch <= last:
-            shapes = _label(act, middle, _FORMER - 6, Style(PAPER, FORMER, 1.5, (4, 3)), FAINT_INK)
-            x = (act.epoch - first) * COLUMN
-            yield Group(tuple(shapes), x, 0, {"act": str(act.epoch)}, act.action)
+def _bar(scene: Scene, act: Act, seen: range, paints: dict[float, Style], height: float, ink: str) -> Group:
+    """An action over those of its epochs that are seen, in lanes of some middles."""
+    start, end = max(seen[0], act.epoch), min(seen[-1], act.end)
+    width = (end - start + 1) * column(scene)
+    shapes: list[Shape] = []
+    if len(paints) > 1:
+        bond = Style(stroke=MEETING, width=10)
+        shapes.append(Polyline(((width / 2, min(paints)), (width / 2, max(paints))), bond))
+    for middle, paint in paints.items():
+        shapes += _label(act, width, middle, height, paint, ink)
+    x = (start - seen[0]) * column(scene)
+    return Group(tuple(shapes), x, 0, {"act": str(act.epoch)}, act.action)
 
 
-def _label(act: Act, middle: float, height: float, paint: Style, ink: str) -> list[Shape]:
+def _label(act: Act, width: float, middle: float, height: float, paint: Style, ink: str) -> list[Shape]:
     """A box with the action in two to four lines, the detail, which tells it from others, in bold."""
-    width = COLUMN - 8
-    verb, small = wrapped(act.verb, width - 4, (13, 12, 11))
-    detail, large = wrapped(act.detail, width - 6, (14, 12, 11, 10, 9), 4 - len(verb), bold=True)
+    inner = width - 8
+    verb, small = wrapped(act.verb, inner - 4, (13, 12, 11))
+    detail, large = wrapped(act.detail, inner - 6, (14, 12, 11, 10, 9), 4 - len(verb), bold=True)
     lines = [(line, small, False) for line in verb] + [(line, large, True) for line in detail if line]
     heights = _stacked(len(lines), middle, min(16, (height - 4) / len(lines)))
-    shapes: list[Shape] = [Rect(4, middle - height / 2, width, height, paint, round=8)]
+    shapes: list[Shape] = [Rect(4, middle - height / 2, inner, height, paint, round=8)]
     shapes += [
-        Text(COLUMN / 2, y, line, size, ink, bold=bold)
+        Text(width / 2, y, line, size, ink, bold=bold)
         for (line, size, bold), y in zip(lines, heights, strict=True)
     ]
     return shapes
@@ -206,7 +249,7 @@ def _facts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
             start, end = max(first, span.first), min(last, span.last)
             if start > end:
                 continue
-            x, width = (start - first) * COLUMN + 4, (end - start + 1) * COLUMN - 8
+            x, width = (start - first) * column(scene) + 4, (end - start + 1) * column(scene) - 8
             text, size = fitted(span.value, width - 16, 13, 10)
             bar = Rect(x, top + 4, width, _FACT - 8, Style(colour), round=6)
             yield Group((bar, Text(x + 8, top + _FACT / 2, text, size, INK, "start")), title=span.value)
@@ -214,7 +257,6 @@ def _facts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
 
 _MARGIN: Final = 20.0
 _LEAST: Final = 1000.0
-_MOST_COLUMNS: Final = 15
 _WIDEST_MAP: Final = 2000.0
 
 
@@ -225,17 +267,18 @@ def still(scene: Scene, epoch: int | None = None) -> Picture:
         epoch: from 0 to the last frame's; None for the one that says most.
     """
     now = scene.key_epoch if epoch is None else epoch
+    clock = f" (time {scene.clock(now)})" if scene.clock(now) else ""
     visited = _visited(scene)
     if scene.layout is not None and scene.layout.width > _WIDEST_MAP and visited:
         scene = replace(scene, layout=scene.layout.around(visited))
     city = map_picture(scene, now)
-    fitting = 0 if city is None else int((city.width - LABELS) / COLUMN)
-    per_row = min(columns(scene), max(_MOST_COLUMNS, fitting))
-    wide = max(LABELS + per_row * COLUMN, 0 if city is None else city.width, _LEAST)
+    fitting = _ROW if city is None else max(_ROW, city.width - LABELS)
+    per_row = min(columns(scene), int(fitting / column(scene)))
+    wide = max(LABELS + per_row * column(scene), 0 if city is None else city.width, _LEAST)
     shapes: list[Shape] = [
         Text(0, 14, headline(scene), 24, INK, "start", bold=True),
         Text(0, 46, subtitle(scene), 16, FAINT_INK, "start"),
-        Text(0, 76, f"Epoch {now}: {scene.frames[now].caption}", 18, INK, "start"),
+        Text(0, 76, f"Epoch {now}{clock}: {scene.frames[now].caption}", 18, INK, "start"),
     ]
     y = 100.0
     if city is not None:
@@ -266,9 +309,9 @@ def _legend(scene: Scene) -> Iterator[Shape]:
     entries: list[tuple[Shape, str]] = []
     for agent in scene.lanes:
         paint = Style(colours[agent])
-        human = agent == scene.human
-        token = Circle(12, 12, 10, paint) if human else Rect(3, 3, 18, 18, paint, round=4)
-        entries.append((token, scene.agents[agent]))
+        person = agent in scene.people
+        token = Circle(12, 12, 10, paint) if person else Rect(3, 3, 18, 18, paint, round=4)
+        entries.append((token, scene.title(agent)))
     samples: dict[str, Shape] = {
         "former": Polyline(((0, 12), (26, 12)), Style(stroke=FORMER, width=4, dash=(9, 8))),
         "window": Rect(0, 2, 22, 20, Style(WINDOW, FAINT_INK)),

@@ -1,18 +1,19 @@
 """How a result becomes a scene: its plan, and the human's former one, replayed in words and places."""
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import chain
+from itertools import chain, groupby
 from typing import Final
 
 from serendipity.model import GroundAction, InputError, PlanStep, Result, Task
-from serendipity.model.numbers import total
-from serendipity.model.task.actions import State, apply
+from serendipity.model.task.actions import State
+from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.execution import actions_named, shares, variant_named
+from serendipity.model.task.plans import PlanTimes
 from serendipity.pictures.map.layout import lay_out
-from serendipity.pictures.map.places import Places, Whereabouts, find_places
+from serendipity.pictures.map.places import Places, Whereabouts, find_places, whole
 from serendipity.pictures.scene.crowds import cell_size
 from serendipity.pictures.scene.finder import Finder
 from serendipity.pictures.scene.scene import Act, Frame, Meeting, Scene, find_changes
@@ -20,59 +21,66 @@ from serendipity.pictures.scene.scene import Act, Frame, Meeting, Scene, find_ch
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
-    """An epoch and the state after it; the first is the initial state, epoch 0."""
+    """An epoch and the state after it; the first is the initial state, epoch 0.
+
+    ``going`` is what is under way in it, of bystanders too, with the epochs in which it began.
+    """
 
     epoch: int
-    actions: tuple[GroundAction, ...]
     state: frozenset[int]
+    going: tuple[tuple[int, GroundAction], ...] = ()
+
+    @property
+    def actions(self) -> list[GroundAction]:
+        """What begins in it."""
+        return [action for begun, action in self.going if begun == self.epoch]
+
+    def going_on(self) -> list[GroundAction]:
+        """What is under way after it."""
+        return [action for begun, action in self.going if begun + action.duration - 1 > self.epoch]
 
 
-def replay(task: Task, result: Result) -> tuple[Snapshot, ...]:
-    """The epochs of a result's plan; without one, of the human's own plan.
+def replay(
+    task: Task, steps: Iterable[PlanStep], epochs: int, *, turns: bool = False
+) -> tuple[Snapshot, ...]:
+    """The epochs of a plan beside the script of its task.
+
+    Args:
+        task: the task.
+        steps: the plan.
+        epochs: how many there are; after the plan the script goes on as far as it can.
+        turns: whether the steps of an epoch follow each other (semantics 7).
 
     Raises:
-        InputError: the plan names an action that the task lacks or that is not applicable.
+        InputError: the plan names an action that the task lacks or that is not possible.
     """
-    if result.plan is None:
-        return replay_former(task, result)
     by_epoch: dict[int, list[PlanStep]] = defaultdict(list)
-    for step in result.plan:
+    for step in steps:
         by_epoch[step.epoch].append(step)
-    found = [Snapshot(0, (), task.init)]
-    turns = result.mode == "assistance"  # they act one after the other (semantics 7)
-    for epoch in range(1, max(by_epoch, default=0) + 1):
-        state = before = found[-1].state
-        actions = []
-        for step in by_epoch[epoch]:
-            actions.append(_find(task, step, state if turns else before))
-            state = apply(state, actions[-1])
-        found.append(Snapshot(epoch, tuple(actions), state))
+    end = max((step.end for listed in by_epoch.values() for step in listed), default=0)
+    course = PlayedPlan(task.facts, task.init, task.script)
+    found = [Snapshot(0, task.init)]
+    for epoch in range(1, epochs + 1):
+        begun: list[GroundAction] = []
+        for part in [[step] for step in by_epoch[epoch]] if turns else [by_epoch[epoch]]:
+            try:
+                course.begin([_find(task, step, course.state) for step in part])
+            except BrokenPlanError as error:
+                if epoch <= end:
+                    raise InputError(f"plan, epoch {epoch}: {error}") from None
+            begun += course.begun
+        going = *((e, a) for e, a in found[-1].going if e + a.duration > epoch), *((epoch, a) for a in begun)
+        found.append(Snapshot(epoch, course.state, going))
     return tuple(found)
-
-
-def replay_former(task: Task, result: Result) -> tuple[Snapshot, ...]:
-    """The epochs of the human's former plan with idle robots; the initial one without a plan.
-
-    Raises:
-        InputError: the plan can't be executed in the task.
-    """
-    if not result.human_plan:
-        return (Snapshot(0, (), task.init),)
-    plan = task.plan_from_names(result.human_plan)
-    did = [(), *((task.actions[i],) for i in plan)]
-    return tuple(map(Snapshot, range(len(did)), did, task.replay_alone(plan)))
 
 
 def _find(task: Task, step: PlanStep, state: State) -> GroundAction:
     """The action of a step; of several with one name, the first that is applicable."""
     name, agents = step.action.lower(), [agent.lower() for agent in step.agents]
-    where = f"plan, epoch {step.epoch}:"
     if not actions_named(task, name, agents):
-        raise InputError(f"{where} the task has no action '{step.action}' of {', '.join(step.agents)}")
-    action = task.actions[variant_named(task, name, agents, state)]
-    if not action.applicable(state):
-        raise InputError(f"{where} '{step.action}' is not applicable in this task")
-    return action
+        missing = f"the task has no action '{step.action}' of {', '.join(step.agents)}"
+        raise InputError(f"plan, epoch {step.epoch}: {missing}")
+    return task.actions[variant_named(task, name, agents, state)]
 
 
 MOST_EPOCHS: Final = 2_000
@@ -85,30 +93,42 @@ def build_scene(task: Task, result: Result) -> Scene:
     Raises:
         InputError: the plan does not fit the task, or has more than :data:`MOST_EPOCHS` epochs.
     """
-    epochs = max([step.epoch for step in result.plan or ()] + [len(result.human_plan or ())], default=0)
-    if epochs > MOST_EPOCHS:
-        raise InputError(f"plan: it has {epochs} epochs, and at most {MOST_EPOCHS} are drawn")
+    names = result.human_plan or ()
+    usual = PlanTimes(tuple(range(1, len(names) + 1)), (1,) * len(names), len(names))
+    times = result.human_plan_times or usual
+    begun = zip(times.starts, names, times.durations, strict=True)
+    own = [PlanStep(start, (result.human,), name, 0.0, duration) for start, name, duration in begun]
+    plan = own if result.plan is None else result.plan
+    last = max([times.epochs, *(step.end for step in plan)])
+    if last > MOST_EPOCHS:
+        raise InputError(f"plan: it has {last} epochs, and at most {MOST_EPOCHS} are drawn")
     places = find_places(task)
-    moments, former = replay(task, result), replay_former(task, result)
-    last = max(len(moments), len(former)) - 1
+    moments = replay(task, plan, last, turns=result.mode == "assistance")
+    former = replay(task, own, times.epochs)
     builder = _Builder(task, result, places)
     acts = tuple(chain.from_iterable(builder.acts(moment) for moment in moments))
-    hidden = {f for told in places.positions.values() for f in told}
-    hidden |= {f for told in places.objects.values() for f in told}
     scene = Scene(
         name=task.name,
         agents=task.agents,
         human=task.human,
         goals=places.goals(task),
-        frames=builder.frames(moments, former, last),
+        frames=builder.frames(moments, former, max([0, *(step.end for step in plan)])),
         acts=acts,
-        former_acts=tuple(chain.from_iterable(builder.acts(moment) for moment in former)),
+        former_acts=tuple(
+            act for moment in former for act in builder.acts(moment) if act.agents == (task.human,)
+        ),
         meetings=tuple(builder.meetings(moments)),
-        window=result.window,
-        changes=find_changes(task, [moment.state for moment in moments], last, hidden),
+        changes=find_changes(task, [moment.state for moment in moments], last, places.facts),
         result=result,
         vehicles=places.vehicles,
         towers=places.towers,
+        bystanders=task.script.people,
+        marks={
+            epoch: tuple(task.facts[one.fact] if one.true else f"not {task.facts[one.fact]}" for one in some)
+            for epoch, some in groupby(task.script.facts, key=lambda one: one.epoch)
+            if epoch <= last
+        },
+        unit=task.epoch if task.needs_time or result.in_time else None,
     )
     return replace(scene, layout=lay_out(places, cell_size(scene, places.names))) if places.names else scene
 
@@ -122,51 +142,65 @@ class _Builder:
         self.window = range(0) if result.window is None else range(result.window.start, result.window.end)
         own = result.mode != "assistance"  # there nobody's cost is discounted (semantics 7)
         self.discount = result.options.discount if own else Fraction(0)
+        self.waiting_cost = result.options.waiting_cost
 
-    def frames(self, moments: Sequence[Snapshot], former: Sequence[Snapshot], last: int) -> tuple[Frame, ...]:
+    def frames(self, moments: Sequence[Snapshot], former: Sequence[Snapshot], end: int) -> tuple[Frame, ...]:
+        """A frame for each moment; the plan has its end in epoch ``end``."""
         frames = []
-        spent = dict.fromkeys(range(len(self.task.agents)), Fraction(0))
-        former_spent = Fraction(0)
+        human, spent, former_spent = self.task.human, self._spent(moments), self._spent(former)
         before = moments[0].state
-        for epoch in range(last + 1):
-            moment = moments[epoch] if epoch < len(moments) else Snapshot(epoch, (), moments[-1].state)
+        for epoch, moment in enumerate(moments):
             then = former[min(epoch, len(former) - 1)]
-            for agent, share in shares(self.task, moment.actions, self.discount).items():
-                spent[agent] += share
-            if epoch < len(former):
-                former_spent += total(action.cost for action in then.actions)
-            state = moment.state
+            shown = self.finder.shown(moment.state, moment.going_on())
+            former_shown = self.finder.shown(then.state, then.going_on())
             frames.append(
                 Frame(
                     epoch=epoch,
-                    at=self.finder.agents(state),
-                    objects=self.finder.objects(state),
-                    former_at=self.finder.agents(then.state).get(self.task.human),
-                    made=self._facts(state - before),
-                    undone=self._facts(before - state),
-                    spent=dict(spent),
-                    former_spent=former_spent,
-                    caption=self._caption(moment, ended=epoch >= len(moments)),
+                    at=self.finder.agents(shown),
+                    objects=self.finder.objects(shown),
+                    former_at=self.finder.agents(former_shown).get(human),
+                    made=self._facts(moment.state - before),
+                    undone=self._facts(before - moment.state),
+                    spent=spent[epoch],
+                    former_spent=former_spent[then.epoch][human],
+                    caption=self._caption(moment, ended=epoch > end),
                     in_window=epoch in self.window,
                 )
             )
-            before = state
+            before = moment.state
         return tuple(frames)
+
+    def _spent(self, moments: Sequence[Snapshot]) -> list[dict[int, Fraction]]:
+        """What each agent has paid after each epoch, waiting included; bystanders pay nothing."""
+        human, people = self.task.human, self.task.script.people
+        last = max((m.epoch for m in moments if any(human in a.participants for a in m.actions)), default=0)
+        found = [dict.fromkeys(range(len(self.task.agents)), Fraction(0))]
+        for moment in moments[1:]:
+            own = [action for action in moment.actions if people.isdisjoint(action.participants)]
+            paid = shares(self.task, own, self.discount)
+            waits = not any(human in action.participants for _, action in moment.going)
+            paid[human] += self.waiting_cost * (waits and moment.epoch < last)
+            found.append({agent: cost + paid[agent] for agent, cost in found[-1].items()})
+        return found
 
     def acts(self, moment: Snapshot) -> list[Act]:
         """The actions of a moment, the human's first."""
+        return self._acts((moment.epoch, action) for action in moment.actions)
+
+    def _acts(self, begun: Iterable[tuple[int, GroundAction]]) -> list[Act]:
         human = self.task.human
-        ordered = sorted(moment.actions, key=lambda a: (human not in a.participants, a.participants))
-        return [self._act(moment.epoch, action) for action in ordered]
+        ordered = sorted(begun, key=lambda one: (human not in one[1].participants, one[1].participants))
+        return [self._act(epoch, action) for epoch, action in ordered]
 
     def meetings(self, moments: Sequence[Snapshot]) -> list[Meeting]:
-        """Joint actions, and objects that somebody takes who did not have them last."""
+        """Joint actions as they end, and objects that somebody takes who did not have them last."""
         found = []
         holders: dict[str, int] = {}
+        passed: dict[str, int] = {}
         for moment in moments:
             objects = self.finder.objects(moment.state)
-            joint = [action for action in moment.actions if action.joint]
-            passed: dict[str, int] = {}
+            joint = [action for _, action in moment.going if action.joint]
+            goes_on = moment.going_on()
             for name, where in objects.items():
                 if where.holder is not None:
                     giver = holders.get(name, where.holder)
@@ -175,7 +209,7 @@ class _Builder:
                         passed[name] = giver
                         if not any(where.holder in action.participants for action in joint):
                             found.append(self._found(moment, name, giver, where.holder))
-            found += [self._joint(moment, action, objects, passed) for action in joint]
+            found += [self._joint(moment, a, objects, passed) for a in joint if a not in goes_on]
         return found
 
     def _found(self, moment: Snapshot, name: str, giver: int, taker: int) -> Meeting:
@@ -195,13 +229,18 @@ class _Builder:
         for name in mine:
             taker = objects[name].holder
             if taker is not None:
-                gifts.append(f"{agents[passed[name]]} gives {name} to {agents[taker]}")
-        who = " and ".join(agents[i] for i in action.participants)
-        text = ", ".join(gifts) or f"{who}: {act.verb} {act.detail}".rstrip()
+                gifts.append(f"{agents[passed.pop(name)]} gives {name} to {agents[taker]}")
+        text = ", ".join(gifts) or self._words(act)
         return Meeting(moment.epoch, place, mine, text + (f" in {place}" if gifts and place else ""))
 
     def _act(self, epoch: int, action: GroundAction) -> Act:
-        return Act(epoch, action.participants, *self.finder.phrase(action, self.task.agents), action.name)
+        phrase = self.finder.phrase(whole(action), self.task.agents)
+        name = action.name if action.timing is None else f"{action.name} [{action.duration}]"
+        return Act(epoch, action.participants, *phrase, name, action.duration)
+
+    def _words(self, act: Act) -> str:
+        who = " and ".join(self.task.agents[i] for i in act.agents)
+        return f"{who}: {act.verb} {act.detail}".rstrip()
 
     def _facts(self, ids: frozenset[int]) -> tuple[str, ...]:
         return tuple(self.task.facts[f] for f in sorted(ids))
@@ -212,7 +251,7 @@ class _Builder:
         if ended:
             return "All is done; with the former plan there would still be something to do."
         lines = []
-        for act in self.acts(moment):
-            who = " and ".join(self.task.agents[i] for i in act.agents)
-            lines.append(f"{who}: {act.verb} {act.detail}".rstrip())
+        for act in self._acts(moment.going):
+            part = f" ({moment.epoch - act.epoch + 1} of {act.duration})" if act.duration > 1 else ""
+            lines.append(self._words(act) + part)
         return "; ".join(lines) + "." if lines else "Everybody waits."

@@ -1,8 +1,9 @@
 """Where agents and objects are in a state, in vehicles too."""
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain
 
 from serendipity.model import GroundAction
 from serendipity.model.task.actions import State
@@ -19,6 +20,13 @@ class Finder:
 
     def __init__(self, places: Places) -> None:
         self._places = places
+
+    def shown(self, state: State, going: Iterable[GroundAction]) -> State:
+        """A state in which all is where it was until what moves it, and still goes on, has ended."""
+        facts = self._places.facts
+        timings = [action.timing for action in going if action.timing is not None]
+        left = [t.start_delete for t in timings if facts.isdisjoint(t.start_add)]
+        return state | facts.intersection(chain.from_iterable(left))
 
     def agents(self, state: State) -> dict[int, str]:
         """The place of each agent that is in one; who rides is where the vehicle is."""

@@ -1,10 +1,11 @@
 """The scene: all that a picture of a plan shows, epoch by epoch, before it is drawn; and its headline."""
 
-from collections.abc import Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 
-from serendipity.model import Result, Task, Window
+from serendipity.model import Result, Task
 from serendipity.model.numbers import as_written, plain
 from serendipity.model.task.variables import Variable
 from serendipity.pictures.map.layout import MapLayout
@@ -106,7 +107,8 @@ class Act:
         epoch: from 1.
         agents: ids of the participants, ascending; two or more act jointly.
         verb, detail: the action in two short lines; a move is "go to" and the place.
-        action: its full name.
+        action: its full name; where it takes several epochs, with their number.
+        duration: epochs that it takes.
     """
 
     epoch: int
@@ -114,6 +116,12 @@ class Act:
     verb: str
     detail: str
     action: str
+    duration: int = 1
+
+    @property
+    def end(self) -> int:
+        """The epoch with which it ends."""
+        return self.epoch + self.duration - 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +174,7 @@ class Frame:
         return sum(self.spent.values(), Fraction(0))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Scene:
     """A plan ready to be drawn.
 
@@ -178,10 +186,12 @@ class Scene:
         layout: of the map, or None where the task has none.
         goals: places that the human's goal names.
         acts, former_acts: the two plans.
-        window: as in the result.
         changes: facts that change, for the lanes below the timeline.
         vehicles: objects that others can be in or on.
         towers: whether what is on an object is shown above it.
+        bystanders: ids of the people whose plans are fixed.
+        marks: by epoch the facts that the script changes, ``not`` in front of those that become false.
+        unit: of a plan in time, the length of an epoch in the unit of the input; else None.
     """
 
     name: str
@@ -194,17 +204,34 @@ class Scene:
     acts: tuple[Act, ...] = ()
     former_acts: tuple[Act, ...] = ()
     meetings: tuple[Meeting, ...] = ()
-    window: Window | None = None
     changes: tuple[Change, ...] = ()
     vehicles: frozenset[str] = frozenset()
     towers: bool = False
+    bystanders: frozenset[int] = frozenset()
+    marks: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
+    unit: Fraction | None = None
 
     @property
     def lanes(self) -> tuple[int, ...]:
-        """Agent ids as the timeline shows them: the human first."""
-        return (self.human, *(i for i in range(len(self.agents)) if i != self.human))
+        """Agent ids as the timeline shows them: the human first, bystanders last."""
+        return tuple(sorted(range(len(self.agents)), key=lambda i: (i != self.human, i in self.bystanders)))
 
     @property
+    def people(self) -> frozenset[int]:
+        """Ids of those who are drawn as persons."""
+        return self.bystanders | {self.human}
+
+    def title(self, agent: int) -> str:
+        """The name of an agent, and whether it is a bystander."""
+        return f"{self.agents[agent]} (bystander)" if agent in self.bystanders else self.agents[agent]
+
+    def clock(self, epoch: int) -> str:
+        """The times between which an epoch lies; empty where a plan is not in time."""
+        if self.unit is None or not epoch:
+            return ""
+        return f"{plain((epoch - 1) * self.unit)}–{plain(epoch * self.unit)}"
+
+    @cached_property
     def deviates(self) -> bool:
         """Whether the human does anything but their former plan, where that is known."""
         if not self.former_acts:
@@ -219,7 +246,7 @@ class Scene:
         contains = any(w.carrier or w.riders or w.holder is not None for w in together)
         meanings = {
             "former": (self.deviates, f"{self.agents[self.human]}'s former plan"),
-            "window": (self.window is not None, "window"),
+            "window": (self.result.window is not None, "window"),
             "meeting": (bool(self.meetings), "hand-over or joint action"),
             "together": (contains, "in it, on it or carried"),
         }
@@ -230,7 +257,8 @@ class Scene:
         """The epoch that says most: the first meeting, else the window's start, else the end."""
         if self.meetings:
             return self.meetings[0].epoch
-        return self.window.start if self.window is not None else self.frames[-1].epoch
+        window = self.result.window
+        return self.frames[-1].epoch if window is None else window.start
 
 
 def headline(scene: Scene) -> str:

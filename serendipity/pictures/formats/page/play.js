@@ -6,7 +6,7 @@
   const last = scene.frames.length - 1;
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   const pace = 1100; // milliseconds an epoch is shown while playing
-  let epoch = scene.start;
+  let epoch = 0;
   let timer = null;
 
   const move = (element, x, y) => element.setAttribute("transform", `translate(${x} ${y})`);
@@ -54,7 +54,8 @@
   }
 
   function drawWords(frame) {
-    const name = epoch === 0 ? "Start" : `Epoch ${epoch} of ${last}`;
+    const clock = frame.clock && ` (time ${frame.clock})`;
+    const name = epoch === 0 ? "Start" : `Epoch ${epoch} of ${last}${clock}`;
     id("epoch").textContent = name;
     const met = scene.meetings.filter((meeting) => meeting.epoch === epoch).map((meeting) => meeting.text);
     const flag = id("flag");
