@@ -3,11 +3,13 @@
 from dataclasses import replace
 from fractions import Fraction
 
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import serendipity
 from search.human.whole_actions import alone_planner
+from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY, own_weights
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
@@ -39,6 +41,7 @@ def test_the_canonical_plan_of_whole_actions_is_that_of_brute_force(
         assert [step.epoch - wait for step in found.plan or ()] == [*task.starts_of(plan)]
 
 
+@pytest.mark.skipif(library() is None, reason="the kernel is not compiled here")
 @given(timed_tasks(), st.integers(1, 40))
 def test_the_kernel_finds_the_canonical_plan_and_what_is_left_in_whole_actions(task: Task, most: int) -> None:
     """Also from states in the middle of an action, with which the human may not be able to go on."""
