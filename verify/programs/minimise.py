@@ -7,7 +7,6 @@ learns what suffixes from that state cost (or that there is none) and is solved 
 
 from dataclasses import replace
 
-from verify.base.due import filled
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import WINDOW, PricedPlan, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
@@ -113,8 +112,6 @@ class _Rounds:
         question, window, states, found = self._question, None, None, None
         if outcome.values is not None:
             steps, window = encoding.plan(outcome.values)
-            if question.task.of_bystanders:  # what of the script does not matter is in no program
-                steps = filled(question.task, steps, question.horizon, strict=question.options.strict)
             states = replay(question, steps)
             if states is None:
                 raise UndecidedError("the solver's plan does not replay")

@@ -61,7 +61,7 @@ def test_proofs_are_accepted(tmp_path_factory: object, call: Call) -> None:
 def test_doing_nothing_is_refuted_where_brute_force_helps(call: Call, method: str) -> None:
     result = answered(call)
     optimum = best(call.task, call.options, call.human_plan)
-    if not optimum.opportunity or call.task.robot_goal.positive or result.saving_alone:
+    if not optimum.opportunity or call.task.robot_goal or result.saving_alone:
         return
     idle = doing_nothing(call.task, result)
     certificate = certify(call.task, idle, method=method)

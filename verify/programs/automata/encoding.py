@@ -6,6 +6,7 @@ from typing import Final
 
 from serendipity.model import Deadline, GroundAction, Step, Task, Window
 from verify.base.control import HumanControl, expected_states
+from verify.base.due import filled
 from verify.base.execution import awake
 from verify.base.relevance import Relevant, relevant_part, whole_task
 from verify.base.subproblem import WINDOW, Subproblem
@@ -118,8 +119,12 @@ class AutomataEncoding:
         return None if self.setting is None else self.program.model
 
     def plan(self, values: tuple[int, ...]) -> tuple[tuple[Step, ...], Window | None]:
-        """The plan and the window that a solution stands for."""
-        return self.program.plan(values)
+        """The plan and the window that a solution stands for, with what of a script is in no program."""
+        steps, window = self.program.plan(values)
+        question = self.question
+        if question.task.of_bystanders:
+            steps = filled(question.task, steps, question.horizon, strict=question.options.strict)
+        return steps, window
 
     def bound_suffix(self, xi2: int, state: frozenset[int], least: int | None) -> None:
         """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none."""
