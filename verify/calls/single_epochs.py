@@ -235,10 +235,13 @@ class SingleEpochs:
         return any(task.human in task.actions[i].participants for i in chosen)
 
     def _goes_on(self, epoch: int, last: int | None, state: State) -> bool:
-        """Whether something may still happen by itself; a plan of the human alone ends with their goal."""
-        if self._result.mode == "individual" and self.task.goal.holds(state):
-            return False
-        return (last is None or epoch < last) and not is_calm(self.task, state)
+        """Whether something may still happen by itself; without ``T`` a plan ends once goals are reached."""
+        task = self.task
+        if last is None or self._result.mode == "individual":
+            theirs = self._result.mode == "individual" or task.robot_goal.holds(state)
+            if task.goal.holds(state) and theirs and state.issuperset(task.at_rest):
+                return False
+        return (last is None or epoch < last) and not is_calm(task, state)
 
     def _first(self, step: PlanStep, state: State) -> int:
         """The action in single epochs with which a step begins."""

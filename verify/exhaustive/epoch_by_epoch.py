@@ -21,6 +21,7 @@ import numpy as np
 
 from serendipity.model import LimitReachedError, Step, Window
 from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.options import MAX_EPOCH
 from verify.base.control import ALL, INSIDE, OWN, PREFIX, SUFFIX, Control, HumanControl, Leg
 from verify.base.due import filled
 from verify.base.execution import State, by_epoch, states_along
@@ -91,6 +92,7 @@ class EpochSearch:
         self._unit = question.horizon + 1  # weighs more than all actions that there is time for
         own = [as_operator((task.actions[i],), prices.team[i] * self._unit + 1) for i in self._own]
         goal = task.goal.positive, task.goal.negative
+        self._endless = question.horizon == MAX_EPOCH  # a plan ends then as soon as it has reached its goals
         self._beside_script = bool(task.of_bystanders)
         self._alone = self._alike(own, goal) if question.replans and not self._beside_script else None
         self._most = question.largest
@@ -291,7 +293,7 @@ class EpochSearch:
         if epoch < self._question.horizon and not self._may_rest(control):
             return
         there = self._problem.goal(layer.states)
-        if epoch < self._question.horizon:
+        if epoch < self._question.horizon and not self._endless:
             there &= self._team.is_calm(layer.states)
         for needs in self._control.accepts(control):
             test = self._table.test(sorted(needs & self._facts), ())
@@ -386,7 +388,8 @@ class EpochSearch:
         question = self._question
         steps = self._steps(number, row) + tuple(Step(epoch + 1 + k, i) for k, i in enumerate(suffix))
         if self._beside_script:
-            steps = filled(question.task, steps, question.horizon, strict=question.options.strict)
+            end = epoch + len(suffix) if self._endless else question.horizon
+            steps = filled(question.task, steps, end, strict=question.options.strict)
         last = max([epoch + len(suffix), *(step.epoch for step in steps)])
         if replay(question.but(horizon=min(last, question.horizon)), steps) is None:
             raise UndecidedError(_NO_REPLAY)

@@ -57,6 +57,7 @@ class _Alone:
         self.scale = chosen.scale
         self._team = chosen.team
         self._options = options
+        self._own: OwnActions | None = None
         self._number: dict[Hashable, int] = {}
         self.model = Model(self._deadline)
         self._write()
@@ -69,7 +70,7 @@ class _Alone:
         ends = set(self._ends)
         for source, target, action in moves:
             x = self.model.binary()
-            paid = self._head_start if action == _WAITED else 0 if action == _RESTED else self._team[action]
+            paid = self._paid(action)
             if paid:
                 self.model.objective[x] = paid
             rows[source][x] = 1
@@ -106,6 +107,14 @@ class _Alone:
                 moves.append((number, self._number[after], action))
         return moves
 
+    def _paid(self, action: int) -> int:
+        """What a move costs: an action with all that is due after it, where it is taken as one."""
+        if action < 0:
+            return self._head_start if action == _WAITED else 0
+        if self._own is None:
+            return self._team[action]
+        return int(self._own.split(self._own.whole(action)[1])[0] * self.scale)
+
     def _graph(self) -> "_Graph":
         """Where states begin, which end a plan, and what follows them: by bits, or as sets of facts."""
         task = self._task
@@ -115,7 +124,7 @@ class _Alone:
             graph: _Graph = start, task.goal.holds, alone.moves
             rested: Any = None if start is None else start - awake(task)
         else:
-            own = OwnActions(task, self._deadline)
+            own = self._own = OwnActions(task, self._deadline)
             wanted, unwanted = own.bits.of(task.goal.positive), own.bits.of(task.goal.negative)
             here = own.bits.of(task.init)
             graph = here, lambda state: state & wanted == wanted and not state & unwanted, own.steps
