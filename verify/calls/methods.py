@@ -9,6 +9,7 @@ from typing import Final
 
 from serendipity.model import Deadline, UsageError, Window
 from serendipity.model.options import MAX_EPOCH
+from verify.base.execution import awake
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.small_numbers import with_small_numbers
 from verify.base.subproblem import FREE, PricedPlan, Subproblem
@@ -187,11 +188,12 @@ def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum
 def decide_without_horizon(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
     """The least cost of a plan with any number of epochs: no program says that, an exhaustive search does.
 
-    Where anything is due, which may be late without epochs, they are counted until nothing new comes.
+    Where anything is due, which may be late without epochs, or waiting costs, they are counted until nothing
+    new comes.
     """
     started = perf_counter()
     found = cheapest(question, effort)
-    if found.status == "found" and question.task.due:
+    if found.status == "found" and (question.task.due or awake(question.task)):
         found = _exhaustively(question.but(horizon=MAX_EPOCH), effort, plans)
     _note(effort, "without-epochs", found, perf_counter() - started)
     return found
