@@ -25,9 +25,10 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
     discount = Fraction(0) if options.mode == "assistance" else options.discount  # semantics 7
     human_cost = answer.baseline if answer.goals else None
     if answer.human_plan is not None:
-        times = times_of(task, answer.human_plan)
-        waits = waited(zip(times.starts, times.durations, strict=True))
-        human_cost = task.cost_of(answer.human_plan) + options.waiting_cost * waits
+        human_cost = task.cost_of(answer.human_plan)
+        if options.waiting_cost:
+            times = times_of(task, answer.human_plan)
+            human_cost += options.waiting_cost * waited(zip(times.starts, times.durations, strict=True))
     counted = {"expanded": answer.expanded, "generated": answer.generated}
     return Result(
         mode=options.mode,
@@ -118,8 +119,9 @@ def _agent_costs(task: Task, discount: Fraction, answer: Answer, waiting: Fracti
     if answer.steps is None:
         return {}
     costs = shares(task, actions_of(task, answer.steps), discount)
-    his = ((step.epoch, task.actions[step.action]) for step in answer.steps)
-    costs[task.human] += waiting * waited((t, a.duration) for t, a in his if task.human in a.participants)
+    if waiting:
+        his = ((step.epoch, task.actions[step.action]) for step in answer.steps)
+        costs[task.human] += waiting * waited((t, a.duration) for t, a in his if task.human in a.participants)
     if answer.goals is not None and len(answer.goals) > 1:
         costs = dict.fromkeys(costs, Fraction(0))
         for goal in answer.goals:
