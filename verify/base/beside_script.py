@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from serendipity.model import HumanPlan, Options, Task
 from serendipity.model.resources.deadline import Deadline
-from verify.base.due import onward
+from verify.base.due import onward, waited
 from verify.base.execution import State, applicable, due, idling, is_calm
 from verify.base.individual import IndividualOptimum
 from verify.base.shortest_paths import PathSearch
@@ -21,24 +21,19 @@ class AloneBesideScript(IndividualOptimum):
     Args:
         task: the task, in single epochs.
         deadline: polled.
-        options: its interference says what disturbs a bystander.
+        options: its head start, and its interference, which says what disturbs a bystander.
     """
 
     def __init__(self, task: Task, deadline: Deadline | None, options: Options) -> None:
         super().__init__(task, deadline)
-        self._options, self._strict = options, options.strict
+        self._head_start, self._strict = options.head_start, options.strict
         self._waiting = idling(task)
         self._worth: dict[State, tuple[Fraction, int] | None] = {}
 
     @property
     def start(self) -> State | None:
         """See :class:`IndividualOptimum`."""
-        state: State | None = self._task.init
-        for _ in range(self._options.head_start):
-            if state is None or is_calm(self._task, state):
-                break
-            state = onward(self._task, state, (), strict=self._strict)
-        return state
+        return waited(self._task, self._task.init, self._head_start, strict=self._strict)
 
     def moves(self, state: State) -> Iterator[tuple[int, State]]:
         """See :class:`IndividualOptimum`; waiting is one of them while anything happens."""

@@ -3,7 +3,7 @@
 All this is about tasks in single epochs (:mod:`serendipity.model.task.unit_steps`).
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 from serendipity.model import Step, Task
 from verify.base.execution import State, by_epoch, executed, is_calm, met
@@ -14,25 +14,23 @@ def onward(task: Task, state: State, chosen: Iterable[int], *, strict: bool) -> 
     return executed(state, [task.actions[i] for i in met(task, state, chosen)], strict=strict)
 
 
-def lasts(task: Task, state: State, epochs: int, holds: Callable[[State], bool], *, strict: bool) -> bool:
-    """Whether something holds after some epochs in which nobody does what is not due."""
+def waited(task: Task, state: State, epochs: int, *, strict: bool) -> State | None:
+    """The state after some epochs in which nobody does what is not due; None if that is impossible."""
+    here: State | None = state
     for _ in range(epochs):
-        if is_calm(task, state):
+        if here is None or is_calm(task, here):
             break
-        after = onward(task, state, (), strict=strict)
-        if after is None:
-            return False
-        state = after
-    return holds(state)
+        here = onward(task, here, (), strict=strict)
+    return here
 
 
-def filled(task: Task, steps: Iterable[Step], last: int | None, *, strict: bool) -> tuple[Step, ...]:
+def filled(task: Task, steps: Iterable[Step], last: int, *, strict: bool) -> tuple[Step, ...]:
     """A plan with all that is due; where it can't be executed any more what is left stays as it is.
 
     Args:
         task: the task.
         steps: what is chosen.
-        last: the last epoch; None: until nothing is due any more.
+        last: the last epoch.
         strict: interference as in semantics 2.
     """
     sets = by_epoch(steps)

@@ -5,7 +5,6 @@ from typing import Any
 from serendipity.model import PlanStep, Result, Step, Window
 from serendipity.model.keywords import Horizon
 from serendipity.model.numbers import figure
-from verify.base.due import filled
 from verify.base.execution import plan_step, shares
 from verify.base.subproblem import PricedPlan
 from verify.calls.answer import CallAnswer, idle_cost
@@ -43,9 +42,6 @@ def to_result(answer: CallAnswer) -> Result:
         steps = nothing.steps
     else:
         steps = tuple(Step(t, i) for t, i in enumerate(call.human_plan or (), start=1))
-    if call.task.due:
-        last = call.horizon if isinstance(call.horizon, int) else None
-        steps = filled(call.task, steps, last, strict=call.options.strict)
     return _result(call, steps, None, baseline, baseline, opportunity=False)
 
 

@@ -79,7 +79,6 @@ class SingleEpochs:
 
     Attributes:
         units: the task in single epochs, and what it has to do with the one in time.
-        human_plan: ``pi_H``; None where there is none, or it is none of the human's.
         fault: what is wrong with the plan as the text has it, or None.
 
     Raises:
@@ -89,7 +88,7 @@ class SingleEpochs:
     def __init__(self, task: Task, result: Result, deadline: Deadline) -> None:
         self._original, self._result, self._deadline = task, result, deadline
         self.units: UnitSteps = unit_steps(task, deadline, result.options.waiting_cost)
-        self.human_plan = self._human_plan(result)
+        self._human_plan = self._plan_of(result)
         self.fault = self._mistold() or self._played()
 
     @property
@@ -102,18 +101,17 @@ class SingleEpochs:
         said = self._result
         return replace(
             said,
-            human_plan=self._human_names(said),
+            human_plan=self._names_of(said, self._human_plan),
             human_plan_times=None,
-            ties=None
-            if said.ties is None
-            else tuple(
-                replace(each, human_plan=self._human_names(each) or (), human_plan_times=None)
-                for each in said.ties
-            ),
+            ties=None if said.ties is None else tuple(map(self._tied, said.ties)),
             bystanders={},
             plan=None if said.plan is None else tuple(self._steps()),
             agent_costs=self._agent_costs(),
         )
+
+    def _tied(self, said: TiedAnswer) -> TiedAnswer:
+        names = self._names_of(said, self._plan_of(said))
+        return replace(said, human_plan=names or (), human_plan_times=None)
 
     def told(self, claim: Claim) -> Claim:
         """A claim whose counter-example is a plan of the task in time."""
@@ -131,7 +129,7 @@ class SingleEpochs:
 
     def _mistold(self) -> Violation | None:
         """What the result says of times and of bystanders, and is not so."""
-        said, plan = self._result, self.human_plan
+        said, plan = self._result, self._human_plan
         times = None if plan is None else times_of(self._original, plan)
         if None not in (times, said.human_plan_times) and said.human_plan_times != times:
             return Violation("times", "replay", "10.2", "the times of pi_H are not those of its actions")
@@ -172,14 +170,15 @@ class SingleEpochs:
         place = _TEXT, step.epoch, step.action
         if not ids:
             return _violation("unknown-action", "the task has no such action", *place)
-        if not meant_by(task, step.action, step.agents):
+        meant = meant_by(task, step.action, step.agents)
+        if not meant:
             expected = ", ".join(participants(task, ids[0]))
             words = f"its participants are {expected}, not {', '.join(step.agents) or 'nobody'}"
             return _violation("wrong-agents", words, *place)
-        action = task.actions[meant_by(task, step.action, step.agents)[0]]
-        length = action.duration
-        if step.duration != length:
-            return _violation("duration", f"it takes {length} epochs, not {step.duration}", *place)
+        action = task.actions[meant[0]]
+        if step.duration != action.duration:
+            words = f"it takes {action.duration} epochs, not {step.duration}"
+            return _violation("duration", words, *place)
         cost = price(task, action, self._result.options.discount)
         if not agrees(step.cost, cost):
             words = f"costs {float(cost):g}, the result says {step.cost:g}"
@@ -192,7 +191,7 @@ class SingleEpochs:
 
     # -- single epochs
 
-    def _human_plan(self, said: Result | TiedAnswer) -> HumanPlan | None:
+    def _plan_of(self, said: Result | TiedAnswer) -> HumanPlan | None:
         """``pi_H``; None where there is none, or it is none of the human's."""
         names, times = said.human_plan, said.human_plan_times
         try:
@@ -201,9 +200,8 @@ class SingleEpochs:
         except PlanError:
             return None
 
-    def _human_names(self, said: Result | TiedAnswer) -> tuple[str, ...] | None:
+    def _names_of(self, said: Result | TiedAnswer, plan: HumanPlan | None) -> tuple[str, ...] | None:
         """``pi_H`` by the names of single epochs; as it is where it is none of the human's."""
-        plan = self._human_plan(said)
         if plan is None:
             return said.human_plan
         return tuple(self.task.actions[i].name for i in self.units.plan(plan))

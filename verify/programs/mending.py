@@ -1,7 +1,7 @@
 """What a program's solution stands for: a plan, with an optimal plan of the human's as its suffix."""
 
 from serendipity.model import Step, Window
-from verify.base.due import filled, lasts
+from verify.base.due import filled, waited
 from verify.base.execution import State, by_epoch, states_along
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import PricedPlan, Subproblem
@@ -64,8 +64,8 @@ def best_suffix(question: Subproblem, state: State, xi2: int, plans: OptimalPlan
             known[here] = None
             here_worth = plans.worth(here)
             if here_worth is not None and here_worth[1] == 0:
-                reached = lasts(task, here, rest, question.goal.holds, strict=strict)
-                known[here] = (0, ()) if reached else None
+                end = waited(task, here, rest, strict=strict)  # the script may undo what is reached
+                known[here] = (0, ()) if end is not None and question.goal.holds(end) else None
             for i, after in plans.steps(here):
                 onward = best_from(after)
                 if onward is not None:

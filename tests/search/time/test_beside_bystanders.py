@@ -10,6 +10,7 @@ from serendipity import Task
 from serendipity.model import Condition, Options, Script
 from serendipity.testing.builders import task
 from serendipity.testing.oracle import best
+from tests.verify.edits.corpus import shop
 
 AGENTS = {"agents": "h r q", "human": "h"}
 
@@ -62,20 +63,9 @@ def test_without_a_plan_after_a_head_start_the_team_may_have_one() -> None:
 
 
 def test_what_the_script_changes_back_is_counted_among_what_help_may_wait_for() -> None:
-    """A way is blocked in epoch 2 only; the ramp that a robot lays saves the human the door at its end."""
-    built = task(
-        init="a",
-        goal="c",
-        actions={
-            "go h a b": "a !blocked -> b !a @ 2 [2]",
-            "go h b c": "b open -> c !b @ 2",
-            "ramp r": "-> ramp @ 1 [2]",
-            "jump h": "b ramp !blocked -> c !b @ 1",
-        },
-    )
-    timed = built.with_script(Script(facts=[(1, "blocked"), (2, "!blocked"), (6, "open")]))
-    assert serendipity.plan(timed, discount=0.5).cost == 3.5
-    assert best(timed, Options(discount="0.5")).cost == Fraction(7, 2)
+    """A way is blocked for a while; the ramp that a robot lays saves the human the door at its end."""
+    assert serendipity.plan(shop(), discount=0.5).cost == 3.5
+    assert best(shop(), Options(discount="0.5")).cost == Fraction(7, 2)
 
 
 def test_what_the_script_brings_costs_robots_nothing() -> None:
