@@ -173,7 +173,7 @@ class StridingPlanner(IndividualPlanner):
     def _stride(self, first: Operator) -> Stride | None:
         """An action from its first op on; None where no state allows all of it."""
         packed, script = self._packed, self._script.fields | self._script.clock
-        ops, asked = [first], list[_Condition]()
+        ops, asked = packed.chain(first), list[_Condition]()
         need_mask = need = 0
         forbidden: list[tuple[int, int]] = []
         keep, put = packed.all_ones, 0
@@ -194,8 +194,6 @@ class StridingPlanner(IndividualPlanner):
             bad = tuple((field, value) for field, value in op.forbidden if field & script)
             asked.append((op.need_mask & script, op.need & script, bad))
             keep, put = keep & op.keep, put & op.keep | op.put
-            following = packed.following(op)
-            ops += [] if following is None else [following]
         weight = sum(map(self._memory.weight, ops))
         actions = tuple(op.action for op in ops)
         return Stride(need_mask, need, tuple(forbidden), keep, put, weight, actions, tuple(_together(asked)))
@@ -255,14 +253,11 @@ class StridingPlanner(IndividualPlanner):
 
     def _freed(self, state: int) -> tuple[int, int, tuple[int, ...]] | None:
         """The state in which they have ended what they are at, what that weighs, and its ops."""
-        weight, actions = 0, tuple[int, ...]()
-        while (going_on := self._due.human(state)) is not None:
-            after = self._due.after(state, going_on[:1])
-            if after is None or not going_on:
-                return None
-            state, weight = after, weight + going_on[0].weight
-            actions += going_on[0].actions[:1]
-        return state, weight, actions
+        finished = self._due.finished(state)
+        if finished is None:
+            return None
+        state, done = finished
+        return state, sum(one.weight for one in done), tuple(one.actions[0] for one in done)
 
     def _search(self, start: int, limit: int) -> int:
         """See :class:`.IndividualPlanner`: exact below ``limit``."""

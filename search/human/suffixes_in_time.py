@@ -128,13 +128,11 @@ class SuffixInTime:
         """The points at which the suffix may begin, once the human is free; what they have paid by then."""
         if not self._packed.at_rest.holds(state):
             return []
-        paid = 0
-        while (going_on := self._due.human(state)) is not None:
-            after = self._due.after(state, going_on)
-            epochs -= 1
-            if after is None or epochs < 0:
-                return []
-            state, paid = after, paid + going_on[0].weight
+        finished = self._due.finished(state)
+        if finished is None or len(finished[1]) > epochs:
+            return []
+        state, paid = finished[0], sum(one.weight for one in finished[1])
+        epochs -= len(finished[1])
         if self._expected is None:
             return [(paid, _Rest(0, state, epochs, True))]
         first = sum(first < start for first in self._plan.starts)
@@ -194,15 +192,11 @@ class SuffixInTime:
         part = self._first[index]
         if not at.left or not applicable(self._packed.op(part.actions[0]), at.state):
             return None
-        state, left, weight, actions = (
-            self._due.after(at.state, (part,)),
-            at.left - 1,
-            part.weight,
-            part.actions,
-        )
-        while state is not None and (going_on := self._due.human(state)) is not None:
-            if not going_on or not left:
-                return None
-            weight, actions = weight + going_on[0].weight, actions + going_on[0].actions
-            state, left = self._due.after(state, going_on), left - 1
-        return None if state is None else _Way(weight, actions, _Rest(index + 1, state, left, at.skips))
+        begun = self._due.after(at.state, (part,))
+        finished = None if begun is None else self._due.finished(begun)
+        if finished is None or len(finished[1]) >= at.left:
+            return None
+        state, following = finished
+        done = (part, *following)
+        weight, actions = sum(one.weight for one in done), tuple(i for one in done for i in one.actions)
+        return _Way(weight, actions, _Rest(index + 1, state, at.left - len(done), at.skips))

@@ -33,21 +33,7 @@ class Chains:
         self._packed = packed
         self._due = {(field, value): op for field, value, op in packed.due if op.agents == packed.human_bit}
         going_on = {op.action for op in self._due.values()}
-        self.whole = tuple(self._from(op) for op in packed.own if op.action not in going_on)
-
-    def _from(self, op: Operator) -> tuple[Operator, ...]:
-        chain = [op]
-        while (
-            following := self._following(self._packed.all_ones & ~chain[-1].keep, chain[-1].put)
-        ) is not None:
-            chain.append(following)
-        return tuple(chain)
-
-    def _following(self, fields: int, state: int) -> Operator | None:
-        if not self._due:
-            return None
-        found = (self._due.get(at) for at in self._packed.assigned(fields, state))
-        return next((op for op in found if op is not None), None)
+        self.whole = tuple(packed.chain(op) for op in packed.own if op.action not in going_on)
 
     def freed(self, state: int) -> tuple[int, tuple[Operator, ...]] | None:
         """The packed state in which the human has ended what they are at, and the rest of it.
@@ -56,8 +42,9 @@ class Chains:
         """
         rest: tuple[Operator, ...] = ()
         if self._due:
-            following = self._following(self._busy, state)
-            rest = () if following is None else self._from(following)
+            begun = (self._due.get(at) for at in self._packed.assigned(self._busy, state))
+            following = next((op for op in begun if op is not None), None)
+            rest = () if following is None else self._packed.chain(following)
         for op in rest:
             if not applicable(op, state):
                 return None

@@ -86,6 +86,20 @@ class Due:
                     return state & option.keep | option.put
         return None
 
+    def finished(self, state: int) -> tuple[int, list[JointAction]] | None:
+        """The state in which the human has ended what they are at, and what they did for that, by epochs.
+
+        None where they can't go on with it.
+        """
+        done: list[JointAction] = []
+        while (going_on := self.human(state)) is not None:
+            after = self.after(state, going_on)
+            if after is None:
+                return None
+            state = after
+            done.append(going_on[0])
+        return state, done
+
     def lasting(self, state: int, epochs: int, holds: Callable[[int], bool]) -> bool:
         """Whether something holds after some epochs of waiting from a state."""
         for _ in range(epochs):

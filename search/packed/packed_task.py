@@ -184,6 +184,13 @@ class PackedTask:
         sets = self.assigned(self.all_ones & ~op.keep, op.put)
         return next((self._due_at[at] for at in sets if at in self._due_at), None)
 
+    def chain(self, op: Operator) -> tuple[Operator, ...]:
+        """An action from one of its epochs on to its last."""
+        found = [op]
+        while (following := self.following(found[-1])) is not None:
+            found.append(following)
+        return tuple(found)
+
     @cached_property
     def clock_bit(self) -> int:
         """The clock's bit in sets of agents; 0 where there is no script."""

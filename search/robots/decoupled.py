@@ -173,20 +173,15 @@ class Decoupled:
 
     def _move(self, op: Operator, place: int, facts: set[int]) -> Move | None:
         """A step of a walk from its first epoch on; None if it is none."""
-        actions, ops = self._packed.task.actions, [op]
-        state = op.need
-        while True:
-            action = actions[ops[-1].action]
+        ops, state = self._packed.chain(op), op.need
+        for part in ops:
+            action = self._packed.task.actions[part.action]
             if not facts.issuperset((*action.pre, *action.neg, *action.add, *action.delete)):
                 return None
-            state = state & ops[-1].keep | ops[-1].put
-            following = self._packed.following(ops[-1])
-            if following is None:
-                break
-            ops.append(following)
+            state = state & part.keep | part.put
         cost = sum(self._costs[part.cost] for part in ops)
         there = state & place
-        return None if there == op.need & place else Move(there, len(ops), cost, tuple(ops))
+        return None if there == op.need & place else Move(there, len(ops), cost, ops)
 
     def _deed(self, form: Signature) -> CenterAction | None:
         """None where the form leaves a place open, or asks for that of a robot that takes no part."""
