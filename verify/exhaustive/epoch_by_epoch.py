@@ -44,9 +44,6 @@ from verify.programs.mending import best_suffix, replay
 _NO_REPLAY: Final = "a plan of the exhaustive search does not replay"
 
 
-_IN_TIME: Final = "what goes on by itself is not searched for without a horizon"
-
-
 class OtherMethodError(UndecidedError):
     """A question that this method does not answer."""
 
@@ -144,7 +141,7 @@ class EpochSearch:
 
     def _run_on(self) -> Minimum:
         if self._question.task.due:
-            raise OtherMethodError(_IN_TIME)
+            raise OtherMethodError("what goes on by itself is not searched for without a horizon")
         self._most, task = self._table.far, self._question.task
         start = self._problem.pack([task.init])
         assert start is not None, "the initial state is reached"
@@ -387,11 +384,10 @@ class EpochSearch:
         """A plan, which may be better than the best so far; it is executed once more with sets of facts."""
         question = self._question
         steps = self._steps(number, row) + tuple(Step(epoch + 1 + k, i) for k, i in enumerate(suffix))
+        end = epoch + len(suffix) if self._endless else question.horizon
         if self._beside_script:
-            end = epoch + len(suffix) if self._endless else question.horizon
             steps = filled(question.task, steps, end, strict=question.options.strict)
-        last = max([epoch + len(suffix), *(step.epoch for step in steps)])
-        if replay(question.but(horizon=min(last, question.horizon)), steps) is None:
+        if replay(question.but(horizon=end), steps) is None:
             raise UndecidedError(_NO_REPLAY)
         window = self._window(number, row)
         objective, cost = question.measure(steps, window)
