@@ -12,7 +12,9 @@ Suffix = Literal["replan", "subplan"]
 Preservation = Literal["kernel", "state"]
 Interference = Literal["paper", "strict"]
 HumanModel = Literal["omniscient", "observant", "local"]
-Ties = Literal["fixed", "robust", "expected", "optimistic"]
+Ties = Literal["fixed", "robust", "expected", "optimistic", "watched"]
+PolicyRule = Literal["watching", "fixed"]
+Risk = Literal["mean", "worst", "regret"]
 
 ANYBODY: Final = "any"
 """In the place of the human's name: whoever of those with goals of their own can be helped best."""
@@ -24,6 +26,8 @@ CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "interference": get_args(Interference),
     "human_model": get_args(HumanModel),
     "ties": get_args(Ties),
+    "policy": get_args(PolicyRule),
+    "risk": get_args(Risk),
 }
 """The legal values of the options that are names; the first is the default."""
 
@@ -53,6 +57,8 @@ class AnswerOptions(InterruptionOptions, total=False):
     no_block: bool | None
     waiting_cost: Number
     head_start: int
+    policy: PolicyRule
+    risk: Risk
 
 
 class PlanOptions(AnswerOptions, total=False):

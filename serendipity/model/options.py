@@ -12,7 +12,9 @@ from serendipity.model.keywords import (
     HumanModel,
     Interference,
     Mode,
+    PolicyRule,
     Preservation,
+    Risk,
     Suffix,
     Ties,
 )
@@ -35,11 +37,11 @@ MAX_TIES: Final = 1_000_000_000
 _FLAGS: Final = {"keep_prefix": (True, False), "no_block": (True, False, None)}
 _LIMITS: Final = {"time_limit": "seconds", "memory_limit": "MiB"}
 
-_LATER: Final = ("memory_limit", "strategies", "waiting_cost", "head_start")
+_LATER: Final = ("memory_limit", "strategies", "waiting_cost", "head_start", "policy", "risk")
 """Options that results of the first versions do without."""
 
-_IN_TIME: Final = ("waiting_cost", "head_start")
-"""Options that are written down only where they are in force."""
+_SELDOM: Final = {"waiting_cost": 0, "head_start": 0, "policy": "watching", "risk": "mean"}
+"""Options that are written down only where they are not the default, which this is."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -61,10 +63,12 @@ class Options:
         communication_weight: cost per unit of the human's actions that are not in pi_H.
         keep_prefix: the paper's second (7b), in communication mode.
         human_model: what the human does (semantics 6).
-        ties: over the human's optimal plans (semantics 1), or over their choices (semantics 7).
+        ties: over the human's optimal plans (semantics 1, 11), or over their choices (semantics 7).
         max_ties: the most optimal human plans that are enumerated, at most :data:`MAX_TIES`.
         waiting_cost: of an epoch in which the human waits before their last action (semantics 10.2).
         head_start: epochs of waiting before the human's plan (semantics 10.2).
+        policy: whether robots act on what they see the human do, or commit themselves (semantics 11).
+        risk: what is minimised over scenarios (semantics 11).
         no_block: whether robots may leave the human without a plan; None for the default
             of the mode (forbidden under a human model, allowed in assistance).
         time_limit: seconds, or None.
@@ -93,6 +97,8 @@ class Options:
     no_block: bool | None = None
     waiting_cost: Fraction = field(default=Fraction(0))
     head_start: int = 0
+    policy: PolicyRule = "watching"
+    risk: Risk = "mean"
     time_limit: float | None = None
     memory_limit: float | None = None
     strategies: str | None = None
@@ -138,6 +144,11 @@ class Options:
                 f"human_model: '{self.human_model}' is for serendipity mode only, not for {self.mode}"
             )
 
+        if self.mode != "serendipity":
+            for name, value in {"ties": "watched", "policy": "fixed"}.items():
+                if getattr(self, name) == value:
+                    raise UsageError(f"{name}: '{value}' is for serendipity mode only, not for {self.mode}")
+
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)
 
@@ -165,7 +176,7 @@ class Options:
     def to_dict(self) -> dict[str, Any]:
         """JSON form: every option in force; numbers as floats, or as exact texts where no float is exact."""
         given = {f.name: _plain(getattr(self, f.name)) for f in fields(self)}
-        return {name: value for name, value in given.items() if value or name not in _IN_TIME}
+        return {name: value for name, value in given.items() if value != _SELDOM.get(name, ...)}
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> "Options":

@@ -30,6 +30,8 @@ _TEXTS: Final[Mapping[str, tuple[str, str]]] = {
     "max_ties": ("The most of those plans that are tried.", "N"),
     "waiting_cost": ("Cost of each epoch in which the human waits before their last action.", "W"),
     "head_start": ("Epochs of waiting before the human's plan (semantics 10.2).", "N"),
+    "policy": ("Over several goals or plans: whether robots watch, or commit themselves.", ""),
+    "risk": ("What is minimised over several goals or plans.", ""),
     "strategies": (
         "Search with these strategies only, or with all but some; -v tells what came of each.",
         "NAME,-NAME",
@@ -65,7 +67,7 @@ _OTHERS: Final[Mapping[str, Any]] = {
 _ALL: Final = (
     *("mode", "discount", "horizon", "human_plan", "window_weight", "max_window", "suffix", "preservation"),
     *("interference", "max_cost", "communication_weight", "keep_prefix", "human_model", "ties", "max_ties"),
-    *("no_block", "waiting_cost", "head_start", "strategies"),
+    *("no_block", "waiting_cost", "head_start", "policy", "risk", "strategies"),
 )
 """In the order of help."""
 
@@ -73,7 +75,7 @@ WINDOWS: Final = tuple(name for name in _ALL if name in (*InterruptionOptions.__
 """What makes a difference to windows."""
 EXPLAINED: Final = _ALL[: _ALL.index("keep_prefix")]
 """What can be explained."""
-_UNKNOWN: Final = ("human_model", "no_block", "waiting_cost", "head_start", "strategies")
+_UNKNOWN: Final = ("human_model", "no_block", "waiting_cost", "head_start", "policy", "risk", "strategies")
 PROGRAMS: Final = tuple(name for name in _ALL if name not in _UNKNOWN)
 """What integer programs know."""
 
