@@ -135,14 +135,11 @@ def _candidate(entry: FileItem, number: int, ids: Mapping[str, int], file: objec
     unknown = sorted(str(key) for key in item.keys() - {"name", "goal", "prior"})
     if unknown:
         raise wrong(f"unknown field '{unknown[0]}': expected name, goal and prior")
-    literals = item.get("goal")
-    if not isinstance(literals, list | tuple) or not all(isinstance(text, str) for text in literals):
-        raise wrong(f"goal: expected a list of facts, got {literals!r}")
-    signed = [_literal(text) for text in literals]
-    for fact, _ in signed:
-        if fact not in ids:
-            raise wrong(no_fact(fact, ids))
-    name = item.get("name", ", ".join(_shown(*pair) for pair in signed))
+    try:
+        literals, goal = literals_of(item.get("goal"), ids)
+    except InputError as error:
+        raise wrong(error.message) from None
+    name = item.get("name", ", ".join(literals))
     if not isinstance(name, str):
         raise wrong(f"name: expected a text, got {name!r}")
     try:
@@ -151,11 +148,30 @@ def _candidate(entry: FileItem, number: int, ids: Mapping[str, int], file: objec
         raise wrong(str(error)) from None
     if prior < 0:
         raise wrong(f"prior: expected a number of at least 0, got {item['prior']}")
+    return CandidateGoal(name, literals, goal, prior)
+
+
+def literals_of(given: Any, ids: Mapping[str, int]) -> tuple[tuple[str, ...], Condition]:
+    """The literals of a goal as they are shown, and what they ask for.
+
+    Args:
+        given: the list of them that a file or a caller has.
+        ids: of the facts, by name.
+
+    Raises:
+        InputError: it is no list of texts, or there is no such fact.
+    """
+    if not isinstance(given, list | tuple) or not all(isinstance(text, str) for text in given):
+        raise InputError(f"goal: expected a list of facts, got {given!r}")
+    signed = [_literal(text) for text in given]
+    for fact, _ in signed:
+        if fact not in ids:
+            raise InputError(no_fact(fact, ids))
     goal = Condition(
         tuple(sorted({ids[fact] for fact, wanted in signed if wanted})),
         tuple(sorted({ids[fact] for fact, wanted in signed if not wanted})),
     )
-    return CandidateGoal(name, tuple(_shown(*pair) for pair in signed), goal, prior)
+    return tuple(_shown(*pair) for pair in signed), goal
 
 
 def _literal(text: str) -> tuple[str, bool]:
