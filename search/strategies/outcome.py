@@ -99,7 +99,7 @@ def _outcome(call: Call, status: Status) -> Answer:
         human_plan=call.plan,
         horizon=call.horizon,
         reason=_reason(call, status),
-        steps=_steps(call, answer) if has_plan else None,
+        steps=steps_of(call, answer) if has_plan else None,
         window=Window(answer.node.start, answer.end) if answer.node and answer.end and has_plan else None,
         cost=cost,
         objective=keys.objective(answer.key) if has_plan else None,
@@ -135,7 +135,8 @@ def _lower_bound(call: Call, status: Status, answer: Incumbent) -> Fraction | No
     return max(bound, Fraction(0))
 
 
-def _steps(call: Call, answer: Incumbent) -> tuple[Step, ...]:
+def steps_of(call: Call, answer: Incumbent) -> tuple[Step, ...]:
+    """What everybody does in a plan of the call."""
     if answer.node is None:
         return plan_steps(call.plan or ())
     if call.epochs is None and not call.context.packed.in_time:

@@ -141,19 +141,49 @@ def solve(
         yield Answer("unknown", reason=limit_reason(limit))
         return
     call = Call(context, human_plan, warm or WarmStart(), optimum)
+    for _ in _improved(call, chosen_ones, predicts=predicts):
+        yield answer_of(call)
+    yield answer_of(call)
+
+
+def best_plan(
+    prepared: PreparedTask,
+    options: Options,
+    human_plan: HumanPlan,
+    deadline: Deadline,
+    turns: Sequence[Turn] = TURNS,
+) -> Call | None:
+    """A call at its end: its best plan counts, be it an opportunity or not; None where it could not begin.
+
+    Args:
+        prepared: the task.
+        options: options in force.
+        human_plan: ``pi_H``, which works.
+        deadline: deadline and cancellation.
+        turns: those that may be taken; of these, those that the options name.
+    """
+    try:
+        call = Call(SearchContext(prepared, options, deadline), human_plan, WarmStart())
+    except LIMITS:
+        return None
+    for _ in _improved(call, chosen(options.strategy_names, turns), predicts=True):
+        pass
+    return call
+
+
+def _improved(call: Call, turns: Sequence[Turn], *, predicts: bool) -> Iterator[None]:
+    """Take the turns of a call; yield whenever more is known, but at the end."""
     try:
         begin(call, predicts=predicts)
-        for turn in chosen_ones:
+        for turn in turns:
             if _is_due(call, turn.stage) and turn.applies(call):
-                for _ in _taken(call, turn):
-                    yield answer_of(call)
+                yield from _taken(call, turn)
         if not call.is_done and not call.is_settled:
             call.limit = "strategies"  # those that were chosen are not enough
     except LIMITS as limit:
         call.limit = limit_reason(limit)
         _go_on_beside_first_plan(call)
     call.is_over = True
-    yield answer_of(call)
 
 
 def _is_due(call: Call, stage: CallStage) -> bool:

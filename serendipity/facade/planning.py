@@ -5,7 +5,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Literal, Unpack
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Final, Literal, Unpack
 
 from search import PreparedTask
 from serendipity.facade import one_plan, ties
@@ -25,7 +26,12 @@ from serendipity.model.task.gate import needs_time, refuse_time
 from serendipity.model.task.plans import PlanEntry, checked_entries
 
 if TYPE_CHECKING:
-    from serendipity.recognition import GoalsGiven, ObservedGiven
+    from serendipity.facade.scenarios import Unsure
+    from serendipity.recognition import GoalsGiven, LibraryGiven, ObservedGiven
+
+
+_UNSURE: Final = ("goals", "observed", "beta", "plans")
+"""Arguments of those who don't know what the human will do."""
 
 
 class AnytimeOptions(PlanOptions, total=False):
@@ -41,6 +47,7 @@ class SessionOptions(AnytimeOptions, total=False):
     goals: "GoalsGiven | None"
     observed: "ObservedGiven"
     beta: Number
+    plans: "LibraryGiven | None"
     on_improvement: Callable[[Result], None] | None
 
 
@@ -56,6 +63,7 @@ def plan(
     goals: "GoalsGiven | None" = None,
     observed: "ObservedGiven" = (),
     beta: Number = 1,
+    plans: "LibraryGiven | None" = None,
     on_improvement: Callable[[Result], None] | None = None,
     **options: Unpack[PlanOptions],
 ) -> Result:
@@ -73,9 +81,11 @@ def plan(
         deadline: one that other work shares, such as loading the task; it holds beside
             ``time_limit`` and ``memory_limit``, which are of this call alone.
         goals: goals that the human may have, instead of the task's, as :func:`recognise` takes
-            them: the least expected cost over their posterior is wanted (semantics 8).
+            them; each is a scenario with its posterior (semantics 8, 11).
         observed: what they have done from the initial state on, for the posterior.
         beta: of the posterior.
+        plans: plans that the human may follow, with their probabilities, as :func:`learn` writes them
+            (semantics 11).
         on_improvement: called with the first answer that has a plan, and with each better one, while the
             call goes on; its time counts, too.  What it raises ends the call, and comes out of it.
         **options: fields of :class:`serendipity.model.Options`, ``mode="serendipity"``,
@@ -92,14 +102,15 @@ def plan(
         "goals": goals,
         "observed": observed,
         "beta": beta,
+        "plans": plans,
         "on_improvement": on_improvement,
         **options,
     }
     if human is not None:
         if human != "any":
             raise UsageError(f"human: expected 'any', got {human!r:.50}; another one has Task.with_human")
-        if human_plan is not None or goals is not None:
-            raise UsageError("human: 'any' goes without human_plan and goals")
+        if human_plan is not None or goals is not None or plans is not None:
+            raise UsageError("human: 'any' goes without human_plan, goals and plans")
         from serendipity.facade.bystanders import best_for_anybody  # it asks this very function
 
         return best_for_anybody(task, cancelled, **asked).result
@@ -122,10 +133,10 @@ def planned(
 ) -> Result:
     """:func:`plan` for those who hold a prepared task, and may remember answers."""
     on_improvement = asked.pop("on_improvement", None)
-    goals = asked.pop("goals", None), asked.pop("observed", ()), asked.pop("beta", 1)
+    unsure: dict[str, Any] = {name: asked.pop(name) for name in _UNSURE if name in asked}
     expect_or_none(FUNCTION, on_improvement=on_improvement)
     with no_collection():  # beside a large task a collection takes longer than a short deadline
-        call, answers = _begun(prepared, given, cancelled, memory, asked, *goals)
+        call, answers = _begun(prepared, given, cancelled, memory, asked, unsure)
         if on_improvement is None:
             *_, last = answers
             return _with_strategies_recorded(_result(call, last))
@@ -181,39 +192,56 @@ def _begun(
     cancelled: threading.Event | None,
     memory: SessionMemory | None,
     asked: Mapping[str, Any],
-    goals: "GoalsGiven | None" = None,
-    observed: "ObservedGiven" = (),
-    beta: Number = 1,
+    said: Mapping[str, Any] = MappingProxyType({}),
 ) -> tuple[Request, Iterator[Answer]]:
     """A call whose time has started, and its answers as they get better."""
     options = {**asked}
     visible, deadline = options.pop("visible", None), options.pop("deadline", None)
     expect_or_none(FUNCTION, visible=visible)
-    if goals is not None and given is not None:
-        raise UsageError("human_plan: with goals, the human's plans are predicted; give observed instead")
     chosen = options_from(options)
-    if goals is not None and chosen.mode != "serendipity":
-        raise UsageError(f"goals: are for mode 'serendipity' only, not for '{chosen.mode}'")
     solver = _solver(chosen)
-    if goals is not None:
-        # Loaded only here, before time counts: calls with a known goal do not need it.
-        from serendipity.facade.unknown_goals import asked_about, settled
+    unsure = _unsure(chosen, given, said)
     call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
     if memory is not None:
-        about = None if goals is None else asked_about(call.task, goals, observed, beta)
+        about = None
+        if unsure is not None:
+            from serendipity.facade.scenarios import asked_about
+
+            about = asked_about(call.task, unsure)
         plan = None if call.given is None else tuple(call.task.actions[i].name for i in call.given)
         call = replace(call, question=memory.question(chosen, visible, about, plan))
     if call.known is not None:
         return call, iter((call.known,))
     if needs_time(call.task, options=chosen, plan=call.given):
-        if goals is not None:
-            raise UsageError("goals: are not planned for where actions take time")
+        if unsure is not None:
+            raise UsageError("goals, plans: are not planned for where actions take time")
         if memory is not None:
             refuse_time(options=chosen, plan=call.given)
         return call, answers_in_time(call, solver)
-    if goals is not None:
-        call, solver = settled(call, goals, observed, beta)
+    if unsure is not None:
+        from serendipity.facade.scenarios import settled
+
+        call, solver = settled(call, unsure)
     return call, solver(call)
+
+
+def _unsure(options: Options, given: Given, said: Mapping[str, Any]) -> "Unsure | None":
+    """What is said of a human whose plan is not known; None where it is.
+
+    What answers such calls is loaded here, before time counts, and only for them.
+    """
+    named = next((name for name in ("goals", "plans") if said.get(name) is not None), None)
+    if named is None and (options.ties != "watched" or given is not None):
+        return None
+    if named is not None and given is not None:
+        raise UsageError(f"human_plan: with {named}, it is not known; give observed instead")
+    if said.get("goals") is not None and said.get("plans") is not None:
+        raise UsageError("plans: go without goals, each plan can name its own")
+    if named is not None and options.mode != "serendipity":
+        raise UsageError(f"{named}: are for mode 'serendipity' only, not for '{options.mode}'")
+    from serendipity.facade.scenarios import Unsure
+
+    return Unsure(**said)
 
 
 def _solver(options: Options) -> Solver:

@@ -8,7 +8,7 @@ from typing import Final
 from search import FirstAnswer, PlanGraph, first_answer, least_over_ties, optimal_human_plans
 from serendipity.facade import one_plan
 from serendipity.facade.call import Request
-from serendipity.model import Deadline, HumanPlan, UsageError
+from serendipity.model import Deadline, HumanPlan, Options, UsageError
 from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.errors import LIMITS, limit_reason
 
@@ -79,11 +79,7 @@ def _beside_all(call: Request, known: FirstAnswer, graph: PlanGraph) -> Answer:
     """The task solved once for each optimal ``pi_H``, as long as that makes a difference."""
     options = call.options
     count = graph.count()
-    if count > options.max_ties:
-        raise UsageError(
-            f"max_ties: the human has {count} optimal plans, more than {options.max_ties}; "
-            "raise max_ties, or use ties 'fixed'"
-        )
+    require_few(count, options)
     bounded = not call.task.robot_goal
     found = list(
         until_settled(
@@ -102,6 +98,19 @@ def _beside_all(call: Request, known: FirstAnswer, graph: PlanGraph) -> Answer:
     elif answer.status == "feasible":
         answer = answer._replace(lower_bound=max(known.least, answer.lower_bound or Fraction(0)))
     return answer._replace(optimal_plans=count)
+
+
+def require_few(count: int, options: Options) -> None:
+    """Check that the human has no more optimal plans than may be tried.
+
+    Raises:
+        UsageError: they have.
+    """
+    if count > options.max_ties:
+        raise UsageError(
+            f"max_ties: the human has {count} optimal plans, more than {options.max_ties}; "
+            "raise max_ties, or use ties 'fixed'"
+        )
 
 
 def beside_each(call: Request, plans: Sequence[HumanPlan], ties: str) -> Answer:

@@ -104,6 +104,11 @@ def _explanation(
     one goes on as observed.  Plans that don't embed all of them cost no more than those that don't embed
     those before, and as much where these are as cheap as any.
     """
+    if not observed:  # their optimum, which the human's own searches know best
+        found = SearchContext(prepared, Options(), deadline).canonical_plan()
+        if found is None:
+            return Likelihood(None, None, None)
+        return Likelihood(prepared.task.cost_of(found.actions), None, found.actions)
     if earlier is None:
         search = _ObservedSearch(prepared, observed, deadline)
         known, plan = search.embedding(canonical=canonical)

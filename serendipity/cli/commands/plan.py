@@ -141,7 +141,7 @@ def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str
             "verify.policy",
         ]
     if goals is not None:
-        modules.append("serendipity.facade.unknown_goals")
+        modules.append("serendipity.facade.scenarios")
     modules += limits.PLANNING
     return [*modules, "verify.certificate.certify", *limits.CHECKING] if certify else modules
 

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from hypothesis import strategies as st
 
-from search.modes.goals import Candidate
+from search.modes.scenarios import Candidate
 from serendipity.model import Condition, Task
 from serendipity.testing.oracle import optimal_human_plan
 from serendipity.testing.strategies import tasks

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import serendipity
-from search.modes.goals import Candidate
+from search.modes.scenarios import Candidate
 from serendipity.model import Certificate, Condition, Deadline, InputError, Options, Result, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle.goals import best_expected, robots_sets

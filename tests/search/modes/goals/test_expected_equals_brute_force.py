@@ -3,15 +3,13 @@
 from dataclasses import replace
 from fractions import Fraction
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import serendipity
 from search import PreparedTask
 from search.engine.paths import plan_steps
-from search.modes.goals import Candidate, solve_expected
-from search.modes.goals.planner import _SequenceSearch
+from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.model import Condition, GroundAction, Options, PlanStep, Result, Task
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.testing.oracle import optimal_human_plan
@@ -32,11 +30,10 @@ _OPTIONS = st.builds(
 )
 
 
-@pytest.fixture
-def unguided(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The search without what the answers for single goals tell it."""
-    monkeypatch.setattr(_SequenceSearch, "_floor", lambda *_: (0, 0))
-    monkeypatch.setattr(_SequenceSearch, "_own_actions", lambda *_: {})
+def solve_expected(prepared: PreparedTask, options: Options, candidates: list[Candidate]) -> Answer:
+    """The answer of robots that commit themselves."""
+    *_, answer = solve_scenarios(prepared, options.but(policy="fixed"), candidates)
+    return answer
 
 
 @given(rivals(), _OPTIONS)
@@ -130,40 +127,17 @@ def test_one_goal_is_section_3(call: Call) -> None:
         assert got == expected
 
 
-@pytest.mark.usefixtures("unguided")
-def test_the_search_by_itself_is_section_3_with_one_goal() -> None:
-    @given(calls(modes=("serendipity",), ties=False))
-    def law(call: Call) -> None:
-        task, options = replace(call.task, robot_goal=Condition()), call.options.but(max_cost=None)
-        plan = call.human_plan or optimal_human_plan(task)
-        if plan is None:
-            return
-        one = solve_expected(PreparedTask(task), options, [Candidate(task.goal, plan, Fraction(1))])
-        names = [task.actions[i].name for i in plan]
-        known = serendipity.plan(task, human_plan=names, **options.to_dict())
-        assert (float(one.cost), one.opportunity) == (known.cost, known.opportunity)
-        assert float(one.objective) == known.objective
-
-    law()
-
-
-@pytest.mark.usefixtures("unguided")
-def test_the_answers_for_single_goals_only_save_time() -> None:
-    @given(rivals(), _OPTIONS)
-    @settings(max_examples=12)
-    def law(rivalry: tuple[Task, list[Candidate]], options: Options) -> None:
-        task, candidates = rivalry
-        unguided = solve_expected(PreparedTask(task), options, candidates)
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(_SequenceSearch, "_floor", _FLOOR)
-            patch.setattr(_SequenceSearch, "_own_actions", _OWN_ACTIONS)
-            guided = solve_expected(PreparedTask(task), options, candidates)
-        assert (guided.objective, guided.cost) == (unguided.objective, unguided.cost)
-
-    law()
-
-
-_FLOOR, _OWN_ACTIONS = _SequenceSearch._floor, _SequenceSearch._own_actions
+@given(calls(modes=("serendipity",), ties=False))
+def test_the_search_by_itself_is_section_3_with_one_goal(call: Call) -> None:
+    task, options = replace(call.task, robot_goal=Condition()), call.options.but(max_cost=None)
+    plan = call.human_plan or optimal_human_plan(task)
+    if plan is None:
+        return
+    one = solve_expected(PreparedTask(task), options, [Candidate(task.goal, plan, Fraction(1))])
+    names = [task.actions[i].name for i in plan]
+    known = serendipity.plan(task, human_plan=names, **options.to_dict())
+    assert (float(one.cost), one.opportunity) == (known.cost, known.opportunity)
+    assert float(one.objective) == known.objective
 
 
 def _without_robots(task: Task) -> tuple[GroundAction, ...]:

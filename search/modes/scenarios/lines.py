@@ -1,0 +1,219 @@
+"""What one scenario may do in an epoch beside robots: rules 1 to 3 of semantics 3.1 (semantics 11)."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from search.call.context import SearchContext
+from search.modes.scenarios.measure import INFINITE_WORTH, Member, Worths
+from search.modes.scenarios.remainder import Certain, Remainder, Scenario
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.joint_actions import NOTHING, JointAction, as_option, together
+from search.packed.operators import applicable
+from search.packed.successor_generator import Successors
+from search.spaces.factory import suffix_rule
+from serendipity.model.resources.deadline import Deadline
+
+FOLLOWING, INSIDE, OVER = range(3)
+"""Phases: before a window, or without any; in it; after it."""
+
+
+class Way(NamedTuple):
+    """What a scenario does in an epoch.
+
+    Attributes:
+        part: the human's, joint actions included.
+        paid: what the epoch is worth.
+        after: the scenario after it.
+        opens: whether the window opens with it.
+    """
+
+    part: JointAction
+    paid: int
+    after: Member
+    opens: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Guide:
+    """A plan for one scenario that says what is done while others are possible, too.
+
+    Attributes:
+        scenario: its number.
+        epoch: the number of epochs that were over when it was made.
+        remainder: the plan, counted from there.
+        phase: of the window at that time.
+        context: of the scenario's call.
+    """
+
+    scenario: int
+    epoch: int
+    remainder: Remainder
+    phase: int
+    context: SearchContext
+
+    def at(self, epoch: int) -> tuple[JointAction, tuple[int, ...], int]:
+        """What robots do by themselves in an epoch, what the human does, and the phase after it."""
+        now, packed = epoch - self.epoch, self.context.packed
+        ops = [packed.op(step.action) for step in self.remainder.steps if step.epoch == now]
+        robots = NOTHING
+        for op in ops:
+            if not op.agents & packed.human_bit:
+                robots = together(robots, as_option(op, self.context.weights.team(op)))
+        part = tuple(op.action for op in ops if op.agents & packed.human_bit)
+        window = self.remainder.window
+        if window is None or now < window.start:
+            return robots, part, self.phase
+        return robots, part, INSIDE if now + 1 < window.end else OVER
+
+
+class Line:
+    """The epochs of one scenario.
+
+    Args:
+        scenario: the scenario.
+        number: its number.
+        acting: what agents can do.
+        worths: worths of keys.
+    """
+
+    def __init__(self, scenario: Scenario, number: int, acting: Successors, worths: Worths) -> None:
+        context, options = scenario.context, scenario.context.options
+        self.certain = Certain(scenario, worths)
+        self.number = number
+        self._acting = acting
+        self._fits = acting.due.fits
+        self._worths = worths
+        self._context = context
+        self._steps = context.followed(scenario.plan)
+        self._suffix = suffix_rule(context, scenario.plan)
+        self._horizon = scenario.horizon
+        self._max_window = options.max_window or scenario.horizon
+        self._tells_starts = options.preservation == "state" or self._max_window < scenario.horizon
+
+    def first(self) -> Member:
+        """Before the first epoch."""
+        return Member(self.number, self._context.packed.init, FOLLOWING, 0, (), 0)
+
+    # -- what may happen
+
+    def ways(self, at: Member, epoch: int, robots: JointAction) -> Iterator[Way]:
+        """What may happen in an epoch, counted from 1, in which robots do so much by themselves."""
+        if at.phase == OVER:
+            yield from self._end(at, robots)
+            return
+        if at.phase == FOLLOWING:
+            part = self._planned(at.state, epoch)
+            if part is not None and self._fits(part, robots):
+                paid, state = self._together(at, part, robots)
+                yield Way(part, paid, at._replace(state=state), False)
+            if epoch > len(self._steps):
+                return
+        opens = at.phase == FOLLOWING
+        start = epoch if opens and self._tells_starts else at.start
+        for part in (NOTHING, *self._acting.human(at.state), *self._acting.joint(at.state)):
+            if self._fits(part, robots):
+                yield from self._within(at._replace(start=start, phase=INSIDE), epoch, part, robots, opens)
+
+    def _planned(self, state: int, epoch: int) -> JointAction | None:
+        """Rule 1; beyond the end of their plan they wait."""
+        if epoch > len(self._steps):
+            return NOTHING
+        op, part = self._steps[epoch - 1]
+        return part if applicable(op, state) else None
+
+    def _end(self, at: Member, robots: JointAction) -> Iterator[Way]:
+        if robots.actions:
+            return
+        part = NOTHING
+        if at.tail:
+            ((op, part),) = self._context.followed(at.tail[:1])
+            if not applicable(op, at.state):
+                return
+        paid, state = self._together(at, part, robots)
+        yield Way(part, paid, at._replace(state=state, tail=at.tail[1:]), False)
+
+    def _within(
+        self, at: Member, epoch: int, part: JointAction, robots: JointAction, opens: bool
+    ) -> Iterator[Way]:
+        """Rules 2 and 3: the window goes on after the epoch, or is over."""
+        paid, state = self._together(at, part, robots)
+        paid += self._worths.epoch
+        start = at.start or epoch
+        if self._suffix.key(state, self._horizon - epoch, start, INFINITE_KEY) < INFINITE_KEY:
+            tail = self._suffix.actions(state, self._horizon - epoch, start)
+            yield Way(part, paid, Member(self.number, state, OVER, 0, tail, at.ahead), opens)
+        if epoch < self._horizon and (not at.start or epoch - at.start + 1 < self._max_window):
+            yield Way(part, paid, at._replace(state=state), opens)
+
+    def _together(self, at: Member, part: JointAction, robots: JointAction) -> tuple[int, int]:
+        state = at.state & part.keep & robots.keep | part.put | robots.put
+        return self._worths.of_key(part.weight + robots.weight), state
+
+    def possible(self, robots: JointAction, state: int) -> bool:
+        """Whether what robots do by themselves is applicable."""
+        return all(applicable(self._context.packed.op(action), state) for action in robots.actions)
+
+    # -- what is left
+
+    def guide(self, at: Member, epoch: int, deadline: Deadline) -> Guide | None:
+        """The best plan known for what is left, if this is what the human does for certain."""
+        found = self.certain.remainder(at.state, epoch, _start(at, epoch), deadline)
+        if found.worth >= INFINITE_WORTH:
+            return None
+        return Guide(self.number, epoch, found, at.phase, self._context)
+
+    def floor(self, at: Member, epoch: int) -> int:
+        """A bound on what is left to pay after an epoch, where it was asked for; else 0."""
+        found = self.rest(at, epoch) if at.phase != OVER else None
+        return 0 if found is None else found.least
+
+    def least(self, at: Member, epoch: int) -> int:
+        """A bound that is had at once on what is left to pay after an epoch."""
+        if at.phase == OVER:
+            return sum(self._worths.of_key(part.weight) for _, part in self._context.followed(at.tail))
+        known = self.certain.known(at.state, epoch, _start(at, epoch))
+        if known is not None:
+            return known.least
+        if epoch == self._horizon:
+            done = at.phase == FOLLOWING and self._context.packed.goal.holds(at.state)
+            return self._worths.epoch if done else INFINITE_WORTH
+        rest = self._worths.of_key(self._context.bound(at.state))
+        return min(rest + self._worths.epoch, INFINITE_WORTH)
+
+    def left_alone(self, at: Member, epoch: int) -> tuple[int, ...]:
+        """What the human does after an epoch if nobody helps: their suffix, or the rest of their plan."""
+        return at.tail if at.phase == OVER else tuple(op.action for op, _ in self._steps[epoch:])
+
+    def is_own(self, action: int) -> bool:
+        """Whether the human takes part in an action."""
+        packed = self._context.packed
+        return bool(packed.op(action).agents & packed.human_bit)
+
+    def rest(self, at: Member, epoch: int) -> Remainder | None:
+        """What is left of a scenario that goes on for certain, as it was found; None where it was not."""
+        return self.certain.known(at.state, epoch, _start(at, epoch))
+
+    def known(self, deadline: Deadline) -> tuple[int, int]:
+        """Bound and worth of the whole, if this is what the human does for certain."""
+        return self.certainly(self.first(), 0, deadline)
+
+    def learn(self, at: Member, epoch: int, way: Way) -> None:
+        """Note what is left after an epoch in which the best plan known was followed."""
+        before = self.rest(at, epoch - 1)
+        if before is not None and way.after.phase != OVER:
+            after = way.after
+            self.certain.learn(after.state, epoch, _start(after, epoch), before.after(way.paid))
+
+    def certainly(self, at: Member, epoch: int, deadline: Deadline) -> tuple[int, int]:
+        """Bound and worth of what is left, if this is what the human does for certain."""
+        if at.phase == OVER or epoch == self._horizon:
+            rest = self.least(at, epoch)
+            return rest, rest
+        found = self.certain.remainder(at.state, epoch, _start(at, epoch), deadline)
+        return found.least, found.worth
+
+
+def _start(at: Member, epoch: int) -> int:
+    """``xi1`` of an open window, any where it does not matter; 0 before it."""
+    return 0 if at.phase == FOLLOWING else at.start or epoch

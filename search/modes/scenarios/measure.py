@@ -1,0 +1,138 @@
+"""What a policy is worth over scenarios: the mean, the worst, or the greatest regret (semantics 11).
+
+The worth of one scenario is its objective, then its cost, in one int: adding worths adds both, and
+comparing them compares objectives first.
+"""
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from math import lcm
+from typing import Final, NamedTuple, Protocol
+
+from search.packed.cost_vector import INFINITE_KEY, CostLayout
+
+INFINITE_WORTH: Final = 1 << (1 << 16)
+"""No plan: above every worth."""
+
+
+class Member(NamedTuple):
+    """A scenario that the robots hold possible, as far as it has come.
+
+    Attributes:
+        scenario: its number.
+        state: packed.
+        phase: of its window.
+        start: ``xi1``, where that still matters, else 0.
+        tail: what is left of the suffix.
+        ahead: what it has cost more than that of its group which has cost the least; 0 for the mean.
+    """
+
+    scenario: int
+    state: int
+    phase: int
+    start: int
+    tail: tuple[int, ...]
+    ahead: int
+
+
+class Worths:
+    """Worths of one scenario as ints.
+
+    Args:
+        keys: layout of the keys of a call.
+        scale: the least common denominator of probabilities.
+
+    Attributes:
+        scale: of these.
+        epoch: what an epoch of window adds.
+    """
+
+    def __init__(self, keys: CostLayout, scale: int) -> None:
+        self._keys = keys
+        self._bits = keys.cost_bits + 64 + scale.bit_length()
+        self.scale = scale
+        self.epoch = self.of_key(keys.epoch_weight)
+
+    def of_key(self, key: int) -> int:
+        """The worth of a key, or a bound on it."""
+        if key >= INFINITE_KEY:
+            return INFINITE_WORTH
+        return (key >> self._keys.objective_shift << self._bits) + self._keys.scaled_cost(key)
+
+    def figures(self, value: int, parts: int) -> tuple[Fraction, Fraction]:
+        """Objective and cost of a value, which counts so many parts of worths."""
+        objective = value + (1 << self._bits - 1) >> self._bits  # a cost may be a difference, below 0
+        cost, unit = value - (objective << self._bits), parts * self._keys.scale
+        return Fraction(objective, unit), Fraction(cost, unit)
+
+
+class Measure(Protocol):
+    """How worths of scenarios make one number.
+
+    Attributes:
+        parts: of a worth that one of these numbers counts.
+    """
+
+    parts: int
+
+    def value(self, members: Sequence[Member], rests: Sequence[int]) -> int:
+        """Of a group of which each scenario has so much left to pay."""
+
+    def pay(self, members: Sequence[Member], paid: Sequence[int]) -> tuple[int, tuple[Member, ...]]:
+        """What each of a group pays in an epoch: what that adds to its value, and the group after it."""
+
+    def together(self, values: Iterable[int]) -> int:
+        """Of groups that were one before."""
+
+
+class Mean:
+    """The mean of worths.
+
+    Args:
+        probabilities: of the scenarios; they add up to 1.
+    """
+
+    def __init__(self, probabilities: Sequence[Fraction]) -> None:
+        self.parts = lcm(*(p.denominator for p in probabilities))
+        self._shares = [int(p * self.parts) for p in probabilities]
+
+    def value(self, members: Sequence[Member], rests: Sequence[int]) -> int:
+        """See :class:`Measure`."""
+        if max(rests) >= INFINITE_WORTH:
+            return INFINITE_WORTH
+        return sum(self._shares[m.scenario] * rest for m, rest in zip(members, rests, strict=True))
+
+    def pay(self, members: Sequence[Member], paid: Sequence[int]) -> tuple[int, tuple[Member, ...]]:
+        """See :class:`Measure`."""
+        return self.value(members, paid), tuple(members)
+
+    def together(self, values: Iterable[int]) -> int:
+        """See :class:`Measure`."""
+        return min(sum(values), INFINITE_WORTH)
+
+
+class Greatest:
+    """The greatest of worths; members begin with what they are ahead of each other."""
+
+    parts = 1
+
+    def value(self, members: Sequence[Member], rests: Sequence[int]) -> int:
+        """See :class:`Measure`."""
+        if max(rests) >= INFINITE_WORTH:
+            return INFINITE_WORTH
+        return max(m.ahead + rest for m, rest in zip(members, rests, strict=True))
+
+    def pay(self, members: Sequence[Member], paid: Sequence[int]) -> tuple[int, tuple[Member, ...]]:
+        """See :class:`Measure`."""
+        ahead = [m.ahead + amount for m, amount in zip(members, paid, strict=True)]
+        least = min(ahead)
+        return least, tuple(m._replace(ahead=a - least) for m, a in zip(members, ahead, strict=True))
+
+    def together(self, values: Iterable[int]) -> int:
+        """See :class:`Measure`."""
+        return max(values)
+
+
+def measure_of(risk: str, probabilities: Sequence[Fraction]) -> Measure:
+    """The measure that a risk asks for."""
+    return Mean(probabilities) if risk == "mean" else Greatest()

@@ -1,0 +1,251 @@
+"""Help for a human of whom only scenarios are known, by robots that watch or not (semantics 11)."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from search.call.context import SearchContext
+from search.call.prepared_task import PreparedTask
+from search.engine.paths import plan_steps
+from search.modes.scenarios.lines import Line
+from search.modes.scenarios.measure import INFINITE_WORTH, Worths, measure_of
+from search.modes.scenarios.played import Played, committed, played
+from search.modes.scenarios.policies import PolicySearch
+from search.modes.scenarios.remainder import Scenario
+from search.packed.packings import asked_facts, human_facts
+from serendipity.model.answers.answer import Answer, ServedGoal, Status, saved
+from serendipity.model.errors import LIMITS
+from serendipity.model.options import Options
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.actions import Condition
+from serendipity.model.task.horizon import common_horizon
+from serendipity.model.task.task import HumanPlan
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """What the human may want, and do.
+
+    Attributes:
+        goal: their goal.
+        plan: their plan.
+        weight: the probability, more than 0.
+        name: for people.
+    """
+
+    goal: Condition
+    plan: HumanPlan
+    weight: Fraction
+    name: str = ""
+
+
+def solve_scenarios(
+    prepared: PreparedTask,
+    options: Options,
+    candidates: Sequence[Candidate],
+    deadline: Deadline | None = None,
+) -> Iterator[Answer]:
+    """Policies that get better, idle robots first; the last is the best, or the best known at a limit.
+
+    Figures are by the ``risk`` of the options, ``steps`` is what robots do by themselves before any
+    scenarios are told apart, and ``goals`` what happens in each.
+
+    Args:
+        prepared: the task; its own goal plays no part, and robots have none.
+        options: mode ``serendipity``; ``horizon`` None means the length of the longest plan.
+        candidates: at least one; weights add up to 1.
+        deadline: deadline and cancellation.
+
+    Raises:
+        UsageError: the horizon is shorter than the longest plan.
+    """
+    horizon = common_horizon(options, [candidate.plan for candidate in candidates])
+    call = _ScenarioCall(prepared, options, candidates, horizon, deadline or Deadline(options.time_limit))
+    yield call.answer("feasible")
+    try:
+        for _ in call.improved():
+            yield call.answer("feasible")
+    except LIMITS:
+        yield call.answer("feasible")
+    else:
+        yield call.answer("optimal" if call.is_exact else "feasible")
+
+
+class _ScenarioCall:
+    """One call."""
+
+    def __init__(
+        self,
+        prepared: PreparedTask,
+        options: Options,
+        candidates: Sequence[Candidate],
+        horizon: int,
+        deadline: Deadline,
+    ) -> None:
+        self._prepared = prepared
+        self._given = candidates
+        self._horizon = horizon
+        self._options = options
+        self._deadline = deadline
+        self._candidates = _merged(candidates)
+        self._lines: list[Line] = []
+        self._search: PolicySearch | None = None
+        self._idle: int | None = None
+        self.is_exact = True
+
+    def improved(self) -> Iterator[None]:
+        """Look for better policies; yield when there is one, and at the end.
+
+        Raises:
+            LimitReachedError: a limit came first.
+        """
+        scenarios, deadline = self._scenarios(), self._deadline
+        context = scenarios[0].context
+        self._measure = measure_of(self._options.risk, [c.weight for c in self._candidates])
+        self._worths = Worths(context.keys, self._measure.parts)
+        acting = context.successors()
+        lines = [Line(s, i, acting, self._worths) for i, s in enumerate(scenarios)]
+        known = (
+            [line.known(deadline) for line in lines]
+            if self._options.risk == "regret"
+            else [(0, 0)] * len(lines)
+        )
+        self.is_exact = all(least == worth for least, worth in known)
+        ahead = [-least for least, _ in known]
+        members = [line.first()._replace(ahead=a) for line, a in zip(lines, ahead, strict=True)]
+        self._idle = self._measure.value(members, [line.certain.idle(deadline) for line in lines])
+        self._lines = lines
+        self._search = search = PolicySearch(
+            lines,
+            acting,
+            self._measure,
+            members,
+            self._horizon,
+            deadline,
+            watching=self._options.policy == "watching",
+        )
+        best = INFINITE_WORTH
+        for _ in search.run():
+            if search.root.upper < best:
+                best = search.root.upper
+                yield
+
+    def _scenarios(self) -> list[Scenario]:
+        """The task with each candidate's goal, packed with what any of them or its plan asks for."""
+        task = self._prepared.task
+        asked = asked_facts(task, (action for candidate in self._candidates for action in candidate.plan))
+        options = self._options.but(
+            horizon=self._horizon, time_limit=None, policy="watching", risk="mean", ties="fixed"
+        )
+        if options.preservation == "state":
+            asked |= human_facts(task)
+        goals = [candidate.goal for candidate in self._candidates]
+        packed = self._prepared.with_goals(goals, asked, self._deadline)
+        return [
+            Scenario(
+                own,
+                self._prepared.with_goal(candidate.goal),
+                SearchContext(own, options, self._deadline),
+                candidate.plan,
+                self._horizon,
+            )
+            for own, candidate in zip(packed, self._candidates, strict=True)
+        ]
+
+    # -- the answer
+
+    def answer(self, status: Status) -> Answer:
+        """The best policy if it is cheaper than idle robots, else these."""
+        search, baseline = self._search, self._baseline()
+        if search is None or self._idle is None:
+            return self._told(status, baseline)
+        root, (_, idle) = search.root, self._figures(self._idle)
+        least = max(self._figures(root.lower)[0], Fraction(0))
+        if root.upper < INFINITE_WORTH:
+            objective, cost = self._figures(root.upper)
+            if cost < idle:
+                figures = cost, objective, least if self.is_exact else Fraction(0)
+                return self._told(
+                    status, baseline, figures, played=played(root, self._lines), saving_alone=baseline - idle
+                )
+        bound = baseline
+        if status != "optimal":  # net of the one epoch that every window has
+            window = self._options.window_weight if self._options.risk != "regret" else 0
+            bound = min(baseline, max(Fraction(0), least - window)) if self.is_exact else Fraction(0)
+        return self._told(status, baseline, (baseline, baseline, bound), saving_alone=baseline - idle)
+
+    def _figures(self, value: int) -> tuple[Fraction, Fraction]:
+        return self._worths.figures(value, self._measure.parts)
+
+    def _baseline(self) -> Fraction:
+        """What it costs to leave the human alone; for regret at most so much, before more is known."""
+        if self._search is not None:
+            alone = [line.certain.alone(0) for line in self._lines]
+            return self._figures(self._measure.value(self._search.root.members, alone))[1]
+        costs = [(c.weight, self._prepared.task.cost_of(c.plan)) for c in self._candidates]
+        if self._options.risk == "mean":
+            return sum((weight * cost for weight, cost in costs), Fraction(0))
+        return max(cost for _, cost in costs)
+
+    def _told(
+        self,
+        status: Status,
+        baseline: Fraction,
+        figures: tuple[Fraction, Fraction, Fraction] | None = None,
+        *,
+        played: dict[int, Played] | None = None,
+        saving_alone: Fraction | None = None,
+    ) -> Answer:
+        """The answer with what happens in each scenario, or with idle robots.
+
+        Args:
+            status: its status.
+            baseline: what it costs to leave the human alone.
+            figures: cost, objective and a bound on it; None where no more is known than the baseline.
+            played: what happens, where robots help.
+            saving_alone: what the human gains alone; None before it is known.
+        """
+        cost, objective, bound = figures or (baseline, baseline, Fraction(0))
+        happens = played or {}
+        counted = [line.certain for line in self._lines]
+        return Answer(
+            status,
+            horizon=self._horizon,
+            steps=committed(self._search.root, self._lines) if happens and self._search else (),
+            goals=tuple(self._served(candidate, happens) for candidate in self._given),
+            cost=cost,
+            baseline=baseline,
+            saving=saved(baseline, cost, opportunity=bool(happens)),
+            saving_alone=saving_alone,
+            objective=objective,
+            lower_bound=bound,
+            opportunity=bool(happens),
+            expanded=sum(one.expanded for one in counted) + (self._search.expanded if self._search else 0),
+            generated=sum(one.generated for one in counted) + (self._search.generated if self._search else 0),
+            realised={},
+        )
+
+    def _served(self, candidate: Candidate, happens: dict[int, Played]) -> ServedGoal:
+        """What happens in a scenario."""
+        task = self._prepared.task
+        number = next(i for i, c in enumerate(self._candidates) if _same(c, candidate))
+        found = happens.get(number) or Played(plan_steps(candidate.plan), None)
+        discount = self._options.discount
+        cost = sum((task.team_cost(task.actions[s.action], discount) for s in found.steps), Fraction(0))
+        return ServedGoal(candidate.name, candidate.weight, candidate.plan, found.steps, found.window, cost)
+
+
+def _same(a: Candidate, b: Candidate) -> bool:
+    return (a.goal, a.plan) == (b.goal, b.plan)
+
+
+def _merged(candidates: Sequence[Candidate]) -> list[Candidate]:
+    """Candidates that are the same in all but name, as one: what is best for one is best for both."""
+    found: list[Candidate] = []
+    for candidate in candidates:
+        k = next((k for k, other in enumerate(found) if _same(candidate, other)), None)
+        if k is None:
+            found.append(candidate)
+        else:
+            found[k] = replace(found[k], weight=found[k].weight + candidate.weight)
+    return sorted(found, key=lambda candidate: -candidate.weight)

@@ -1,0 +1,323 @@
+"""The best policy over scenarios: a search of the AND-OR tree of what robots may have seen (semantics 11).
+
+A group holds the scenarios that are not told apart after an epoch; robots choose what they do by themselves
+(OR), and what the human then does splits the group (AND).  Where one scenario is left, the ordinary call
+answers.  Values of groups are kept between two bounds, which are brought together depth first, most promising
+choice first (learning depth-first search, Bonet and Geffner 2006); scenarios one by one are a lower bound.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from heapq import heapify, heapreplace
+from typing import NamedTuple
+
+from search.modes.scenarios.lines import FOLLOWING, OVER, Guide, Line, Way
+from search.modes.scenarios.measure import INFINITE_WORTH, Measure, Member
+from search.packed.joint_actions import NOTHING, JointAction
+from search.packed.successor_generator import Successors
+from serendipity.model.resources.deadline import Deadline
+
+_SHARE = 0.2
+"""The share of the time that is left for each look at scenarios one by one, as long as a limit may come."""
+
+
+class Choice(NamedTuple):
+    """What is done in an epoch by a group, and what it leads to.
+
+    Attributes:
+        robots: what robots do by themselves.
+        ways: what each scenario does, in the order of the group.
+        branches: what is paid, and the group after it, for each that is told apart.
+    """
+
+    robots: JointAction
+    ways: tuple[Way, ...]
+    branches: tuple[tuple[int, "Group"], ...]
+
+
+@dataclass(eq=False, slots=True)
+class Group:
+    """Scenarios that are not told apart after an epoch, and the bounds on what they have left to pay.
+
+    Attributes:
+        epoch: the number of those that are over.
+        members: in the order of their numbers.
+        lower: no policy is worth less.
+        upper: of the best policy known; infinite without one.
+        choice: its first epoch; None where it leaves everybody alone, or one scenario goes on for certain.
+        choices: those that may be best by their bounds, as a heap; None before it was looked at.
+    """
+
+    epoch: int
+    members: tuple[Member, ...]
+    lower: int
+    upper: int = INFINITE_WORTH
+    choice: Choice | None = None
+    choices: list[tuple[int, int, Choice]] | None = field(default=None, repr=False)
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether its best policy is known."""
+        return self.lower >= self.upper
+
+    def offer(self, value: int, choice: Choice | None) -> None:
+        """A policy that there is."""
+        if value < self.upper:
+            self.upper, self.choice = value, choice
+
+
+class PolicySearch:
+    """The search for one call.
+
+    Args:
+        lines: the scenarios' epochs.
+        acting: what agents can do.
+        measure: of worths.
+        members: all scenarios, before the first epoch.
+        horizon: ``T``.
+        deadline: polled.
+        watching: whether robots see what the human does.
+
+    Attributes:
+        root: all scenarios, before the first epoch.
+    """
+
+    def __init__(
+        self,
+        lines: Sequence[Line],
+        acting: Successors,
+        measure: Measure,
+        members: Sequence[Member],
+        horizon: int,
+        deadline: Deadline,
+        *,
+        watching: bool,
+    ) -> None:
+        self._lines = lines
+        self._acting = acting
+        self._measure = measure
+        self._horizon = horizon
+        self._deadline = deadline
+        self._watching = watching
+        self._groups: dict[tuple[int, tuple[Member, ...]], Group] = {}
+        self._looked: set[Group] = set()
+        self.root = self._group(0, tuple(members))
+        self.expanded = self.generated = 0
+
+    def run(self) -> Iterator[None]:
+        """Bring the bounds of the root together; yield whenever they have changed much.
+
+        Raises:
+            LimitReachedError: the deadline ran out; the bounds hold.
+        """
+        self._look(self.root)
+        yield
+        for scenario in (None, *(line.number for line in self._lines)):
+            if not self.root.is_settled:
+                self._probe(self.root, None if scenario is None else self._guide(self.root, scenario))
+                yield
+        yield from self._search()
+
+    # -- groups
+
+    def _group(self, epoch: int, members: tuple[Member, ...]) -> Group:
+        known = self._groups.get((epoch, members))
+        if known is None:
+            rests = [self._lines[m.scenario].least(m, epoch) for m in members]
+            known = self._groups[epoch, members] = Group(epoch, members, self._measure.value(members, rests))
+            if epoch == self._horizon or all(m.phase == OVER for m in members):
+                known.upper = known.lower
+        return known
+
+    def _look(self, group: Group) -> bool:
+        """Bound a group by its scenarios one by one; whether only one is left, which settles it."""
+        single = len(group.members) == 1
+        deadline = self._deadline
+        if group not in self._looked:
+            self._looked.add(group)
+            deadline = deadline.part(_SHARE)
+        elif not single:
+            return False
+        found = [self._lines[m.scenario].certainly(m, group.epoch, deadline) for m in group.members]
+        least, worths = zip(*found, strict=True)
+        group.lower = max(group.lower, self._measure.value(group.members, least))
+        if not single:
+            worths = tuple(self._alone(m, group.epoch) for m in group.members)
+        group.offer(self._measure.value(group.members, worths), None)
+        return single
+
+    def _alone(self, at: Member, epoch: int) -> int:
+        """What a scenario is worth from here with idle robots and no window to come."""
+        certain = self._lines[at.scenario].certain
+        if at.phase == OVER:
+            return self._lines[at.scenario].least(at, epoch)
+        follows = at.phase == FOLLOWING and certain.follows(at.state, epoch)
+        return certain.alone(epoch) if follows else INFINITE_WORTH
+
+    # -- choices
+
+    def _choices(self, group: Group) -> Iterator[Choice]:
+        """All that a group may do in its next epoch, and may be better than the policy that is known."""
+        members, epoch = group.members, group.epoch + 1
+        floors = [self._lines[m.scenario].floor(m, group.epoch) for m in members]
+        for robots in self._robots(group):
+            each, bounds = [], []
+            for m, floor in zip(members, floors, strict=True):
+                line = self._lines[m.scenario]
+                each.append(list(line.ways(m, epoch, robots)))
+                bounds.append([max(floor, w.paid + line.least(w.after, epoch)) for w in each[-1]])
+            if all(each):
+                for ways in self._combined(group, each, bounds):
+                    yield self._choice(group, robots, ways)
+
+    def _robots(self, group: Group) -> Iterable[JointAction]:
+        """What robots may do by themselves, cheapest first."""
+        if any(m.phase == OVER for m in group.members):
+            return (NOTHING,)
+        first, *others = sorted({m.state for m in group.members})
+        sets = self._acting.robots(first)
+        if others:  # only robots that see nothing
+            possible = [{option.actions for option in self._acting.robots(state)} for state in others]
+            return [option for option in sets if all(option.actions in other for other in possible)]
+        return sets
+
+    def _combined(
+        self, group: Group, each: Sequence[Sequence[Way]], bounds: Sequence[Sequence[int]]
+    ) -> Iterator[tuple[Way, ...]]:
+        """A way for each scenario, as far as they may be better together than what is known."""
+        members, measure = group.members, self._measure
+        least = [min(bound) for bound in bounds]
+        chosen: list[int] = []
+
+        def extend(k: int) -> Iterator[tuple[Way, ...]]:
+            self._deadline.tick()
+            if measure.value(members, [*chosen, *least[k:]]) >= group.upper:
+                return
+            if k == len(members):
+                yield ()
+                return
+            for way, bound in sorted(zip(each[k], bounds[k], strict=True), key=lambda pair: pair[1]):
+                chosen.append(bound)
+                for rest in extend(k + 1):
+                    yield (way, *rest)
+                chosen.pop()
+
+        return extend(0)
+
+    def _choice(self, group: Group, robots: JointAction, ways: tuple[Way, ...]) -> Choice:
+        """A choice, with the groups that it leads to."""
+        parts: dict[tuple[int, ...], list[Way]] = {}
+        for way in ways:
+            parts.setdefault(way.part.actions if self._watching else (), []).append(way)
+        branches = []
+        for together in parts.values():
+            paid, after = self._measure.pay([w.after for w in together], [w.paid for w in together])
+            branches.append((paid, self._group(group.epoch + 1, after)))
+        self.generated += 1
+        return Choice(robots, ways, tuple(branches))
+
+    def _lower(self, choice: Choice) -> int:
+        return self._measure.together(paid + group.lower for paid, group in choice.branches)
+
+    def _upper(self, choice: Choice) -> int:
+        return self._measure.together(paid + group.upper for paid, group in choice.branches)
+
+    # -- policies that suggest themselves
+
+    def _probe(self, group: Group, guide: Guide | None) -> None:
+        """Value the policy that helps one scenario, or nobody, as long as others are possible."""
+        trail: list[tuple[Group, Choice]] = []
+        pending = [(group, guide)]
+        try:
+            while pending:
+                at, followed = pending.pop()
+                if at.is_settled or self._look(at):
+                    continue
+                if followed is not None and followed.scenario not in {m.scenario for m in at.members}:
+                    followed = self._guide(at, at.members[0].scenario)
+                choice = self._guided(at, followed)
+                if choice is not None:
+                    trail.append((at, choice))
+                    pending += [(after, followed) for _, after in choice.branches]
+        finally:
+            for at, choice in reversed(trail):
+                at.offer(self._upper(choice), choice)
+
+    def _guide(self, group: Group, scenario: int) -> Guide | None:
+        """The best plan for one of a group, were it the only one."""
+        at = next(m for m in group.members if m.scenario == scenario)
+        return None if at.phase == OVER else self._lines[scenario].guide(at, group.epoch, self._deadline)
+
+    def _guided(self, group: Group, guide: Guide | None) -> Choice | None:
+        """The next epoch of a group, all but the guided one left alone; None where that is impossible."""
+        epoch = group.epoch + 1
+        robots, part, phase = (NOTHING, None, None) if guide is None else guide.at(epoch)
+        ways = []
+        for m in group.members:
+            line = self._lines[m.scenario]
+            found = line.ways(m, epoch, robots) if line.possible(robots, m.state) else iter(())
+            if guide is not None and m.scenario == guide.scenario:
+                wanted = (w for w in found if w.part.actions == part and w.after.phase == phase)
+            else:
+                wanted = (w for w in found if w.after.phase == m.phase and not w.opens)
+            way = next(wanted, None)
+            if way is None:
+                return None
+            if guide is not None and m.scenario == guide.scenario:
+                line.learn(m, epoch, way)
+            ways.append(way)
+        return self._choice(group, robots, tuple(ways))
+
+    # -- the search
+
+    def _search(self) -> Iterator[None]:
+        """Look at the most promising choice of each group first, until the root is settled."""
+        stack = [(self.root, INFINITE_WORTH)]
+        try:
+            while stack:
+                group, limit = stack[-1]
+                after = self._next(group, limit)
+                if after is None:
+                    stack.pop()
+                    yield
+                else:
+                    stack.append(after)
+        finally:
+            for group, _ in reversed(stack):
+                self._raise(group)
+
+    def _next(self, group: Group, limit: int) -> tuple[Group, int] | None:
+        """The group to look at next for the sake of this one, and the bound up to which that matters."""
+        self._deadline.check()
+        if group.lower >= min(limit, group.upper):
+            return None
+        if group.choices is None:
+            if self._look(group) or group.lower >= min(limit, group.upper):
+                return None
+            self.expanded += 1
+            choices = [(self._lower(c), n, c) for n, c in enumerate(self._choices(group))]
+            group.choices = [entry for entry in choices if entry[0] < group.upper]
+            heapify(group.choices)
+        self._raise(group)
+        if group.lower >= min(limit, group.upper):
+            return None
+        assert group.choices, "a group without choices is settled"
+        value, _, best = group.choices[0]
+        _, after = max((b for b in best.branches if not b[1].is_settled), key=lambda b: b[0] + b[1].upper)
+        second = min((entry[0] for entry in group.choices[1:3]), default=INFINITE_WORTH)
+        return after, after.lower + max(min(second, limit, group.upper) - value, 0) + 1
+
+    def _raise(self, group: Group) -> None:
+        """Bring the bounds of a group up to date with those of its most promising choices."""
+        choices = group.choices
+        if choices is None:
+            return
+        while choices:
+            known, number, best = choices[0]
+            group.offer(self._upper(best), best)
+            value = self._lower(best)
+            if value <= known:
+                break
+            heapreplace(choices, (value, number, best))
+        least = choices[0][0] if choices else INFINITE_WORTH
+        group.lower = max(group.lower, min(least, group.upper))

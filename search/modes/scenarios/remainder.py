@@ -1,0 +1,282 @@
+"""What is left of one scenario that is known for certain: the ordinary call from there (semantics 11).
+
+Where the window is still to come it is a call of section 3 from the state, with the rest of the human's plan,
+and its strategies answer it.  Where it is open, or the suffix looks back at the whole plan, the space of
+windows is searched as it is.
+"""
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Final, NamedTuple
+
+from search.bounds.first_interaction import Bounds, no_bound
+from search.call.context import SearchContext
+from search.call.prepared_task import PreparedTask
+from search.engine.best_first import Incumbent, Node, Progress, best_first, solve_space
+from search.engine.dominance import ParetoFront
+from search.engine.paths import path_steps, plan_steps
+from search.human.suffix_rules import Suffix
+from search.modes.scenarios.measure import INFINITE_WORTH, Worths
+from search.packed.cost_vector import INFINITE_KEY
+from search.packed.operators import applicable
+from search.spaces.factory import no_worse, suffix_rule
+from search.spaces.fixed_human_plan import FixedHumanPlan
+from search.spaces.windowed import WINDOW, InLayers, PrivateRest, Windowed
+from search.strategies.outcome import steps_of
+from search.strategies.portfolio import TURNS, best_plan
+from serendipity.model.errors import LimitReachedError
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.plans import Step, Window
+from serendipity.model.task.task import HumanPlan
+
+_TURNS: Final = tuple(turn for turn in TURNS if turn.name not in ("alone", "ties", "saving"))
+"""What the human gains alone is part of the search, and ties are not told apart."""
+
+
+class Remainder(NamedTuple):
+    """The best known of what is left, in epochs counted from there.
+
+    Attributes:
+        least: no plan is worth less.
+        worth: of the plan; infinite without one.
+        steps: what everybody does.
+        window: of the plan, which begins with its first epoch where it is open already; None without one.
+    """
+
+    least: int
+    worth: int
+    steps: tuple[Step, ...] = ()
+    window: Window | None = None
+
+    def after(self, paid: int) -> "Remainder":
+        """What is left once its first epoch has been paid."""
+        steps = tuple(Step(step.epoch - 1, step.action) for step in self.steps if step.epoch > 1)
+        window = self.window
+        if window is not None:
+            window = Window(max(1, window.start - 1), window.end - 1)
+        return Remainder(self.least - paid, self.worth - paid, steps, window)
+
+
+@dataclass(frozen=True, slots=True)
+class Scenario:
+    """A plan of the human's that the robots hold possible.
+
+    Attributes:
+        prepared: the task with the goal, packed like those of the other scenarios.
+        plain: the same, packed by itself.
+        context: of the call.
+        plan: the human's.
+        horizon: ``T``.
+    """
+
+    prepared: PreparedTask
+    plain: PreparedTask
+    context: SearchContext
+    plan: HumanPlan
+    horizon: int
+
+
+class Certain:
+    """Remainders of one scenario, by where they begin.
+
+    Args:
+        scenario: the scenario.
+        worths: worths of keys.
+    """
+
+    def __init__(self, scenario: Scenario, worths: Worths) -> None:
+        self._scenario = scenario
+        context = scenario.context
+        self._options = context.options
+        self._packed = context.packed
+        self._worths = worths
+        self._steps = context.followed(scenario.plan)
+        self._suffix = suffix_rule(context, scenario.plan)
+        self._max_window = self._options.max_window or scenario.horizon
+        self._ordinary = self._options.suffix == "replan" and self._options.preservation == "kernel"
+        task, bits = context.task, self._packed.fact_bits
+        self._facts = [(fact, *found) for fact, found in enumerate(bits) if found is not None]
+        self._others = frozenset(fact for fact in task.init if bits[fact] is None)
+        self._known: dict[tuple[int, int, int], Remainder] = {}
+        self.expanded = self.generated = 0
+
+    def known(self, state: int, epoch: int, start: int) -> Remainder | None:
+        """A remainder that was asked for before."""
+        return self._known.get((epoch, state, start))
+
+    def remainder(self, state: int, epoch: int, start: int, deadline: Deadline) -> Remainder:
+        """The remainder from a state on.
+
+        Args:
+            state: packed.
+            epoch: the number of those that are over.
+            start: ``xi1`` of a window that was open in the last epoch and is in the next one, any epoch that
+                is over where it does not matter; 0 where the human has followed their plan so far.
+            deadline: what is known by then is returned.
+        """
+        at = epoch, state, start
+        found = self._known.get(at)
+        if found is None or found.least < found.worth:
+            found = self._known[at] = self._find(*at, deadline)
+        return found
+
+    def learn(self, state: int, epoch: int, start: int, found: Remainder) -> None:
+        """Note a remainder that follows from another one."""
+        self._known.setdefault((epoch, state, start), found)
+
+    def _find(self, epoch: int, state: int, start: int, deadline: Deadline) -> Remainder:
+        if start:
+            return self._in_space(state, epoch, start, deadline)
+        if not self.follows(state, epoch):  # robots are in the way
+            found = self._in_space(state, epoch, 0, deadline), self._mended(state, epoch, deadline)
+            best = min(found, key=lambda one: one.worth)
+            return best._replace(least=min(one.least for one in found))
+        if epoch >= len(self._steps):
+            return Remainder(self._worths.epoch, self._worths.epoch)
+        if self._ordinary:
+            return self._by_strategies(state, epoch, deadline)
+        return self._in_space(state, epoch, 0, deadline)
+
+    def _mended(self, state: int, epoch: int, deadline: Deadline) -> Remainder:
+        """The human follows their plan to its end, and robots make that possible again."""
+        context, horizon = self._scenario.context.under(deadline), self._scenario.horizon - epoch
+        space = FixedHumanPlan(
+            initial=state,
+            horizon=horizon,
+            steps=self._steps[epoch:],
+            goals=(self._packed.goal,),
+            successors=context.successors(),
+        )
+        best, progress = Incumbent(INFINITE_KEY), Progress()
+        with suppress(LimitReachedError):
+            for _ in best_first(space, best, progress, deadline):
+                pass
+        least, worth = (self._worths.of_key(key) for key in (min(progress.bound, best.key), best.key))
+        steps = path_steps(best.node) if best.node is not None else ()
+        window = self._worths.epoch
+        return Remainder(min(least + window, INFINITE_WORTH), min(worth + window, INFINITE_WORTH), steps)
+
+    def follows(self, state: int, epoch: int) -> bool:
+        """Whether the rest of their plan works, and reaches the goal, if nobody does anything else."""
+        for op, _ in self._steps[epoch:]:
+            if not applicable(op, state):
+                return False
+            state = state & op.keep | op.put
+        return self._packed.goal.holds(state)
+
+    def alone(self, epoch: int) -> int:
+        """What the rest of their plan is worth if they are left alone."""
+        return self._worths.epoch + sum(self._worths.of_key(part.weight) for _, part in self._steps[epoch:])
+
+    def idle(self, deadline: Deadline) -> int:
+        """What the scenario is worth with idle robots; the human may do better than their plan alone.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        scenario, alone = self._scenario, self.alone(0)
+        optimum = scenario.context.alone.key(self._packed.init)
+        if scenario.context.keys.cost(optimum) >= scenario.context.task.cost_of(scenario.plan):
+            return alone
+        best = Incumbent(INFINITE_KEY)
+        space = self._space(scenario.context.under(deadline), self._packed.init, 0, 0, idle=True)
+        return min(alone, self._worths.of_key(solve_space(space, best, deadline).key))
+
+    def _by_strategies(self, state: int, epoch: int, deadline: Deadline) -> Remainder:
+        scenario = self._scenario
+        facts = self._others.union(fact for fact, mask, value in self._facts if state & mask == value)
+        prepared = scenario.plain if not epoch and state == self._packed.init else scenario.plain.at(facts)
+        options = self._options.but(horizon=scenario.horizon - epoch)
+        call = best_plan(prepared, options, scenario.plan[epoch:], deadline, _TURNS)
+        if call is None:
+            return Remainder(0, INFINITE_WORTH)
+        self.expanded += call.progress.expanded
+        self.generated += call.progress.generated
+        worths, best = Worths(call.keys, self._worths.scale), call.best
+        worth = worths.of_key(best.key)
+        is_best = call.is_done or call.is_settled
+        least = worth if is_best else min(worth, worths.of_key(call.progress.bound))
+        if best.key >= INFINITE_KEY:
+            return Remainder(least, worth)
+        window = Window(best.node.start, best.end) if best.node and best.end else None
+        return Remainder(least, worth, steps_of(call, best), window)
+
+    def _in_space(self, state: int, epoch: int, start: int, deadline: Deadline) -> Remainder:
+        context = self._scenario.context.under(deadline)
+        space = self._space(context, state, epoch, start)
+        left = Incumbent(INFINITE_KEY)
+        if not start and self.follows(state, epoch):
+            key = sum(part.weight for _, part in self._steps[epoch:]) + context.keys.epoch_weight
+            left = Incumbent(key + context.keys.of_start(len(self._steps) - epoch, space.horizon))
+        best, progress = Incumbent(left.key), Progress()
+        with suppress(LimitReachedError):
+            for _ in best_first(space, best, progress, deadline):
+                pass
+        least = min(progress.bound, best.key)  # equal at its end
+        self.expanded += progress.expanded
+        self.generated += progress.generated
+        bounds = self._worths.of_key(least), self._worths.of_key(best.key)
+        if best.node is None:  # left alone, or no plan at all
+            steps = plan_steps(self._scenario.plan[epoch:]) if best.key < INFINITE_KEY else ()
+            return Remainder(*bounds, steps)
+        steps = path_steps(best.node) + plan_steps(best.tail, best.end)
+        return Remainder(*bounds, steps, Window(best.node.start, best.end))
+
+    def _space(
+        self, context: SearchContext, state: int, epoch: int, start: int, *, idle: bool = False
+    ) -> Windowed:
+        horizon = self._scenario.horizon - epoch
+        plan = self._scenario.plan[epoch:] if not start else ()
+        options, keys = context.options, context.keys
+        rest = self._max_window - (epoch - start + 1 if start else 0)
+        return (_OpenWindow if start else Windowed)(
+            initial=state,
+            idle=(),
+            horizon=horizon,
+            last=len(plan),
+            max_window=rest,
+            most_cost=None,
+            keys=keys,
+            successors=context.successors(idle=idle),
+            bounds=Bounds(context.bound, context.steps, no_bound, None, context.team_bound),
+            prefix=InLayers([[step] for step in context.followed(plan)]),
+            on_the_way=PrivateRest(len(plan), context.bound, keys, horizon),
+            suffix=_Later(self._suffix, epoch, start),
+            labels=ParetoFront(no_worse(keys, options, None)),
+            relevant=context.relevant,
+        )
+
+
+class _OpenWindow(Windowed):
+    """The space of what is left once the window is open."""
+
+    def roots(self) -> Iterator[tuple[int, Node]]:
+        """The state, in the window."""
+        if self.max_window > 0:
+            bound = self.keys.epoch_weight + self.bounds.private(self.initial)
+            self.labels.add(self.initial, 0, 0, self.idle)
+            yield bound, Node(0, 0, self.initial, WINDOW, 1, None, (), self.idle)
+
+
+@dataclass(frozen=True, slots=True)
+class _Later:
+    """A rule for the suffix, in epochs counted from a later one.
+
+    Attributes:
+        rule: the rule.
+        epoch: the number of epochs before.
+        start: ``xi1`` where the window is open already, else 0.
+    """
+
+    rule: Suffix
+    epoch: int
+    start: int
+
+    def key(self, state: int, epochs: int, start: int, limit: int) -> int:
+        """See :class:`Suffix`."""
+        return self.rule.key(state, epochs, self.start or start + self.epoch, limit)
+
+    def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
+        """See :class:`Suffix`."""
+        return self.rule.actions(state, epochs, self.start or start + self.epoch)

@@ -1,0 +1,200 @@
+"""Answers where it is known only up to a choice what the human will do (semantics 8 and 11).
+
+Epoch 1 is the first epoch of the human's plans, and observations are actions of those plans:
+their current plan for a goal is the canonical optimal plan from ``I`` that embeds them.
+"""
+
+from collections.abc import Hashable, Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from functools import partial
+from typing import Final, NamedTuple
+
+from search import optimal_human_plans
+from search.modes.goals import explanations
+from search.modes.scenarios import Candidate, solve_scenarios
+from serendipity.facade import ties
+from serendipity.facade.call import Request, Solver
+from serendipity.model import Deadline, HumanPlan, Options, Task, UsageError
+from serendipity.model.answers.answer import Answer, ServedGoal
+from serendipity.model.answers.recognition import Recognition
+from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.numbers import Number
+from serendipity.recognition.library import LibraryGiven, plan_library
+from serendipity.recognition.recognise import (
+    CandidateGoal,
+    GoalsGiven,
+    ObservedGiven,
+    candidate_goals,
+    observed_actions,
+    posterior,
+    strictness,
+)
+
+_FIXED: Final[dict[str, object]] = {"human_model": "omniscient", "max_cost": None}
+"""Options that have one value only where there are several scenarios."""
+
+
+class Unsure(NamedTuple):
+    """What a caller says of a human whose plan is not known; see :func:`serendipity.plan`."""
+
+    goals: GoalsGiven | None = None
+    observed: ObservedGiven = ()
+    beta: Number = 1
+    plans: LibraryGiven | None = None
+
+
+def settled(call: Request, unsure: Unsure) -> tuple[Request, Solver]:
+    """The call that is left once the scenarios are known, and its solver.
+
+    With several of them that is a policy; with one, section 3 for that one.  Goals of posterior 0, or that
+    the human can't reach alone, are not considered.  Without the time to find them the answer is ``unknown``.
+
+    Raises:
+        InputError: a file or an entry of it is wrong.
+        UsageError: an option that has no meaning here; more optimal plans than ``max_ties``.
+    """
+    recognition = None
+    try:
+        if unsure.plans is not None:
+            library = plan_library(call.task, unsure.plans)
+            considered = [Candidate(one.goal, one.plan, one.probability, one.name) for one in library]
+        elif unsure.goals is None:
+            considered = _shared(call, [Candidate(call.task.goal, (), Fraction(1))])
+        else:
+            considered, recognition = _by_goals(call, unsure)
+    except LIMITS as limit:
+        unknown = Answer("unknown", reason=limit_reason(limit), expanded=None, generated=None)
+        return call, lambda _: iter((unknown,))
+    if not considered:
+        nothing = Answer("infeasible", reason="no-human-plan", expanded=None, generated=None, goals=())
+        return call, lambda _: iter((nothing._replace(recognition=recognition),))
+    if len(considered) == 1:
+        solver = ties.answers if recognition is None else partial(_certain, considered[0], recognition)
+        return _about(call, considered[0], recognition), solver
+    _refuse(call.task, call.options)
+    return call, partial(_expected, considered, recognition)
+
+
+def asked_about(task: Task, unsure: Unsure) -> Hashable:
+    """The identity of a question about scenarios.
+
+    Raises:
+        InputError: a file or an entry of it is wrong.
+    """
+    plans = None if unsure.plans is None else plan_library(task, unsure.plans)
+    if unsure.goals is None:
+        return plans
+    names = observed_actions(task, unsure.observed)
+    return candidate_goals(task, unsure.goals), names, strictness(unsure.beta), plans
+
+
+def _by_goals(call: Request, unsure: Unsure) -> tuple[list[Candidate], Recognition]:
+    """A scenario for each goal that is possible, or for each optimal plan to it, and the posterior.
+
+    Raises:
+        InputError: a file or an entry of it is wrong.
+        UsageError: as :func:`settled`.
+        LimitReachedError: a limit came first.
+    """
+    assert unsure.goals is not None
+    candidates = candidate_goals(call.task, unsure.goals)
+    names = observed_actions(call.task, unsure.observed)
+    if len(candidates) > 1:
+        _refuse(call.task, call.options)
+    watched = call.options.ties == "watched"
+    if names and watched:
+        raise UsageError("ties: 'watched' goes without observed: each goal's plans are all its optimal ones")
+    recognition, plans = _recognised(call.task, candidates, names, strictness(unsure.beta), call.deadline)
+    considered = _considered(candidates, recognition, plans)
+    return _shared(call, considered) if watched else considered, recognition
+
+
+def _shared(call: Request, considered: Sequence[Candidate]) -> list[Candidate]:
+    """A scenario for each optimal plan to a goal, which share its probability.
+
+    Raises:
+        UsageError: there are more than ``max_ties``.
+        LimitReachedError: a limit came first.
+    """
+    found = []
+    for one in considered:
+        graph = optimal_human_plans(call.prepared.with_goal(one.goal), call.deadline)
+        if graph is None:
+            continue
+        ties.require_few(graph.count(), call.options)
+        plans = list(graph.plans())
+        for number, plan in enumerate(plans, start=1):
+            name = one.name if len(plans) == 1 else f"{one.name or 'plan'} {number}"
+            found.append(replace(one, plan=plan, weight=one.weight / len(plans), name=name))
+    return found
+
+
+def _recognised(
+    task: Task,
+    candidates: Sequence[CandidateGoal],
+    observed: tuple[str, ...],
+    beta: float,
+    deadline: Deadline,
+) -> tuple[Recognition, list[HumanPlan | None]]:
+    """The posterior, and for each goal the plan of the human's that is considered.
+
+    Raises:
+        LimitReachedError: the deadline ran out.
+    """
+    conditions = [candidate.goal for candidate in candidates]
+    found = explanations(task, conditions, observed, deadline)
+    recognition = posterior(task, candidates, observed, found, beta)
+    if not recognition.explained:  # the human's plans, as if nothing had been observed
+        found = explanations(task, conditions, (), deadline)
+    return recognition, [explanation.plan for explanation in found]
+
+
+def _considered(
+    candidates: Sequence[CandidateGoal], recognition: Recognition, plans: Sequence[HumanPlan | None]
+) -> list[Candidate]:
+    """A scenario for each goal that is possible and that the human can reach alone."""
+    possible = [
+        (candidate, known, plan)
+        for candidate, known, plan in zip(candidates, recognition.goals, plans, strict=True)
+        if plan is not None and known.weight > 0
+    ]
+    total = sum(known.weight for _, known, _ in possible)
+    return [Candidate(goal.goal, plan, known.weight / total, goal.name) for goal, known, plan in possible]
+
+
+def _refuse(task: Task, options: Options) -> None:
+    if options.ties not in ("fixed", "watched"):
+        raise UsageError("ties: with several goals or plans expected 'fixed' or 'watched'")
+    for name, value in _FIXED.items():
+        if getattr(options, name) != value:
+            raise UsageError(f"{name}: with several goals or plans only {value!r} is possible")
+    if task.robot_goal:
+        raise UsageError("robots that have goals of their own can be asked about one goal and plan only")
+
+
+def _about(call: Request, candidate: Candidate, recognition: Recognition | None) -> Request:
+    """The call of section 3 for one scenario, with the plan that explains the observations, or is given."""
+    prepared = call.prepared.with_goal(candidate.goal)
+    if recognition is not None and not (recognition.observed and recognition.explained):
+        fixed = call.options.but(ties="fixed") if call.options.ties == "watched" else call.options
+        return replace(call, prepared=prepared, options=fixed)
+    task = prepared.task
+    given = task.plan_from_names(task.actions[i].name for i in candidate.plan)
+    return replace(call, prepared=prepared, given=given, options=call.options.but(ties="fixed"))
+
+
+def _certain(candidate: Candidate, recognition: Recognition, call: Request) -> Iterator[Answer]:
+    """One scenario is left."""
+    for answer in ties.answers(call):
+        plan = answer.human_plan
+        served = ServedGoal(candidate.name, Fraction(1), plan, answer.steps, answer.window, answer.cost)
+        yield answer._replace(recognition=recognition, goals=(served,))
+
+
+def _expected(
+    considered: Sequence[Candidate], recognition: Recognition | None, call: Request
+) -> Iterator[Answer]:
+    """Several scenarios are left."""
+    for answer in solve_scenarios(call.prepared, call.options, considered, call.deadline):
+        yield answer._replace(recognition=recognition)
