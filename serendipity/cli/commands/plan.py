@@ -1,9 +1,9 @@
 """``serendipity plan``: the main job."""
 
 import threading
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
 import serendipity
 from serendipity.cli.choices import option
@@ -27,6 +27,7 @@ def plan(
     task: naming.TaskName,
     options: planning.Planning,
     goals: planning.Goals = None,
+    plans: planning.Plans = None,
     observed: planning.Observed = None,
     beta: planning.Beta = None,
     limited: limits.Limits,
@@ -39,7 +40,7 @@ def plan(
     """Find the best help for a person, with a proof."""
     form = to.prepare()
     output.check_output(save_plan, "--save-plan")
-    deadline = limited.begin(*_modules(options.given.get("mode"), goals, certify=certify))
+    deadline = limited.begin(*_modules(options.given, goals or plans, certify=certify))
     interference = options.given.get("interference", "paper")
     loaded = task.load(deadline, interference=interference, anybody=True)
     anybody = task.settled().for_anybody and ANYBODY not in loaded.agents
@@ -48,12 +49,12 @@ def plan(
         from serendipity.cli.files.plans import timed_plan
 
         asked["human_plan"] = timed_plan(options.human_plan, loaded)
-    if anybody and (goals is not None or options.human_plan is not None):
-        raise UsageError("--human any: goes without --goals and --human-plan")
-    if goals is not None:
+    if anybody and (goals or plans or options.human_plan) is not None:
+        raise UsageError("--human any: goes without --goals, --plans and --human-plan")
+    if (goals or plans) is not None or _is_watched(options):
         if save_plan is not None:
-            raise UsageError("--save-plan: there is no single plan with --goals")
-        asked |= planning.given(goals=goals, observed=observed, beta=beta)
+            raise UsageError("--save-plan: there is no single plan with --goals, --plans or --ties watched")
+        asked |= planning.given(goals=goals, plans=plans, observed=observed, beta=beta)
         with progress.working("planning"), cancelling() as cancelled:
             expected = serendipity.plan(loaded, cancelled=cancelled, **asked)
         with progress.working("verifying"):
@@ -130,31 +131,34 @@ def _as_json(result: Result, certificate: Certificate | None) -> str:
     return json_of(result.to_dict() | ({} if certificate is None else {"certificate": certificate.to_dict()}))
 
 
-def _modules(mode: str | None, goals: Path | None, *, certify: bool) -> list[str]:
+def _is_watched(options: planning.Planning) -> bool:
+    return options.given.get("ties") == "watched" and options.human_plan is None
+
+
+def _modules(given: Mapping[str, Any], unsure: Path | None, *, certify: bool) -> list[str]:
     """What is going to be loaded, or may be."""
     modules = ["serendipity.facade.planning", "serendipity.facade.certify", "serendipity.cli.text.answers"]
-    if mode == "assistance":
+    if given.get("mode") == "assistance":
         modules += [
             "search.modes.assistance",
             "search.modes.assistance.distances.layers",
             "search.modes.assistance.distances.perimeter",
             "verify.policy",
         ]
-    if goals is not None:
+    if unsure is not None or given.get("ties") == "watched":
         modules.append("serendipity.facade.scenarios")
     modules += limits.PLANNING
     return [*modules, "verify.certificate.certify", *limits.CHECKING] if certify else modules
 
 
 def _told_for_goals(result: Result, certificate: Certificate | None, form: str) -> str:
-    """The answer where the goal is not known."""
+    """The answer over scenarios."""
     if form == "json":
         return _as_json(result, certificate)
     from serendipity.cli.text.render import rendered
-    from serendipity.model.answers.result import for_goals
 
     proof = "" if certificate is None else f"\n{rendered(certificate.told())}"
-    return rendered(for_goals(result)) + proof
+    return rendered(result.told()) + proof
 
 
 def _last(answers: Iterable[Result], on_news: progress.News, cancelled: threading.Event) -> Result | None:

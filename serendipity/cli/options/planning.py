@@ -84,6 +84,9 @@ GOALS: Final = option(
     "--goals FILE", "Goals that the human may have: JSON, or 'prior: fact, fact' on each line."
 )
 Goals = Annotated[Path | None, GOALS]
+Plans = Annotated[
+    Path | None, option("--plans FILE", "Plans that the human may follow, with probabilities: JSON.")
+]
 Observed = Annotated[
     Path | None, option("--observed FILE", "What the human has done so far, an action a line.")
 ]
