@@ -150,6 +150,10 @@ class Line:
         state = at.state & part.keep & robots.keep | part.put | robots.put
         return self._worths.of_key(part.weight + robots.weight), state
 
+    def worth(self, robots: JointAction) -> int:
+        """What a set of robots' actions is worth."""
+        return self._worths.of_key(robots.weight)
+
     def possible(self, robots: JointAction, state: int) -> bool:
         """Whether what robots do by themselves is applicable."""
         return all(applicable(self._context.packed.op(action), state) for action in robots.actions)

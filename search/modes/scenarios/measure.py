@@ -84,6 +84,9 @@ class Measure(Protocol):
     def together(self, values: Iterable[int]) -> int:
         """Of groups that were one before."""
 
+    def limit(self, members: Sequence[Member], rests: Sequence[int], one: int, value: int) -> int:
+        """The least rest of one with which the group, the others' being given, is worth a value."""
+
 
 class Mean:
     """The mean of worths.
@@ -110,6 +113,11 @@ class Mean:
         """See :class:`Measure`."""
         return min(sum(values), INFINITE_WORTH)
 
+    def limit(self, members: Sequence[Member], rests: Sequence[int], one: int, value: int) -> int:
+        """See :class:`Measure`."""
+        others = self.value(members, [0 if i == one else rest for i, rest in enumerate(rests)])
+        return -((others - value) // self._shares[members[one].scenario])
+
 
 class Greatest:
     """The greatest of worths; members begin with what they are ahead of each other."""
@@ -131,6 +139,10 @@ class Greatest:
     def together(self, values: Iterable[int]) -> int:
         """See :class:`Measure`."""
         return max(values)
+
+    def limit(self, members: Sequence[Member], rests: Sequence[int], one: int, value: int) -> int:
+        """See :class:`Measure`."""
+        return value - members[one].ahead
 
 
 def measure_of(risk: str, probabilities: Sequence[Fraction]) -> Measure:

@@ -9,9 +9,10 @@ from search.call.prepared_task import PreparedTask
 from search.engine.paths import plan_steps
 from search.modes.scenarios.lines import Line
 from search.modes.scenarios.measure import INFINITE_WORTH, Worths, measure_of
-from search.modes.scenarios.played import Played, committed, played
+from search.modes.scenarios.played import Played
 from search.modes.scenarios.policies import PolicySearch
 from search.modes.scenarios.remainder import Scenario
+from search.modes.scenarios.sequences import SequenceSearch
 from search.packed.packings import asked_facts, human_facts
 from serendipity.model.answers.answer import Answer, ServedGoal, Status, saved
 from serendipity.model.errors import LIMITS
@@ -89,7 +90,7 @@ class _ScenarioCall:
         self._deadline = deadline
         self._candidates = _merged(candidates)
         self._lines: list[Line] = []
-        self._search: PolicySearch | None = None
+        self._search: PolicySearch | SequenceSearch | None = None
         self._idle: int | None = None
         self.is_exact = True
 
@@ -115,19 +116,13 @@ class _ScenarioCall:
         members = [line.first()._replace(ahead=a) for line, a in zip(lines, ahead, strict=True)]
         self._idle = self._measure.value(members, [line.certain.idle(deadline) for line in lines])
         self._lines = lines
-        self._search = search = PolicySearch(
-            lines,
-            acting,
-            self._measure,
-            members,
-            self._horizon,
-            deadline,
-            watching=self._options.policy == "watching",
-        )
+        kind = PolicySearch if self._options.policy == "watching" else SequenceSearch
+        self._members = members
+        self._search = search = kind(lines, acting, self._measure, members, self._horizon, deadline)
         best = INFINITE_WORTH
         for _ in search.run():
-            if search.root.upper < best:
-                best = search.root.upper
+            if search.upper < best:
+                best = search.upper
                 yield
 
     def _scenarios(self) -> list[Scenario]:
@@ -159,14 +154,14 @@ class _ScenarioCall:
         search, baseline = self._search, self._baseline()
         if search is None or self._idle is None:
             return self._told(status, baseline)
-        root, (_, idle) = search.root, self._figures(self._idle)
-        least = max(self._figures(root.lower)[0], Fraction(0))
-        if root.upper < INFINITE_WORTH:
-            objective, cost = self._figures(root.upper)
+        _, idle = self._figures(self._idle)
+        least = max(self._figures(search.lower)[0], Fraction(0))
+        if search.upper < INFINITE_WORTH:
+            objective, cost = self._figures(search.upper)
             if cost < idle:
                 figures = cost, objective, least if self.is_exact else Fraction(0)
                 return self._told(
-                    status, baseline, figures, played=played(root, self._lines), saving_alone=baseline - idle
+                    status, baseline, figures, played=search.played(), saving_alone=baseline - idle
                 )
         bound = baseline
         if status != "optimal":  # net of the one epoch that every window has
@@ -181,7 +176,7 @@ class _ScenarioCall:
         """What it costs to leave the human alone; for regret at most so much, before more is known."""
         if self._search is not None:
             alone = [line.certain.alone(0) for line in self._lines]
-            return self._figures(self._measure.value(self._search.root.members, alone))[1]
+            return self._figures(self._measure.value(self._members, alone))[1]
         costs = [(c.weight, self._prepared.task.cost_of(c.plan)) for c in self._candidates]
         if self._options.risk == "mean":
             return sum((weight * cost for weight, cost in costs), Fraction(0))
@@ -211,7 +206,7 @@ class _ScenarioCall:
         return Answer(
             status,
             horizon=self._horizon,
-            steps=committed(self._search.root, self._lines) if happens and self._search else (),
+            steps=self._search.committed() if happens and self._search else (),
             goals=tuple(self._served(candidate, happens) for candidate in self._given),
             cost=cost,
             baseline=baseline,

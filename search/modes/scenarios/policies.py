@@ -13,9 +13,11 @@ from typing import NamedTuple
 
 from search.modes.scenarios.lines import FOLLOWING, OVER, Guide, Line, Way
 from search.modes.scenarios.measure import INFINITE_WORTH, Measure, Member
+from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
 from search.packed.successor_generator import Successors
 from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.plans import Step
 
 _SHARE = 0.2
 """The share of the time that is left for each look at scenarios one by one, as long as a limit may come."""
@@ -76,7 +78,6 @@ class PolicySearch:
         members: all scenarios, before the first epoch.
         horizon: ``T``.
         deadline: polled.
-        watching: whether robots see what the human does.
 
     Attributes:
         root: all scenarios, before the first epoch.
@@ -90,19 +91,26 @@ class PolicySearch:
         members: Sequence[Member],
         horizon: int,
         deadline: Deadline,
-        *,
-        watching: bool,
     ) -> None:
         self._lines = lines
         self._acting = acting
         self._measure = measure
         self._horizon = horizon
         self._deadline = deadline
-        self._watching = watching
         self._groups: dict[tuple[int, tuple[Member, ...]], Group] = {}
         self._looked: set[Group] = set()
         self.root = self._group(0, tuple(members))
         self.expanded = self.generated = 0
+
+    @property
+    def lower(self) -> int:
+        """No policy is worth less."""
+        return self.root.lower
+
+    @property
+    def upper(self) -> int:
+        """The worth of the best one known; infinite without one."""
+        return self.root.upper
 
     def run(self) -> Iterator[None]:
         """Bring the bounds of the root together; yield whenever they have changed much.
@@ -174,12 +182,7 @@ class PolicySearch:
         """What robots may do by themselves, cheapest first."""
         if any(m.phase == OVER for m in group.members):
             return (NOTHING,)
-        first, *others = sorted({m.state for m in group.members})
-        sets = self._acting.robots(first)
-        if others:  # only robots that see nothing
-            possible = [{option.actions for option in self._acting.robots(state)} for state in others]
-            return [option for option in sets if all(option.actions in other for other in possible)]
-        return sets
+        return self._acting.robots(group.members[0].state)
 
     def _combined(
         self, group: Group, each: Sequence[Sequence[Way]], bounds: Sequence[Sequence[int]]
@@ -208,7 +211,7 @@ class PolicySearch:
         """A choice, with the groups that it leads to."""
         parts: dict[tuple[int, ...], list[Way]] = {}
         for way in ways:
-            parts.setdefault(way.part.actions if self._watching else (), []).append(way)
+            parts.setdefault(way.part.actions, []).append(way)
         branches = []
         for together in parts.values():
             paid, after = self._measure.pay([w.after for w in together], [w.paid for w in together])
@@ -255,7 +258,7 @@ class PolicySearch:
         ways = []
         for m in group.members:
             line = self._lines[m.scenario]
-            found = line.ways(m, epoch, robots) if line.possible(robots, m.state) else iter(())
+            found = line.ways(m, epoch, robots)
             if guide is not None and m.scenario == guide.scenario:
                 wanted = (w for w in found if w.part.actions == part and w.after.phase == phase)
             else:
@@ -321,3 +324,40 @@ class PolicySearch:
             heapreplace(choices, (value, number, best))
         least = choices[0][0] if choices else INFINITE_WORTH
         group.lower = max(group.lower, min(least, group.upper))
+
+    # -- what happens
+
+    def played(self) -> dict[int, Played]:
+        """What happens in each scenario under the best policy known."""
+        root, lines = self.root, self._lines
+        courses = {m.scenario: Course() for m in root.members}
+        pending = [root]
+        while pending:
+            group = pending.pop()
+            for number, at in enumerate(group.members):
+                course = courses[at.scenario]
+                if group.choice is None:
+                    course.finish(lines[at.scenario], at, group.epoch, certain=len(group.members) == 1)
+                else:
+                    course.go_on(group.choice.ways[number], at, group.epoch + 1, group.choice.robots)
+            if group.choice is not None:
+                pending += [after for _, after in group.choice.branches]
+        return {scenario: course.played for scenario, course in courses.items()}
+
+    def committed(self) -> tuple[Step, ...]:
+        """What robots do by themselves as long as no scenarios are told apart."""
+        root, lines = self.root, self._lines
+        steps: list[Step] = []
+        group: Group | None = root
+        while group is not None and group.choice is not None:
+            steps += [Step(group.epoch + 1, action) for action in group.choice.robots.actions]
+            branches = group.choice.branches
+            group = branches[0][1] if len(branches) == 1 else None
+        if group is not None and len(group.members) == 1:
+            (at,) = group.members
+            rest = lines[at.scenario].rest(at, group.epoch)
+            robots = (
+                () if rest is None else (s for s in rest.steps if not lines[at.scenario].is_own(s.action))
+            )
+            steps += [Step(step.epoch + group.epoch, step.action) for step in robots]
+        return tuple(sorted(steps))

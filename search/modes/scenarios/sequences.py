@@ -1,0 +1,225 @@
+"""The best sequence of robots that see nothing: best first, beside it each scenario by itself (semantics 11).
+
+Given what robots do by themselves, scenarios don't depend on each other, so a node holds for each of them all
+places that it may have come to, and what it has paid by then.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from itertools import count
+from typing import NamedTuple
+
+from search.modes.scenarios.lines import OVER, Line, Way
+from search.modes.scenarios.measure import INFINITE_WORTH, Measure, Member
+from search.modes.scenarios.played import Course, Played
+from search.packed.joint_actions import NOTHING, JointAction
+from search.packed.successor_generator import Successors
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.plans import Step
+
+
+class _Label(NamedTuple):
+    """A place of a scenario, and how it came there.
+
+    Attributes:
+        paid: so far.
+        way: of the last epoch; None before the first.
+        before: the place before it, and its label.
+    """
+
+    paid: int
+    way: Way | None = None
+    before: "tuple[Member, _Label] | None" = None
+
+
+_Places = dict[Member, _Label]
+
+
+@dataclass(eq=False, slots=True)
+class _Sequence:
+    """What robots do by themselves up to an epoch, and where that leaves each scenario."""
+
+    epoch: int
+    places: tuple[_Places, ...]
+    robots: JointAction
+    spent: int
+    before: "_Sequence | None"
+
+    def steps(self) -> tuple[Step, ...]:
+        """What robots do by themselves."""
+        at: _Sequence | None = self
+        found = []
+        while at is not None:
+            found += [Step(at.epoch, action) for action in at.robots.actions]
+            at = at.before
+        return tuple(sorted(found))
+
+
+class SequenceSearch:
+    """The search for one call.
+
+    Args:
+        lines: the scenarios' epochs.
+        acting: what agents can do.
+        measure: of worths.
+        members: all scenarios, before the first epoch.
+        horizon: ``T``.
+        deadline: polled.
+
+    Attributes:
+        lower: no sequence is worth less.
+        upper: of the best one known; infinite without one.
+    """
+
+    def __init__(
+        self,
+        lines: Sequence[Line],
+        acting: Successors,
+        measure: Measure,
+        members: Sequence[Member],
+        horizon: int,
+        deadline: Deadline,
+    ) -> None:
+        self._lines = lines
+        self._acting = acting
+        self._measure = measure
+        self._members = members
+        self._horizon = horizon
+        self._deadline = deadline
+        self._floors = [0] * len(lines)
+        self._best: _Sequence | None = None
+        self.lower, self.upper = 0, INFINITE_WORTH
+        self.expanded = self.generated = 0
+
+    def run(self) -> Iterator[None]:
+        """Look for better sequences; yield when there may be one.
+
+        Raises:
+            LimitReachedError: the deadline ran out; the bounds hold.
+        """
+        self._offer({})
+        yield
+        for i, line in enumerate(self._lines):
+            self._floors[i], _ = line.known(self._deadline)
+            guide = line.guide(self._members[i]._replace(ahead=0), 0, self._deadline)
+            if guide is not None:
+                epochs = range(1, self._horizon + 1)
+                self._offer({epoch: guide.at(epoch)[0] for epoch in epochs})
+            yield
+        yield from self._search()
+
+    def _root(self) -> _Sequence:
+        places = tuple({m._replace(ahead=0): _Label(0)} for m in self._members)
+        return _Sequence(0, places, NOTHING, 0, None)
+
+    def _offer(self, robots: dict[int, JointAction]) -> None:
+        """Play a sequence against every scenario."""
+        node: _Sequence | None = self._root()
+        while node is not None and node.epoch < self._horizon:
+            node = self._child(node, robots.get(node.epoch + 1, NOTHING))
+        if node is not None:
+            self._complete(node)
+
+    def _search(self) -> Iterator[None]:
+        tie, root, seen = count(), self._root(), dict[object, int]()
+        queue = [(self._bound(root), 0, next(tie), root)]
+        while queue and queue[0][0] < self.upper:
+            self.lower, _, _, node = heappop(queue)
+            self._deadline.check()
+            self.expanded += 1
+            for robots in self._choices(node):
+                child = self._child(node, robots)
+                if child is None or not _is_new(child, seen):
+                    continue
+                bound = self._bound(child)
+                if bound >= self.upper:
+                    continue
+                if child.epoch == self._horizon:
+                    self._complete(child)
+                    yield
+                else:
+                    heappush(queue, (bound, -child.epoch, next(tie), child))
+        self.lower = self.upper
+
+    def _choices(self, node: _Sequence) -> Iterable[JointAction]:
+        """Robots' action sets that are possible in some place of the scenario with the fewest."""
+        fewest = min(node.places, key=len)
+        offered = {(): NOTHING}
+        for state in sorted({m.state for m in fewest if m.phase != OVER}):
+            for option in self._acting.robots(state):
+                offered.setdefault(option.actions, option)
+        return offered.values()
+
+    def _child(self, node: _Sequence, robots: JointAction) -> _Sequence | None:
+        """The sequence an epoch later; None if some scenario has no place left."""
+        epoch, after = node.epoch + 1, []
+        self.generated += 1
+        for i, line in enumerate(self._lines):
+            places: _Places = {}
+            limit = self._limit(i)
+            for m, label in node.places[i].items():
+                self._deadline.tick()
+                for way in line.ways(m, epoch, robots) if line.possible(robots, m.state) else ():
+                    paid = label.paid + way.paid
+                    known = places.get(way.after)
+                    if (known is None or paid < known.paid) and paid + line.least(way.after, epoch) < limit:
+                        places[way.after] = _Label(paid, way, (m, label))
+            if not places:
+                return None
+            after.append(places)
+        return _Sequence(epoch, tuple(after), robots, node.spent + self._lines[0].worth(robots), node)
+
+    def _limit(self, scenario: int) -> int:
+        """What a scenario pays at which a sequence is no better than the best one known."""
+        if self.upper >= INFINITE_WORTH:
+            return INFINITE_WORTH
+        return self._measure.limit(self._members, self._floors, scenario, self.upper)
+
+    def _bound(self, node: _Sequence) -> int:
+        totals = [
+            max(floor, min(label.paid + line.least(m, node.epoch) for m, label in places.items()))
+            for floor, line, places in zip(self._floors, self._lines, node.places, strict=True)
+        ]
+        return self._measure.value(self._members, totals)
+
+    def _complete(self, node: _Sequence) -> None:
+        value = self._bound(node)
+        if value < self.upper:
+            self.upper, self._best = value, node
+
+    # -- what happens
+
+    def committed(self) -> tuple[Step, ...]:
+        """What robots do by themselves."""
+        return () if self._best is None else self._best.steps()
+
+    def played(self) -> dict[int, Played]:
+        """What happens in each scenario beside the best sequence known."""
+        assert self._best is not None, "there is a sequence"
+        found, own = {}, self._best.steps()
+        for line, places in zip(self._lines, self._best.places, strict=True):
+            best = min(places, key=lambda m: places[m].paid + line.least(m, self._horizon))
+            course, ways = Course(), []
+            at: tuple[Member, _Label] | None = (best, places[best])
+            while at is not None and at[1].way is not None:
+                before = at[1].before
+                assert before is not None
+                ways.append((before[0], at[1].way))
+                at = before
+            for epoch, (m, way) in enumerate(reversed(ways), start=1):
+                course.go_on(way, m, epoch)
+            course.steps += own
+            found[line.number] = course.played
+        return found
+
+
+def _is_new(node: _Sequence, seen: dict[object, int]) -> bool:
+    """Whether no sequence has led to the same places for at most as much."""
+    labels = (frozenset((m, label.paid - node.spent) for m, label in p.items()) for p in node.places)
+    same = (node.epoch, tuple(labels))
+    known = seen.get(same)
+    if known is not None and known <= node.spent:
+        return False
+    seen[same] = node.spent
+    return True
