@@ -120,6 +120,10 @@ class Successors:
         """Joint actions with the human that are applicable."""
         return self._joint.options(state) if self._joint is not None else []
 
+    def name(self, part: JointAction) -> str | None:
+        """The name of what the human does; None where they wait."""
+        return self._packed.task.actions[part.actions[0]].name if part.actions else None
+
     def robots(self, state: int) -> list[JointAction]:
         """Every applicable set of actions of the robots without the human, cheapest first."""
         return self._busy.get(state) or self._sets(state, self._busy)

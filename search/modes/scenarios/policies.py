@@ -209,9 +209,13 @@ class PolicySearch:
 
     def _choice(self, group: Group, robots: JointAction, ways: tuple[Way, ...]) -> Choice:
         """A choice, with the groups that it leads to."""
-        parts: dict[tuple[int, ...], list[Way]] = {}
+        parts: dict[tuple[str | None, int], list[Way]] = {}
         for way in ways:
-            parts.setdefault(way.part.actions, []).append(way)
+            seen = (
+                self._acting.name(way.part),
+                way.after.state,
+            )  # other variants of a name may do other things
+            parts.setdefault(seen, []).append(way)
         branches = []
         for together in parts.values():
             paid, after = self._measure.pay([w.after for w in together], [w.paid for w in together])

@@ -145,7 +145,7 @@ class SequenceSearch:
     def _choices(self, node: _Sequence) -> Iterable[JointAction]:
         """Robots' action sets that are possible in some place of the scenario with the fewest."""
         fewest = min(node.places, key=len)
-        offered = {(): NOTHING}
+        offered: dict[tuple[int, ...], JointAction] = {(): NOTHING}
         for state in sorted({m.state for m in fewest if m.phase != OVER}):
             for option in self._acting.robots(state):
                 offered.setdefault(option.actions, option)
