@@ -113,7 +113,7 @@ def done(job: Job) -> dict[str, Any] | None:
     task, promised = _task_of(job.source), _promised(job.source)
     if promised is None:
         return None
-    candidates = _candidates(task, job.goals) if job.goals > 1 else None
+    candidates = candidates_in(task, job.goals) if job.goals > 1 else None
     common = {"runs": job.seeds, "ties": job.ties, "discount": DISCOUNT, "goals": candidates}
     rows = serendipity.execute(task, job.human, deadline=job.deadline, **common).rows
     if job.human.startswith("noisy"):
@@ -139,7 +139,7 @@ def _task_of(source: Source) -> Task:
     return task.with_goal(Condition(tuple(wanted), ()))
 
 
-def _candidates(task: Task, count: int) -> list[dict[str, object]]:
+def candidates_in(task: Task, count: int) -> list[dict[str, Any]]:
     """The person's goal and others of its form, each as probable as any."""
     (own,) = task.goal.positive
     form = task.facts[own].replace("_", " ").split()[:-1]
@@ -185,11 +185,11 @@ def _smallest(domain: str) -> list[tuple[Problem, Roles]]:
     suite = PROBLEMS / "codmap15"
     found = problems(suite, [domain]) if suite.is_dir() else []
     first = sorted(found, key=lambda problem: (len(problem.name), problem.name))[:SMALLEST]
-    able = [(problem, roles(problem, 2, _can_alone)) for problem in first]
+    able = [(problem, roles(problem, 2, can_alone)) for problem in first]
     return [(problem, who) for problem, who in able if who.alone]
 
 
-def _can_alone(problem: Problem, who: Roles) -> bool:
+def can_alone(problem: Problem, who: Roles) -> bool:
     """True if a human can reach two of the goals alone."""
     try:
         return (
