@@ -189,11 +189,6 @@ class Line:
         """What the human does after an epoch if nobody helps: their suffix, or the rest of their plan."""
         return at.tail if at.phase == OVER else tuple(op.action for op, _ in self._steps[epoch:])
 
-    def is_own(self, action: int) -> bool:
-        """Whether the human takes part in an action."""
-        packed = self._context.packed
-        return bool(packed.op(action).agents & packed.human_bit)
-
     def rest(self, at: Member, epoch: int) -> Remainder | None:
         """What is left of a scenario that goes on for certain, as it was found; None where it was not."""
         return self.certain.known(at.state, epoch, _start(at, epoch))

@@ -15,6 +15,10 @@ INFINITE_WORTH: Final = 1 << (1 << 16)
 """No plan: above every worth."""
 
 
+SHARE: Final = 0.2
+"""The share of the time that is left for each look at scenarios one by one."""
+
+
 class Member(NamedTuple):
     """A scenario that the robots hold possible, as far as it has come.
 

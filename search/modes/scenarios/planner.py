@@ -20,6 +20,7 @@ from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
 from serendipity.model.task.horizon import common_horizon
+from serendipity.model.task.plans import Step
 from serendipity.model.task.task import HumanPlan
 
 
@@ -62,10 +63,13 @@ def solve_scenarios(
     """
     horizon = common_horizon(options, [candidate.plan for candidate in candidates])
     call = _ScenarioCall(prepared, options, candidates, horizon, deadline or Deadline(options.time_limit))
-    yield call.answer("feasible")
+    best = call.answer("feasible")
+    yield best
     try:
         for _ in call.improved():
-            yield call.answer("feasible")
+            known, best = best, call.answer("feasible")
+            if (best.objective, best.cost) != (known.objective, known.cost):
+                yield best
     except LIMITS:
         yield call.answer("feasible")
     else:
@@ -90,12 +94,13 @@ class _ScenarioCall:
         self._deadline = deadline
         self._candidates = _merged(candidates)
         self._lines: list[Line] = []
-        self._search: PolicySearch | SequenceSearch | None = None
+        self._sequences: SequenceSearch | None = None
+        self._policies: PolicySearch | None = None
         self._idle: int | None = None
         self.is_exact = True
 
     def improved(self) -> Iterator[None]:
-        """Look for better policies; yield when there is one, and at the end.
+        """Look for better policies; yield whenever there may be one.
 
         Raises:
             LimitReachedError: a limit came first.
@@ -116,14 +121,25 @@ class _ScenarioCall:
         members = [line.first()._replace(ahead=a) for line, a in zip(lines, ahead, strict=True)]
         self._idle = self._measure.value(members, [line.certain.idle(deadline) for line in lines])
         self._lines = lines
-        kind = PolicySearch if self._options.policy == "watching" else SequenceSearch
         self._members = members
-        self._search = search = kind(lines, acting, self._measure, members, self._horizon, deadline)
-        best = INFINITE_WORTH
-        for _ in search.run():
-            if search.upper < best:
-                best = search.upper
-                yield
+        asked = lines, acting, self._measure, members, self._horizon, deadline
+        self._sequences = SequenceSearch(*asked)
+        yield from self._sequences.guided()
+        if self._options.policy == "watching":
+            self._policies = PolicySearch(*asked, self._sequences.upper)
+            yield from self._policies.run()
+        else:
+            yield from self._sequences.run()
+
+    def _searches(self) -> list[SequenceSearch | PolicySearch]:
+        """Those that have begun."""
+        return [search for search in (self._sequences, self._policies) if search is not None]
+
+    @property
+    def _found(self) -> SequenceSearch | PolicySearch:
+        """The search that has found the best policy known."""
+        first, *later = self._searches()
+        return later[0] if later and later[0].upper < first.upper else first
 
     def _scenarios(self) -> list[Scenario]:
         """The task with each candidate's goal, packed with what any of them or its plan asks for."""
@@ -151,17 +167,18 @@ class _ScenarioCall:
 
     def answer(self, status: Status) -> Answer:
         """The best policy if it is cheaper than idle robots, else these."""
-        search, baseline = self._search, self._baseline()
-        if search is None or self._idle is None:
+        searches, baseline = self._searches(), self._baseline()
+        if not searches or self._idle is None:
             return self._told(status, baseline)
+        best = self._found
         _, idle = self._figures(self._idle)
-        least = max(self._figures(search.lower)[0], Fraction(0))
-        if search.upper < INFINITE_WORTH:
-            objective, cost = self._figures(search.upper)
+        least = max(self._figures(searches[-1].lower)[0], Fraction(0))
+        if best.upper < INFINITE_WORTH:
+            objective, cost = self._figures(best.upper)
             if cost < idle:
                 figures = cost, objective, least if self.is_exact else Fraction(0)
                 return self._told(
-                    status, baseline, figures, played=search.played(), saving_alone=baseline - idle
+                    status, baseline, figures, played=best.played(), saving_alone=baseline - idle
                 )
         bound = baseline
         if status != "optimal":  # net of the one epoch that every window has
@@ -174,7 +191,7 @@ class _ScenarioCall:
 
     def _baseline(self) -> Fraction:
         """What it costs to leave the human alone; for regret at most so much, before more is known."""
-        if self._search is not None:
+        if self._sequences is not None:
             alone = [line.certain.alone(0) for line in self._lines]
             return self._figures(self._measure.value(self._members, alone))[1]
         costs = [(c.weight, self._prepared.task.cost_of(c.plan)) for c in self._candidates]
@@ -202,11 +219,11 @@ class _ScenarioCall:
         """
         cost, objective, bound = figures or (baseline, baseline, Fraction(0))
         happens = played or {}
-        counted = [line.certain for line in self._lines]
+        counted = [*(line.certain for line in self._lines), *self._searches()]
         return Answer(
             status,
             horizon=self._horizon,
-            steps=self._search.committed() if happens and self._search else (),
+            steps=self._before_told_apart(happens) if happens else (),
             goals=tuple(self._served(candidate, happens) for candidate in self._given),
             cost=cost,
             baseline=baseline,
@@ -215,10 +232,28 @@ class _ScenarioCall:
             objective=objective,
             lower_bound=bound,
             opportunity=bool(happens),
-            expanded=sum(one.expanded for one in counted) + (self._search.expanded if self._search else 0),
-            generated=sum(one.generated for one in counted) + (self._search.generated if self._search else 0),
+            expanded=sum(one.expanded for one in counted),
+            generated=sum(one.generated for one in counted),
             realised={},
         )
+
+    def _before_told_apart(self, happens: dict[int, Played]) -> tuple[Step, ...]:
+        """What robots do by themselves as long as they can't tell any scenarios apart."""
+        task, horizon = self._prepared.task, self._horizon
+
+        def is_own(step: Step) -> bool:
+            return task.human in task.actions[step.action].participants
+
+        if self._options.policy == "watching":
+            seen = [
+                {s.epoch: task.actions[s.action].name for s in filter(is_own, played.steps)}
+                for played in happens.values()
+            ]
+            epochs = range(1, horizon + 1)
+            differ = (epoch for epoch in epochs if len({one.get(epoch) for one in seen}) > 1)
+            horizon = next(differ, horizon)
+        steps = next(iter(happens.values())).steps
+        return tuple(s for s in steps if s.epoch <= horizon and not is_own(s))
 
     def _served(self, candidate: Candidate, happens: dict[int, Played]) -> ServedGoal:
         """What happens in a scenario."""

@@ -12,15 +12,11 @@ from heapq import heapify, heapreplace
 from typing import NamedTuple
 
 from search.modes.scenarios.lines import FOLLOWING, OVER, Guide, Line, Way
-from search.modes.scenarios.measure import INFINITE_WORTH, Measure, Member
+from search.modes.scenarios.measure import INFINITE_WORTH, SHARE, Measure, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
 from search.packed.successor_generator import Successors
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.plans import Step
-
-_SHARE = 0.2
-"""The share of the time that is left for each look at scenarios one by one, as long as a limit may come."""
 
 
 class Choice(NamedTuple):
@@ -78,6 +74,7 @@ class PolicySearch:
         members: all scenarios, before the first epoch.
         horizon: ``T``.
         deadline: polled.
+        known: of a policy that is known; one with a first choice of its own has to be better.
 
     Attributes:
         root: all scenarios, before the first epoch.
@@ -91,6 +88,7 @@ class PolicySearch:
         members: Sequence[Member],
         horizon: int,
         deadline: Deadline,
+        known: int,
     ) -> None:
         self._lines = lines
         self._acting = acting
@@ -100,6 +98,7 @@ class PolicySearch:
         self._groups: dict[tuple[int, tuple[Member, ...]], Group] = {}
         self._looked: set[Group] = set()
         self.root = self._group(0, tuple(members))
+        self.root.offer(known, None)
         self.expanded = self.generated = 0
 
     @property
@@ -143,7 +142,7 @@ class PolicySearch:
         deadline = self._deadline
         if group not in self._looked:
             self._looked.add(group)
-            deadline = deadline.part(_SHARE)
+            deadline = deadline.part(SHARE)
         elif not single:
             return False
         found = [self._lines[m.scenario].certainly(m, group.epoch, deadline) for m in group.members]
@@ -347,21 +346,3 @@ class PolicySearch:
             if group.choice is not None:
                 pending += [after for _, after in group.choice.branches]
         return {scenario: course.played for scenario, course in courses.items()}
-
-    def committed(self) -> tuple[Step, ...]:
-        """What robots do by themselves as long as no scenarios are told apart."""
-        root, lines = self.root, self._lines
-        steps: list[Step] = []
-        group: Group | None = root
-        while group is not None and group.choice is not None:
-            steps += [Step(group.epoch + 1, action) for action in group.choice.robots.actions]
-            branches = group.choice.branches
-            group = branches[0][1] if len(branches) == 1 else None
-        if group is not None and len(group.members) == 1:
-            (at,) = group.members
-            rest = lines[at.scenario].rest(at, group.epoch)
-            robots = (
-                () if rest is None else (s for s in rest.steps if not lines[at.scenario].is_own(s.action))
-            )
-            steps += [Step(step.epoch + group.epoch, step.action) for step in robots]
-        return tuple(sorted(steps))

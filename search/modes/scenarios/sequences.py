@@ -11,7 +11,7 @@ from itertools import count
 from typing import NamedTuple
 
 from search.modes.scenarios.lines import OVER, Line, Way
-from search.modes.scenarios.measure import INFINITE_WORTH, Measure, Member
+from search.modes.scenarios.measure import INFINITE_WORTH, SHARE, Measure, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
 from search.packed.successor_generator import Successors
@@ -92,8 +92,8 @@ class SequenceSearch:
         self.lower, self.upper = 0, INFINITE_WORTH
         self.expanded = self.generated = 0
 
-    def run(self) -> Iterator[None]:
-        """Look for better sequences; yield when there may be one.
+    def guided(self) -> Iterator[None]:
+        """Try idle robots, and what is best for each scenario; yield after each.
 
         Raises:
             LimitReachedError: the deadline ran out; the bounds hold.
@@ -101,13 +101,13 @@ class SequenceSearch:
         self._offer({})
         yield
         for i, line in enumerate(self._lines):
-            self._floors[i], _ = line.known(self._deadline)
-            guide = line.guide(self._members[i]._replace(ahead=0), 0, self._deadline)
+            deadline = self._deadline.part(SHARE)
+            self._floors[i], _ = line.known(deadline)
+            guide = line.guide(self._members[i]._replace(ahead=0), 0, deadline)
             if guide is not None:
                 epochs = range(1, self._horizon + 1)
                 self._offer({epoch: guide.at(epoch)[0] for epoch in epochs})
             yield
-        yield from self._search()
 
     def _root(self) -> _Sequence:
         places = tuple({m._replace(ahead=0): _Label(0)} for m in self._members)
@@ -121,7 +121,8 @@ class SequenceSearch:
         if node is not None:
             self._complete(node)
 
-    def _search(self) -> Iterator[None]:
+    def run(self) -> Iterator[None]:
+        """Look for better sequences until there are none; yield for each; see :meth:`guided`."""
         tie, root, seen = count(), self._root(), dict[object, int]()
         queue = [(self._bound(root), 0, next(tie), root)]
         while queue and queue[0][0] < self.upper:
@@ -189,10 +190,6 @@ class SequenceSearch:
             self.upper, self._best = value, node
 
     # -- what happens
-
-    def committed(self) -> tuple[Step, ...]:
-        """What robots do by themselves."""
-        return () if self._best is None else self._best.steps()
 
     def played(self) -> dict[int, Played]:
         """What happens in each scenario beside the best sequence known."""
