@@ -12,15 +12,15 @@ from serendipity.model.answers.recognition import Recognition
 from serendipity.model.numbers import agrees, excess
 from serendipity.testing.oracle import Alone, Optimum, best, human_plans, optimal_human_plan
 from serendipity.testing.oracle.assistance import by_rounds, explore, mean_over_all_policies
-from serendipity.testing.oracle.goals import best_expected, robots_sets
 from serendipity.testing.oracle.reactions import best_reaction
+from serendipity.testing.oracle.scenarios import best_policy
 
 _FIGURES: Final = ("cost", "objective", "opportunity", "saving", "saving_alone", "human_cost")
 _MOST_POLICIES: Final = 400
 _MOST_FACTS: Final = 9
-_MOST_PLANS: Final = 300
+_LONGEST_PLAN: Final = 4
 _MOST_TIES: Final = 12
-"""Limits of brute force: policies and facts of a game, robots' plans, the human's plans."""
+"""Limits of brute force: policies and facts of a game, horizon over several goals, the human's plans."""
 
 _ROUNDING: Final = Fraction(1, 10**8)
 """Of means over goals."""
@@ -161,17 +161,11 @@ class Truth:
         return Optimum("optimal", total, total, opportunity=bool(saving), saving=saving)
 
     def _expected(self, options: Options) -> Optimum:
-        own = replace(self.task, actions=tuple(self.task.actions[i] for i in self.task.human_actions))
         horizon = int(options.horizon or max(len(belief.plan) for belief in self.beliefs))
-        if len(robots_sets(self.task, strict=options.strict)) ** horizon > _MOST_PLANS:
+        if horizon > _LONGEST_PLAN:
             raise UnknownTruthError
-        objective, cost = best_expected(self.task, options, self.beliefs, horizon)
-        renumbered = {i: k for k, i in enumerate(self.task.human_actions)}
-        idle_beliefs = [replace(b, plan=tuple(renumbered[i] for i in b.plan)) for b in self.beliefs]
-        _, idle = best_expected(own, options, idle_beliefs, horizon)
-        if cost < idle:
-            return Optimum("optimal", cost, objective, opportunity=True)
-        return Optimum("optimal", idle, idle)
+        found = best_policy(self.task, options, self.beliefs, horizon)
+        return Optimum("optimal", found.cost, found.objective, opportunity=found.opportunity)
 
     def _names(self, plan: HumanPlan | None) -> tuple[str, ...] | None:
         return None if plan is None else tuple(self.task.actions[i].name for i in plan)

@@ -1,6 +1,6 @@
 """The human's actions after the window (semantics 3.1 rule 3, semantics 3.3)."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from functools import cache
 
@@ -67,13 +67,7 @@ def _subplan(task: Task, human_plan: HumanPlan, price: Price) -> Suffix:
 
 def _state(task: Task, human_plan: HumanPlan, price: Price) -> Suffix:
     """Def. 3.1 literally: the state entails ``delta(I, pi_H[1..j])``, then ``pi_H[j+1..]``."""
-    expected = [task.init]
-    for i in human_plan:
-        expected.append(after(expected[-1], [task.actions[i]]))
-    mentioned = set(task.goal.positive) | set(task.goal.negative)
-    for i in task.human_actions:
-        action = task.actions[i]
-        mentioned |= {*action.pre, *action.neg, *action.add, *action.delete}
+    expected, mentioned = _preserved(task, human_plan)
 
     def continued(state: State, j: int) -> Front:
         label = NOTHING
@@ -93,3 +87,68 @@ def _state(task: Task, human_plan: HumanPlan, price: Price) -> Suffix:
         return front(labels)
 
     return suffix
+
+
+def _preserved(task: Task, human_plan: HumanPlan) -> tuple[list[State], set[int]]:
+    """The states ``delta(I, pi_H[1..j])``, and the facts that the human's own domain mentions."""
+    expected = [task.init]
+    for i in human_plan:
+        expected.append(after(expected[-1], [task.actions[i]]))
+    mentioned = set(task.goal.positive) | set(task.goal.negative)
+    for i in task.human_actions:
+        action = task.actions[i]
+        mentioned |= {*action.pre, *action.neg, *action.add, *action.delete}
+    return expected, mentioned
+
+
+class CanonicalSuffix:
+    """The one suffix that the human takes: the cheapest, of those the shortest, of those the first by names.
+
+    Args:
+        task: the task.
+        options: which rule is in force.
+        human_plan: ``pi_H``.
+    """
+
+    def __init__(self, task: Task, options: Options, human_plan: HumanPlan) -> None:
+        self.task, self.options, self.human_plan = task, options, human_plan
+        self.alone = Alone(task)
+        self.expected, self.mentioned = _preserved(task, human_plan)
+        self.plan = cache(self._plan)
+
+    def _plan(self, state: State, xi1: int, epochs: int) -> HumanPlan | None:
+        """From a state on, given xi1 and the number of epochs that are left; None where no window fits."""
+        if self.options.preservation == "state":
+            found = self._rests(state, xi1)
+        elif self.options.suffix == "subplan":
+            found = self._parts(state, self.human_plan)
+        else:
+            found = self._optimal(state)
+        return min((plan for plan in found if len(plan) <= epochs), key=self._order, default=None)
+
+    def _order(self, plan: HumanPlan) -> tuple[Fraction, int, list[str]]:
+        return (self.task.cost_of(plan), len(plan), [self.task.actions[i].name for i in plan])
+
+    def _optimal(self, state: State) -> Iterator[HumanPlan]:
+        """Def. 2.0a: the canonical plan of semantics 1."""
+        plan: HumanPlan = ()
+        while ways := self.alone.optimal(state):
+            plan, state = (*plan, ways[0][0]), ways[0][1]
+        if holds(self.task.goal, state):
+            yield plan
+
+    def _parts(self, state: State, rest: HumanPlan) -> Iterator[HumanPlan]:
+        """Def. 2.0: the subsequences of ``pi_H`` that work."""
+        if holds(self.task.goal, state):
+            yield ()
+        for k, i in enumerate(rest):
+            if usable(self.task.actions[i], state):
+                for plan in self._parts(after(state, [self.task.actions[i]]), rest[k + 1 :]):
+                    yield (i, *plan)
+
+    def _rests(self, state: State, xi1: int) -> Iterator[HumanPlan]:
+        """Def. 3.1 literally: ``pi_H[j+1..]``, where the state entails ``delta(I, pi_H[1..j])``."""
+        for j in range(xi1 - 1, len(self.human_plan) + 1):
+            rest = self.human_plan[j:]
+            if state >= (self.expected[j] & self.mentioned) and rest in self._parts(state, rest):
+                yield rest

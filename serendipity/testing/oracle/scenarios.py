@@ -1,0 +1,281 @@
+"""Brute force for semantics 11: every policy of the robots, by recursion over what they have seen.
+
+Where robots can't tell scenarios apart, these are a group: they share what robots do by themselves,
+and so their state.  The recursion is over (epoch, group); what comes of it are vectors with the worth
+of each scenario, since ``risk`` decides only at the end which vector is the least.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cache
+from itertools import product
+from typing import NamedTuple, Protocol
+
+from serendipity.model import Condition, GroundAction, HumanPlan, Options, Task, UsageError
+from serendipity.testing.oracle.epochs import State, action_sets, after, compatible, holds, usable
+from serendipity.testing.oracle.suffixes import CanonicalSuffix
+
+Worth = tuple[Fraction, Fraction]
+"""Objective and cost; the lower objective is better, then the lower cost."""
+
+Vector = tuple[Worth, ...]
+"""One worth for each scenario."""
+
+_FREE: Worth = (Fraction(0), Fraction(0))
+
+
+class PossibleGoal(Protocol):
+    """A scenario."""
+
+    @property
+    def goal(self) -> Condition:
+        """What the human wants."""
+
+    @property
+    def plan(self) -> HumanPlan:
+        """How they mean to get it."""
+
+    @property
+    def weight(self) -> Fraction:
+        """Its probability."""
+
+
+@dataclass(frozen=True, slots=True)
+class PolicyOptimum:
+    """The answer of an exact planner.
+
+    Attributes:
+        objective: of the answer, which is doing nothing where there is no opportunity.
+        cost: of the answer.
+        opportunity: whether robots gain anything.
+        baseline: cost of the human's plans with idle robots.
+        idle: what the human gains alone is in it: the least worth without robots.
+        least: the least worth of any policy, helpful or not.
+    """
+
+    objective: Fraction
+    cost: Fraction
+    opportunity: bool
+    baseline: Fraction
+    idle: Worth
+    least: Worth
+
+
+def best_policy(
+    task: Task, options: Options, scenarios: Sequence[PossibleGoal], horizon: int | None = None
+) -> PolicyOptimum:
+    """The exact answer over scenarios.
+
+    Args:
+        task: the task; its own goal plays no part.
+        options: of mode ``serendipity``.
+        scenarios: at least one; weights add up to 1.
+        horizon: ``T``, or None for the length of the longest plan.
+
+    Raises:
+        UsageError: the horizon is shorter than a plan.
+    """
+    longest = max(len(scenario.plan) for scenario in scenarios)
+    last = longest if horizon is None else horizon
+    if last < longest:
+        raise UsageError("horizon: shorter than the human's plan")
+    policies = _Policies(task, options, scenarios, last)
+    without_robots = _Policies(task, options, scenarios, last, robots=False)
+    weight = options.window_weight
+    costs = [task.cost_of(scenario.plan) for scenario in scenarios]
+    over = _Risk(options.risk, [scenario.weight for scenario in scenarios], policies.singles())
+    least, idle = over.least(policies.vectors()), over.least(without_robots.vectors())
+    baseline = over.worth([(cost + weight, cost) for cost in costs])[1]
+    if least[1] < idle[1]:
+        return PolicyOptimum(*least, True, baseline, idle, least)
+    return PolicyOptimum(baseline, baseline, False, baseline, idle, least)
+
+
+@dataclass(frozen=True, slots=True)
+class _Risk:
+    """What is minimised.
+
+    Attributes:
+        kind: option ``risk``.
+        weights: the probabilities.
+        singles: the least worth of each scenario, were it the only one.
+    """
+
+    kind: str
+    weights: Sequence[Fraction]
+    singles: Vector
+
+    def least(self, vectors: Iterable[Vector]) -> Worth:
+        """The least worth there is."""
+        return min(self.worth(vector) for vector in vectors)
+
+    def worth(self, vector: Sequence[Worth]) -> Worth:
+        """What is minimised, and the cost that goes with it."""
+        if self.kind == "worst":
+            return max(vector)
+        if self.kind == "regret":
+            return max((a[0] - b[0], a[1] - b[1]) for a, b in zip(vector, self.singles, strict=True))
+        return _total((p * a, p * b) for p, (a, b) in zip(self.weights, vector, strict=True))
+
+
+class _Situation(NamedTuple):
+    """Where a scenario is; without ``since`` and ``rest`` the human has followed their plan so far."""
+
+    scenario: int
+    state: State
+    since: int | None = None
+    """The first epoch of the window that they are in."""
+    rest: HumanPlan | None = None
+    """What is left to do after the window."""
+
+
+_Group = tuple[_Situation, ...]
+
+
+class _Way(NamedTuple):
+    """What may come of an epoch in a scenario."""
+
+    seen: str | None
+    """Name of the human's action; None where they wait."""
+    worth: Worth
+    now: _Situation
+
+
+class _Policies:
+    """All policies of a call; those without any robot if so asked."""
+
+    def __init__(
+        self,
+        task: Task,
+        options: Options,
+        scenarios: Sequence[PossibleGoal],
+        horizon: int,
+        *,
+        robots: bool = True,
+    ) -> None:
+        self.task, self.options, self.horizon = task, options, horizon
+        self.scenarios = scenarios
+        self.weight = options.window_weight
+        self.suffixes = [
+            CanonicalSuffix(replace(task, goal=scenario.goal), options, scenario.plan)
+            for scenario in scenarios
+        ]
+        self.own = [i for i, a in enumerate(task.actions) if robots and task.human not in a.participants]
+        human = [a for a in task.actions if task.human in a.participants and (robots or not a.joint)]
+        self.parts: list[GroundAction | None] = [None, *human]
+        self.front = cache(self._front)
+
+    def vectors(self) -> tuple[Vector, ...]:
+        """What policies are worth; those that are no better in any scenario than others may be missing."""
+        return self.front(1, tuple(_Situation(k, self.task.init) for k in range(len(self.scenarios))))
+
+    def singles(self) -> Vector:
+        """The least for each scenario by itself."""
+        return tuple(
+            self.front(1, (_Situation(k, self.task.init),))[0][0] for k in range(len(self.scenarios))
+        )
+
+    def _front(self, epoch: int, group: _Group) -> tuple[Vector, ...]:
+        """What the rest can be worth to a group, from the beginning of an epoch on."""
+        if epoch > self.horizon:
+            ends = [self._end(now) for now in group]
+            return (tuple(end for end in ends if end is not None),) if None not in ends else ()
+        found: set[Vector] = set()
+        for robots in self._robots(group):
+            for ways in product(*(self._ways(epoch, now, robots) for now in group)):
+                found.update(self._onward(epoch, ways))
+        return tuple(v for v in found if not any(w != v and _no_worse(w, v) for w in found))
+
+    def _onward(self, epoch: int, ways: Sequence[_Way]) -> Iterator[Vector]:
+        """The epoch and all that follows, once it is settled what happens in it."""
+        parts: dict[str | None, list[int]] = {}
+        for k, way in enumerate(ways):
+            parts.setdefault(way.seen if self.options.policy == "watching" else None, []).append(k)
+        rests = [self.front(epoch + 1, tuple(ways[k].now for k in part)) for part in parts.values()]
+        for chosen in product(*rests):
+            rest = {
+                k: worth
+                for part, vector in zip(parts.values(), chosen, strict=True)
+                for k, worth in zip(part, vector, strict=True)
+            }
+            yield tuple(_total((way.worth, rest[k])) for k, way in enumerate(ways))
+
+    def _robots(self, group: _Group) -> Iterator[tuple[GroundAction, ...]]:
+        """What robots may do by themselves, the same in the whole group."""
+        if any(now.rest is not None for now in group):
+            yield ()
+            return
+        for chosen in action_sets(self.task, group[0].state, self.own, strict=self.options.strict):
+            actions = tuple(self.task.actions[i] for i in chosen)
+            if all(usable(action, now.state) for now in group for action in actions):
+                yield actions
+
+    def _ways(self, epoch: int, now: _Situation, robots: Sequence[GroundAction]) -> Iterator[_Way]:
+        """Everything that the human may do beside the robots, by rules 1 to 3 of semantics 3.1."""
+        if now.rest is not None:
+            yield from self._way(now, robots, self._action(now.rest, 0), rest=now.rest[1:])
+            return
+        plan, since = self.scenarios[now.scenario].plan, now.since
+        if since is None:
+            yield from self._way(now, robots, self._action(plan, epoch - 1))
+            since = epoch
+        most = self.options.max_window or self.horizon
+        if since <= len(plan) and epoch - since < most:
+            for his in self.parts:
+                for way in self._way(now, robots, his, since=since):
+                    inside = way._replace(worth=_total((way.worth, (self.weight, Fraction(0)))))
+                    yield inside
+                    yield from self._closed(epoch, inside)
+
+    def _way(
+        self,
+        now: _Situation,
+        robots: Sequence[GroundAction],
+        his: GroundAction | None,
+        *,
+        since: int | None = None,
+        rest: HumanPlan | None = None,
+    ) -> Iterator[_Way]:
+        """The epoch with an action of the human's, if they can do that beside the robots."""
+        actions = list(robots)
+        if his is not None:
+            if not all(compatible(his, action, strict=self.options.strict) for action in robots):
+                return
+            actions.append(his)
+        if all(usable(action, now.state) for action in actions):
+            costs = (self.task.team_cost(action, self.options.discount) for action in actions)
+            cost = sum(costs, Fraction(0))
+            state = after(now.state, actions)
+            seen = None if his is None else his.name
+            yield _Way(seen, (cost, cost), _Situation(now.scenario, state, since, rest))
+
+    def _closed(self, epoch: int, inside: _Way) -> Iterator[_Way]:
+        """The same epoch, as the last one of the window."""
+        scenario, state, since, _ = inside.now
+        assert since is not None
+        rest = self.suffixes[scenario].plan(state, since, self.horizon - epoch)
+        if rest is not None:
+            yield inside._replace(now=_Situation(scenario, state, None, rest))
+
+    def _end(self, now: _Situation) -> Worth | None:
+        """What comes on top after ``T``; None where it can't end like this."""
+        if now.rest is not None:
+            return _FREE
+        if now.since is not None or not holds(self.scenarios[now.scenario].goal, now.state):
+            return None
+        return (self.weight, Fraction(0))
+
+    def _action(self, plan: HumanPlan, index: int) -> GroundAction | None:
+        return self.task.actions[plan[index]] if index < len(plan) else None
+
+
+def _no_worse(a: Vector, b: Vector) -> bool:
+    return all(one <= other for one, other in zip(a, b, strict=True))
+
+
+def _total(worths: Iterable[Worth]) -> Worth:
+    objective, cost = _FREE
+    for more in worths:
+        objective, cost = objective + more[0], cost + more[1]
+    return objective, cost
