@@ -56,7 +56,7 @@ class VerifierLimits:
         robot_states: of one robot beside the human's timetable, after an epoch.
         left_behind: what robots may leave behind together.
         left_pairs: the same, before what is equal is put together.
-        robots_plans: that are looked at where several goals are possible.
+        policies: epochs of scenarios that are not told apart, and what may be done in them.
         moments: states and minds of people who replan.
         several_plans: the human's optimal plans for which one search beside all of them pays.
         solved_here: coefficients of a program up to which HiGHS overruns its limit by some 20 ms at most.
@@ -93,7 +93,7 @@ class VerifierLimits:
     robot_states: int = 400_000
     left_behind: int = 1_000_000
     left_pairs: int = 30_000_000
-    robots_plans: int = 20_000
+    policies: int = 300_000
     moments: int = 200_000
     several_plans: int = 3
     solved_here: int = 15_000

@@ -25,7 +25,7 @@ _PLAN: Final = {
 
 NEEDED: Final[dict[str, dict[str, tuple[str, ...]]]] = {
     "a plan": _PLAN,
-    "a plan for each goal": _PLAN,
+    "a plan for each scenario": _PLAN,
     "a plan for a human who replans": {
         status: tuple("realised" if claim == "window" else claim for claim in claims)
         for status, claims in _PLAN.items()
@@ -52,7 +52,7 @@ def kind_of(result: Result) -> str:
     if result.mode == "assistance":
         return "a policy"
     if result.goals is not None and len(result.goals) > 1:
-        return "a plan for each goal"
+        return "a plan for each scenario"
     if is_mean(result):
         return "a mean over ties"
     if result.options.human_model != "omniscient":
@@ -63,7 +63,8 @@ def kind_of(result: Result) -> str:
 def is_tied(result: Result) -> bool:
     """Whether an answer speaks for all optimal ``pi_H`` at once."""
     options = result.options
-    return options.ties != "fixed" and result.mode in TIED_MODES and result.human_plan is not None
+    tied = options.ties not in ("fixed", "watched")
+    return tied and result.mode in TIED_MODES and result.human_plan is not None
 
 
 def is_mean(result: Result) -> bool:
@@ -96,7 +97,7 @@ def complete(result: Result, claims: Iterable[Claim], *, by_rules: bool = False)
 def _best(result: Result) -> Iterator[str]:
     if result.opportunity or not result.options.windowed:
         yield "optimal"
-    predicted = result.human_plan is not None or kind_of(result) == "a plan for each goal"
+    predicted = result.human_plan is not None or kind_of(result) == "a plan for each scenario"
     if not result.opportunity and predicted and result.mode != "individual":
         yield "no_opportunity"
 

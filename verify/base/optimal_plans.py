@@ -37,10 +37,11 @@ class OptimalPlans:
         """``pi_H`` as semantics 1 predicts it; None if the human can't reach their goal."""
         return next(self.plans(), None)
 
-    def plans(self) -> Iterator[HumanPlan]:
-        """All optimal plans from the initial state, the canonical one first."""
-        if self.worth(self._task.init) is not None:
-            yield from self._continue((), self._task.init)
+    def plans(self, state: State | None = None) -> Iterator[HumanPlan]:
+        """All optimal plans from a state, or the initial one; the canonical one first."""
+        start = self._task.init if state is None else state
+        if self.worth(start) is not None:
+            yield from self._continue((), start)
 
     def steps(self, state: State) -> Iterator[tuple[int, State]]:
         """Actions that start an optimal plan from ``state``, in string order, with their results.

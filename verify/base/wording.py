@@ -23,12 +23,16 @@ FOLLOWED_SO_FAR: Final[Mapping[str, str]] = {**FOLLOWED, "cost": "every cost is 
 """The same for ``check``, which proves no saving."""
 
 FOLLOWED_BY_ALL: Final[Mapping[str, str]] = {
-    "replay": "the posterior is right, and no considered plan is broken",
-    "cost": "every expectation is the sum of what it consists of",
-    "window": "each goal's prefix, window and suffix are as the mode demands",
+    "replay": "{}; robots act by what they have seen, and no plan is broken",
+    "cost": "every figure is what it consists of",
+    "window": "each scenario's prefix, window and suffix are as the mode demands",
     "lower_bound": "it is consistent with status and objective",
 }
-"""The same for an answer for several goals."""
+"""The same for an answer over scenarios; braces say where these come from."""
+
+POSTERIOR: Final = "the posterior is right"
+ALL_OPTIMAL: Final = "the plans are the human's optimal ones"
+GIVEN_PLANS: Final = "plans and probabilities are taken as given"
 
 FOLLOWED_BY_POLICY: Final = "closed under what the human may do, and every run ends"
 
@@ -97,7 +101,7 @@ NOTHING_HAS_OBJECTIVE: Final = "doing nothing has the objective {}"
 WITHOUT_ROBOTS: Final = "without robots it costs {}"
 FIGURE: Final = "{} is {:g}, the result says {}"
 EXPECTED_SAVING_ALONE: Final = "saving_alone is {:.12g}, the answer says {}"
-BETTER_FOR_ALL: Final = "better for all goals: expected cost {:.12g}, objective {:.12g}"
+BETTER_POLICY: Final = "a better policy: cost {:.12g}, objective {:.12g}"
 BOUND_EXPECTED: Final = "lower_bound: expected {:g}"
 
 # -- proofs
@@ -108,8 +112,8 @@ NO_LESS_THAN_ALONE: Final = "the optimum costs no less than the answer without r
 BEST_NO_LESS_THAN_ALONE: Final = "the best plan costs no less than the answer without robots"
 NOTHING_SATISFIES: Final = "no plan satisfies the program"
 ALL_PLAYED: Final = "everything that robots can do was played"
-ALL_PLAYED_FOR_ALL: Final = "everything that robots can do was played beside all goals"
-EACH_ADDS_UP: Final = "the best answers to each goal by itself add up to it"
+ALL_POLICIES: Final = "every policy of the robots was looked at"
+EACH_ADDS_UP: Final = "the best answers to each scenario by itself come to it"
 RUNS_FOR_EVER: Final = "whatever the supporter does, a run may go on for ever"
 FLOORS_REACH: Final = "lower bounds that prove each other reach the policy's value"
 TOGETHER_MIGHT: Final = "both together, without turns, might pay less"

@@ -31,7 +31,7 @@ def _claims(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
 
         return examined_in_time(task, result, deadline, by_rules)
     if result.says("goals"):
-        return _for_goals(task, result, deadline)
+        return _over_scenarios(task, result, deadline)
     if result.mode == "assistance":
         from verify.policy import check_policy
 
@@ -55,13 +55,13 @@ def _for_plan(task: Task, result: Result, deadline: Deadline) -> Iterator[Claim]
         yield Claim(best, "not_in_scope", wording.NEEDS_OPTIMISER)
 
 
-def _for_goals(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
-    from verify.goals.check import claims_by_rules, examine, unexamined  # few results have goals
+def _over_scenarios(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
+    from verify.scenarios.check import claims_by_rules, examine, unexamined  # few results have them
 
     examined = examine(task, result, deadline)
     if examined.single is not None:
         return _for_plan(*examined.single, deadline)
     if not examined.lines:
         return examined.claims
-    claims = claims_by_rules(result, examined.lines)
+    claims = claims_by_rules(result, examined)
     return (*claims, *(unexamined(result, claims) or ()))

@@ -33,8 +33,6 @@ from verify.certificate.humans import HumanExaminer
 from verify.certificate.provable import require_programs
 from verify.certificate.simulator import realised_claim
 from verify.certificate.tied import combined
-from verify.goals.check import claims_by_rules, examine, unexamined
-from verify.goals.proof import GoalsProof
 from verify.limits import limited, limits
 from verify.policy import check_policy
 from verify.programs.alone import least_alone
@@ -44,6 +42,8 @@ from verify.rules import Checker, RuleReport
 from verify.rules.claims import rule_claim
 from verify.rules.header import require_same_task
 from verify.rules.replay import replay, replay_human
+from verify.scenarios.check import claims_by_rules, examine, unexamined
+from verify.scenarios.proof import ScenariosProof
 from verify.solvers.mip import solver_version
 
 
@@ -110,7 +110,7 @@ def _certify(task: Task, result: Result, effort: Effort) -> Certificate:
     if needs_time(task, options=result.options) or result.in_time:
         examine = _in_time
     elif result.says("goals"):
-        examine = _for_goals
+        examine = _over_scenarios
     claims, calls = complete(result, examine(task, result, effort)), len(effort.calls)
     return Certificate(claims, perf_counter() - started, version, effort.encoding, effort.size, calls)
 
@@ -130,16 +130,16 @@ def _in_time(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
     return examined_in_time(task, result, effort.deadline, examine)
 
 
-def _for_goals(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
-    """Semantics 8: where one goal is left, the answer is one of section 3."""
+def _over_scenarios(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
+    """Semantics 11: where one scenario is left, the answer is one of section 3."""
     examined = examine(task, result, effort.deadline)
     if examined.single is not None:
         return _Certifier.examined(*examined.single, effort)
     if not examined.lines:
         return examined.claims
-    claims = claims_by_rules(result, examined.lines)
+    claims = claims_by_rules(result, examined)
     rest = unexamined(result, claims, solving=True)
-    return (*claims, *(GoalsProof(result, examined.lines, effort).claims() if rest is None else rest))
+    return (*claims, *(ScenariosProof(result, examined.lines, effort).claims() if rest is None else rest))
 
 
 class _Certifier:

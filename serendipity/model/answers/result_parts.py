@@ -44,16 +44,17 @@ class TiedAnswer:
 
 @dataclass(frozen=True, slots=True)
 class GoalAnswer:
-    """The answer for one goal that the human may have (semantics 8).
+    """What happens in one scenario (semantics 8, 11).
 
     Attributes:
-        name: of the goal.
-        probability: among the goals that are considered.
+        name: of the scenario, or of its goal.
+        probability: among the scenarios that are considered.
         human_plan: names of the human's current plan, or None where that is not known.
         cost: what it costs the team, or None without a plan.
         window: in which that plan is interrupted, or None.
         plan: what everybody does, or None.
         human_plan_times: of the human's plan, as in :class:`serendipity.model.Result`.
+        goal: literals of what the human wants, where neither the task nor a recognition says it.
     """
 
     name: str
@@ -63,11 +64,13 @@ class GoalAnswer:
     window: Window | None
     plan: tuple[PlanStep, ...] | None
     human_plan_times: PlanTimes | None = None
+    goal: tuple[str, ...] | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
         names = ["name", "probability", "human_plan", "cost", "window", "plan"]
-        return written(self, names + ([] if self.human_plan_times is None else ["human_plan_times"]))
+        more = (name for name in ("human_plan_times", "goal") if getattr(self, name) is not None)
+        return written(self, [*names, *more])
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,8 +18,8 @@ from serendipity.testing.strategies import Call, calls
 from tests.model.test_parts_of_results import rivals as rivals_at_work
 from tests.search.modes.goals.strategies import literals, rivals
 from verify.base.individual import IndividualOptimum
-from verify.goals.timelines import GoalTimeline, rule_fault
 from verify.rules.case import Case
+from verify.scenarios.timelines import Timeline, rule_fault
 
 LONGEST_PLAN = 4
 _OPTIONS = st.builds(
@@ -61,7 +61,7 @@ def test_each_goal_is_served_by_the_rules(rivalry: tuple[Task, list[Candidate]],
         own = replace(task, goal=candidate.goal)
         robots = {s for s in served.steps if task.human not in task.actions[s.action].participants}
         assert robots == set(answer.steps or ())
-        line = GoalTimeline(
+        line = Timeline(
             "it",
             Fraction(1),
             Case(own, _as_result(own, options, candidate, served, answer), IndividualOptimum(own)),
@@ -87,7 +87,7 @@ def _assert_needed(
         task.team_cost(task.actions[step.action], options.discount) for step in answer.steps or ()
     )
     alone = replace(served, steps=beside, window=None, cost=cost)
-    line = GoalTimeline(
+    line = Timeline(
         "it",
         Fraction(1),
         Case(task, _as_result(task, options, candidate, alone, answer), IndividualOptimum(task)),

@@ -1,9 +1,8 @@
-"""Answers for several goals are proved by code of the verifier's own; doctored ones are refuted."""
+"""Answers over goals are proved by code of the verifier's own; doctored ones are refuted."""
 
 import json
 from collections.abc import Callable
 from copy import deepcopy
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -15,18 +14,14 @@ import serendipity
 from search.modes.scenarios import Candidate
 from serendipity.model import Certificate, Condition, Deadline, InputError, Options, Result, Task
 from serendipity.testing.builders import task as build
-from serendipity.testing.oracle.scenarios import best_policy
 from tests.cli.conftest import Runs
 from tests.search.modes.goals.strategies import literals, rivals
-from tests.search.modes.goals.test_expected_equals_brute_force import _OPTIONS, LONGEST_PLAN
+from tests.search.modes.goals.test_expected_equals_brute_force import _OPTIONS
 from tests.search.modes.goals.test_worked_cases import helped, workshop
+from tests.verify.scenarios.edit import edit
 from verify.base.optimal_plans import OptimalPlans
-from verify.calls.call import ExaminedCall
-from verify.goals import together
-from verify.goals.beliefs import compiled
 from verify.limits import limited
-
-_FAR = (Fraction(10**9), Fraction(10**9))
+from verify.scenarios.beliefs import compiled
 
 
 def _verdicts(certificate: Certificate) -> dict[str, tuple[str, str]]:
@@ -53,35 +48,6 @@ def test_every_answer_is_proved(
     assert _verdicts(certificate)["infeasible" if answer.cost is None else wanted][0] == "proved"
 
 
-@given(rivals(), _OPTIONS)
-@settings(max_examples=25)
-def test_what_is_played_is_what_brute_force_finds(
-    rivalry: tuple[Task, list[Candidate]], options: Options
-) -> None:
-    task, candidates = rivalry
-    horizon = max(len(candidate.plan) for candidate in candidates)
-    if not 0 < horizon <= LONGEST_PLAN:
-        return  # too many for brute force
-    calls = []
-    for candidate in candidates:
-        own = Task(
-            task.name,
-            task.agents,
-            task.human,
-            task.facts,
-            task.init,
-            candidate.goal,
-            task.actions,
-        )
-        calls.append(ExaminedCall(own, options.but(horizon=horizon), candidate.plan, OptimalPlans(own)))
-    everything = together.AllGoals(calls, [candidate.weight for candidate in candidates])
-    best = best_policy(task, options, candidates).least
-    assert everything.floor() <= best
-    found = everything.better(_FAR)
-    assert found.rank == best
-    assert everything.better(best) is None
-
-
 def test_observations_become_a_counter() -> None:
     """With z's action seen, p costs 10: it has to be done on the way; without it, 5."""
     task = workshop("!q -> z @ 5")
@@ -99,19 +65,6 @@ def _answer() -> tuple[Task, dict[str, Any]]:
     answer = helped(task, 1, 1)
     assert serendipity.verify(task, answer).verdict == "proved"
     return task, deepcopy(answer.to_dict())
-
-
-def _edit(path: str, value: object) -> Callable[[dict[str, Any]], None]:
-    """Set what a path like ``statistics.goals.0.cost`` leads to; a callable gets the old value."""
-
-    def edit(answer: dict[str, Any]) -> None:
-        *way, last = [int(part) if part.isdigit() else part for part in path.split(".")]
-        at: Any = answer
-        for part in way:
-            at = at[part]
-        at[last] = value(at[last]) if callable(value) else value
-
-    return edit
 
 
 def _left_alone(answer: dict[str, Any]) -> None:
@@ -138,60 +91,60 @@ def _shared_help(answer: dict[str, Any]) -> None:
 
 
 DOCTORED: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
-    "a prior": (_edit("statistics.recognition.goals.0.prior", 0.6), "replay", "priors do not add up"),
-    "a posterior": (_edit("statistics.recognition.goals.0.posterior", 0.6), "replay", "posterior is 0.5"),
-    "a likelihood": (_edit("statistics.recognition.goals.0.likelihood", 0.5), "replay", "likelihood is 1"),
+    "a prior": (edit("statistics.recognition.goals.0.prior", 0.6), "replay", "priors do not add up"),
+    "a posterior": (edit("statistics.recognition.goals.0.posterior", 0.6), "replay", "posterior is 0.5"),
+    "a likelihood": (edit("statistics.recognition.goals.0.likelihood", 0.5), "replay", "likelihood is 1"),
     "a cost of recognition": (
-        _edit("statistics.recognition.goals.0.cost_with_observed", 4.0),
+        edit("statistics.recognition.goals.0.cost_with_observed", 4.0),
         "replay",
         "cost with the observations is 5.0",
     ),
     "a plan of recognition": (
-        _edit("statistics.recognition.goals.0.plan", ["prepare h", "do1 h"]),
+        edit("statistics.recognition.goals.0.plan", ["prepare h", "do1 h"]),
         "replay",
         "not the canonical one",
     ),
     "an observation made up": (
-        _edit("statistics.recognition.observed", ["keep h"]),
+        edit("statistics.recognition.observed", ["keep h"]),
         "replay",
         "cost with the observations is 10.0",
     ),
-    "a strange observation": (_edit("statistics.recognition.observed", ["lift r"]), "replay", "does alone"),
-    "explained denied": (_edit("statistics.recognition.explained", False), "replay", "explained is true"),
-    "an unknown fact": (_edit("statistics.recognition.goals.0.goal", ["x"]), "replay", "no fact 'x'"),
+    "a strange observation": (edit("statistics.recognition.observed", ["lift r"]), "replay", "does alone"),
+    "explained denied": (edit("statistics.recognition.explained", False), "replay", "explained is true"),
+    "an unknown fact": (edit("statistics.recognition.goals.0.goal", ["x"]), "replay", "no fact 'x'"),
     "a field lost": (
-        _edit("statistics.recognition.goals.0.prior", None),
+        edit("statistics.recognition.goals.0.prior", None),
         "replay",
         "prior: expected a finite number",
     ),
-    "no recognition": (_edit("statistics.recognition", None), "replay", "recognition: expected an object"),
-    "goals of another form": (_edit("statistics.goals", {}), "replay", "goals: expected a list"),
-    "a goal left out": (_edit("statistics.goals", lambda old: old[:1]), "replay", "to consider are p, z"),
-    "a probability": (_edit("statistics.goals.0.probability", 0.6), "replay", "the probability is 0.5"),
-    "another plan of his": (_edit("statistics.goals.1.human_plan", ["do1 h"]), "replay", "human_plan"),
-    "another horizon": (_edit("horizon", 3), "replay", "the horizon is 2"),
-    "a window of the whole": (_edit("window", {"start": 1, "end": 2}), "replay", "single goals"),
-    "an action too late": (_edit("statistics.goals.0.plan.0.epoch", 2), "replay", "precondition"),
-    "an action lost": (_edit("statistics.goals.1.plan", lambda old: old[1:]), "replay", "goal does not hold"),
-    "help for one goal only": (_only_for_one, "replay", "robots do something else"),
+    "no recognition": (edit("statistics.recognition", None), "replay", "recognition: expected an object"),
+    "goals of another form": (edit("statistics.goals", {}), "replay", "goals: expected a list"),
+    "a goal left out": (edit("statistics.goals", lambda old: old[:1]), "replay", "to consider are p, z"),
+    "a probability": (edit("statistics.goals.0.probability", 0.6), "replay", "the probability is 0.5"),
+    "another plan of his": (edit("statistics.goals.1.human_plan", ["do1 h"]), "replay", "human_plan"),
+    "another horizon": (edit("horizon", 3), "replay", "the horizon is 2"),
+    "a window of the whole": (edit("window", {"start": 1, "end": 2}), "replay", "single scenarios"),
+    "an action too late": (edit("statistics.goals.0.plan.0.epoch", 2), "replay", "precondition"),
+    "an action lost": (edit("statistics.goals.1.plan", lambda old: old[1:]), "replay", "goal does not hold"),
+    "help for one goal only": (_only_for_one, "replay", "robots do not do the same"),
     "his action in the plan": (_shared_help, "replay", "what robots do without the human"),
-    "a window lost": (_edit("statistics.goals.0.window", None), "replay", "left alone"),
-    "a step's cost": (_edit("statistics.goals.0.plan.1.cost", 0.5), "cost", "step-cost"),
-    "a cost of one goal": (_edit("statistics.goals.0.cost", 1.0), "cost", "goal 'p': cost"),
-    "the expected cost": (_edit("cost", 3.5), "cost", "expected cost is 4"),
-    "his expected cost": (_edit("human_cost", 6.0), "cost", "expected human_cost is 5"),
-    "the saving": (_edit("saving", 2.0), "cost", "expected saving is 1"),
-    "the objective": (_edit("objective", 4.0), "cost", "expected objective is 1004"),
-    "an agent's share": (_edit("agent_costs.r", 0.5), "cost", "agent_costs of r is 1"),
-    "K": (_edit("options.window_weight", 10.0), "cost", "expected objective is 14"),
-    "saving_alone": (_edit("saving_alone", 0.5), "cost", "saving_alone is 0"),
+    "a window lost": (edit("statistics.goals.0.window", None), "replay", "left alone"),
+    "a step's cost": (edit("statistics.goals.0.plan.1.cost", 0.5), "cost", "step-cost"),
+    "a cost of one goal": (edit("statistics.goals.0.cost", 1.0), "cost", "scenario 'p': cost"),
+    "the expected cost": (edit("cost", 3.5), "cost", "expected cost is 4"),
+    "his expected cost": (edit("human_cost", 6.0), "cost", "expected human_cost is 5"),
+    "the saving": (edit("saving", 2.0), "cost", "expected saving is 1"),
+    "the objective": (edit("objective", 4.0), "cost", "expected objective is 1004"),
+    "an agent's share": (edit("agent_costs.r", 0.5), "cost", "agent_costs of r is 1"),
+    "K": (edit("options.window_weight", 10.0), "cost", "expected objective is 14"),
+    "saving_alone": (edit("saving_alone", 0.5), "cost", "saving_alone is 0"),
     "a window that starts late": (
-        _edit("statistics.goals.0.window", {"start": 2, "end": 3}),
+        edit("statistics.goals.0.window", {"start": 2, "end": 3}),
         "window",
         "window-range",
     ),
-    "a bound": (_edit("lower_bound", 1003.0), "lower_bound", "lower_bound is 1003"),
-    "an opportunity denied": (_left_alone, "no_opportunity", "expected cost 4, objective 1004"),
+    "a bound": (edit("lower_bound", 1003.0), "lower_bound", "lower_bound is 1003"),
+    "an opportunity denied": (_left_alone, "no_opportunity", "cost 4, objective 1004"),
 }
 
 
@@ -219,7 +172,7 @@ def test_a_plan_that_is_broken() -> None:
     refuted = serendipity.verify(task, Result.from_dict(answer)).refuted
     assert refuted.claim == "replay"
     assert refuted.reason == (
-        "goal 'z': precondition (semantics 2): epoch 2: 'keep h': precondition: 'q' is true"
+        "scenario 'z': precondition (semantics 2): epoch 2: 'keep h': precondition: 'q' is true"
     )
 
 
@@ -236,7 +189,7 @@ def test_dearer_help_is_not_the_best() -> None:
     refuted = serendipity.verify(task, dear).refuted
     assert (refuted.claim, refuted.reason) == (
         "optimal",
-        "better for all goals: expected cost 3, objective 1003",
+        "a better policy: cost 3, objective 1003",
     )
     assert [(step.epoch, step.action) for step in refuted.counterexample or ()] == [(1, "lift r")]
 
@@ -262,7 +215,7 @@ def test_one_goal_is_section_3() -> None:
     doctored = deepcopy(answer.to_dict())
     doctored["statistics"]["goals"][0]["cost"] = 1.0
     refuted = serendipity.verify(task, Result.from_dict(doctored)).refuted
-    assert refuted.reason == "goal 'p': the entry is not the answer"
+    assert refuted.reason == "scenario 'p': the entry is not the answer"
 
 
 def test_nobody_reaches_anything() -> None:
@@ -281,9 +234,12 @@ def test_limits_leave_it_undecided() -> None:
     answer = helped(task, 1, 1)
     assert _verdicts(serendipity.verify(task, answer, time_limit=0))["optimal"][0] == "undecided"
     _left_alone(doctored)  # what each goal by itself allows does not settle it
-    with limited(robots_plans=0):
+    with limited(policies=0):
         certificate = serendipity.verify(task, Result.from_dict(doctored))
-    assert _verdicts(certificate)["no_opportunity"] == ("undecided", "more than 0 robots' plans")
+    assert _verdicts(certificate)["no_opportunity"] == (
+        "undecided",
+        "more than 0 states of scenarios that are not told apart",
+    )
 
 
 def test_bounds_of_unfinished_answers() -> None:

@@ -12,7 +12,7 @@ from fractions import Fraction
 from serendipity.model import Condition, Deadline, GroundAction, Task
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
-from verify.goals.reading import Believed, Recognised
+from verify.scenarios.reading import Believed, Recognised
 
 Fault = str
 """One line: what is wrong."""
@@ -61,10 +61,10 @@ def compiled(
     )
 
 
-def considered_plan(
+def considered_plans(
     task: Task, goal: Condition, observed: Sequence[str], deadline: Deadline
-) -> PlanNames | None:
-    """The canonical optimal plan for a goal that embeds the observations; None if there is none.
+) -> Iterator[PlanNames]:
+    """The optimal plans for a goal that embed the observations, the canonical one first.
 
     Args:
         task: the task.
@@ -73,8 +73,8 @@ def considered_plan(
         deadline: polled.
     """
     own = compiled(task, goal, observed, deadline, embed=True)
-    plan = OptimalPlans(own, IndividualOptimum(own, deadline)).canonical()
-    return None if plan is None else tuple(own.actions[i].name for i in plan)
+    for plan in OptimalPlans(own, IndividualOptimum(own, deadline)).plans():
+        yield tuple(own.actions[i].name for i in plan)
 
 
 def faults(task: Task, recognised: Recognised, deadline: Deadline) -> Iterator[Fault]:
@@ -125,7 +125,7 @@ def _own_faults(
         if said != least:
             yield f"goal '{goal.name}': its cost {what} the observations is {least}, the answer says {said}"
             return
-    if goal.plan != considered_plan(task, goal.goal, recognised.observed, deadline):
+    if goal.plan != next(considered_plans(task, goal.goal, recognised.observed, deadline), None):
         yield f"goal '{goal.name}': the plan is not the canonical one that explains the observations"
     likelihood = _likelihood(recognised.beta, costs)
     if (likelihood is None) != (goal.likelihood is None) or not _close(goal.likelihood or 0, likelihood or 0):

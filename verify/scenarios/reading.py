@@ -1,4 +1,4 @@
-"""What an answer for several goals says of the posterior, in terms of the task."""
+"""What an answer over scenarios says of the posterior, in terms of the task."""
 
 from dataclasses import dataclass
 from fractions import Fraction
@@ -36,21 +36,32 @@ class Recognised:
     goals: tuple[Believed, ...]
 
 
-def read(task: Task, result: Result) -> tuple[Recognised, tuple[GoalAnswer, ...]]:
-    """The recognition and what happens for each goal that is considered.
+def recognised(task: Task, result: Result) -> Recognised | None:
+    """The recognition; None where scenarios come from elsewhere.
 
     Raises:
         MalformedError: naming what is missing, of another form, or of another task.
     """
     known = result.recognition
     if known is None:
-        raise MalformedError(result.malformed.get("recognition", "statistics.recognition is not an object"))
+        if result.says("recognition"):
+            raise MalformedError(result.malformed["recognition"])
+        return None
     if known.human != result.human:
         raise MalformedError(f"statistics.recognition: expected schema '{SCHEMA}' and the result's human")
     goals = tuple(_believed(task, entry) for entry in known.goals)
+    return Recognised(known.observed, known.beta, known.explained, goals)
+
+
+def listed(result: Result) -> tuple[GoalAnswer, ...]:
+    """What happens in each scenario.
+
+    Raises:
+        MalformedError: it is missing, or of another form.
+    """
     if result.goals is None:
         raise MalformedError(result.malformed.get("goals", "statistics.goals is not a list"))
-    return Recognised(known.observed, known.beta, known.explained, goals), result.goals
+    return result.goals
 
 
 def weight(probability: float) -> Fraction:
@@ -63,7 +74,7 @@ def weight(probability: float) -> Fraction:
 def _believed(task: Task, entry: GoalPosterior) -> Believed:
     return Believed(
         entry.name,
-        _condition(task, entry.goal),
+        condition(task, entry.goal),
         float(entry.prior),
         entry.likelihood,
         entry.posterior,
@@ -73,7 +84,12 @@ def _believed(task: Task, entry: GoalPosterior) -> Believed:
     )
 
 
-def _condition(task: Task, literals: tuple[str, ...]) -> Condition:
+def condition(task: Task, literals: tuple[str, ...]) -> Condition:
+    """The goal that literals write down.
+
+    Raises:
+        MalformedError: one is of another task.
+    """
     ids = {fact: i for i, fact in enumerate(task.facts)}
     stranger = next((text for text in literals if text.removeprefix("!") not in ids), None)
     if stranger is not None:

@@ -1,0 +1,275 @@
+"""The claims of an answer over scenarios, as far as rules make them (semantics 8, 11)."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import islice
+from time import perf_counter
+
+from serendipity.model import Claim, Condition, Deadline, Result, Task
+from serendipity.model.answers.certificate import ClaimVerdict
+from serendipity.model.answers.fields import MalformedError
+from serendipity.model.answers.result_parts import GoalAnswer
+from verify.base import wording
+from verify.base.individual import IndividualOptimum
+from verify.base.obligations import BY_RULES, needed
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.undecided import UNDECIDED, why
+from verify.rules.case import Case
+from verify.rules.header import mode_and_human, reason, status_and_fields
+from verify.scenarios.beliefs import considered_plans, faults
+from verify.scenarios.reading import condition, listed, recognised
+from verify.scenarios.timelines import (
+    Timeline,
+    bound_fault,
+    close,
+    figures_fault,
+    rule_fault,
+    suffix_fault,
+    timelines,
+    together_fault,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Scenario:
+    """What an answer has to consider.
+
+    Attributes:
+        name: as the answer should call it; None: as it likes.
+        goal: what the human wants.
+        plan: names of what they mean to do.
+        probability: its share.
+    """
+
+    name: str | None
+    goal: Condition
+    plan: tuple[str, ...]
+    probability: Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Examined:
+    """What an answer over scenarios comes to.
+
+    Attributes:
+        claims: what is decided already; nothing else is claimed then.
+        single: where one scenario is left, its task and its answer, which are of section 3.
+        lines: where several are left, their timelines.
+        origin: where the scenarios come from, for people.
+    """
+
+    claims: tuple[Claim, ...] = ()
+    single: tuple[Task, Result] | None = None
+    lines: tuple[Timeline, ...] = ()
+    origin: str = ""
+
+
+def examine(task: Task, result: Result, deadline: Deadline) -> Examined:
+    """Whether the scenarios are those to consider, and what is left to examine then.
+
+    Args:
+        task: the task that was asked; where there are candidate goals its own plays no part.
+        result: an answer over scenarios, perhaps of another form than they have.
+        deadline: what is not examined by then stays undecided.
+    """
+    started = perf_counter()
+    try:
+        served = listed(result)
+        chosen, origin, fault = _expected(task, result, served, deadline)
+        fault = fault or _selection_fault(task, result, chosen, served)
+    except MalformedError as error:
+        chosen, fault = [], str(error)
+    except UNDECIDED as error:
+        replay = Claim("replay", "undecided", why(error), seconds=perf_counter() - started)
+        others = (name for name in needed(result) if name != "replay")
+        return Examined((replay, *(Claim(name, "undecided", wording.same_as(replay)) for name in others)))
+    if fault is not None:
+        return Examined((Claim("replay", "refuted", fault, seconds=perf_counter() - started),))
+    if not chosen:
+        fault = _nothing_fault(task, result)
+        if fault is not None:
+            return Examined((Claim("replay", "refuted", fault),))
+        return Examined((Claim("infeasible", "proved", wording.NO_GOAL_ALONE),))
+    if len(chosen) == 1:
+        return _certain(task, result, chosen[0], served[0])
+    goals = [scenario.goal for scenario in chosen]
+    return Examined(lines=tuple(timelines(task, result, goals, served, deadline)), origin=origin)
+
+
+def claims_by_rules(result: Result, examined: Examined) -> tuple[Claim, ...]:
+    """What rules say of an answer over several scenarios: of its bound only if that is not consistent."""
+    claims: dict[str, Claim] = {}
+    for name, fault in _rules(result, examined.lines):
+        replay = claims.get("replay")
+        if replay is not None and replay.verdict == "refuted" and name in ("cost", "window"):
+            claims[name] = Claim(name, "not_in_scope", wording.NO_REPLAYS)
+        elif replay is not None and replay.verdict == "undecided":
+            claims[name] = Claim(name, "undecided", wording.same_as(replay))
+        else:
+            claims[name] = _by_rule(name, fault, examined.origin)
+    if claims["lower_bound"].verdict == "proved":
+        del claims["lower_bound"]
+    return tuple(claims.values())
+
+
+def unexamined(result: Result, claims: Sequence[Claim], *, solving: bool = False) -> tuple[Claim, ...] | None:
+    """The claims that no optimiser is asked about; None: they are to be proved.
+
+    Args:
+        result: the answer.
+        claims: what rules say of it.
+        solving: whether there is an optimiser.
+    """
+    wanted = beyond_rules(result)
+    refuted = {claim.claim for claim in claims if claim.verdict == "refuted"}
+    replay = next(claim for claim in claims if claim.claim == "replay")
+    if refuted or not solving:
+        out = wording.ANSWER_BREAKS_RULE if refuted else wording.NEEDS_OPTIMISER
+        return tuple(Claim(name, "not_in_scope", out) for name in wanted if name not in refuted)
+    if replay.verdict == "undecided":
+        return tuple(Claim(name, "undecided", wording.same_as(replay)) for name in wanted)
+    return None
+
+
+def beyond_rules(result: Result) -> list[str]:
+    """The claims that a proof needs and that rules can't make."""
+    return [name for name in needed(result) if name not in BY_RULES]
+
+
+def _rules(result: Result, lines: Sequence[Timeline]) -> Iterator[tuple[str, Callable[[], str | None]]]:
+    yield "replay", lambda: rule_fault("replay", lines) or together_fault(result, lines)
+    yield "cost", lambda: rule_fault("cost", lines) or figures_fault(result, lines)
+    yield "window", lambda: rule_fault("window", lines) or suffix_fault(lines)
+    yield "lower_bound", lambda: bound_fault(result)
+
+
+def _by_rule(name: str, fault: Callable[[], str | None], origin: str) -> Claim:
+    started = perf_counter()
+    try:
+        found = fault()
+    except UNDECIDED as error:
+        return Claim(name, "undecided", why(error), seconds=perf_counter() - started)
+    verdict: ClaimVerdict = "proved" if found is None else "refuted"
+    words = found or wording.FOLLOWED_BY_ALL[name].format(origin)
+    return Claim(name, verdict, words, seconds=perf_counter() - started)
+
+
+def _expected(
+    task: Task, result: Result, served: Sequence[GoalAnswer], deadline: Deadline
+) -> tuple[list[Scenario], str, str | None]:
+    """The scenarios to consider, where they come from, and what is wrong with that."""
+    known, watched = recognised(task, result), result.options.ties == "watched"
+    if known is None and not watched:
+        return _given(task, served)
+    most = result.options.max_ties if watched else 1
+    if known is None:
+        alone = OptimalPlans(task, IndividualOptimum(task, deadline))
+        names = [tuple(task.actions[i].name for i in plan) for plan in islice(alone.plans(), most + 1)]
+        found = [Scenario(None, task.goal, plan, Fraction(1, len(names))) for plan in names]
+        return found, wording.ALL_OPTIMAL, _too_many(found, most)
+    fault = next(faults(task, known, deadline), None)
+    if fault is not None:
+        return [], "", fault
+    seen, found = known.observed if known.explained else (), []
+    for goal in known.goals:
+        plans = considered_plans(task, goal.goal, seen, deadline) if goal.posterior else iter(())
+        tied = list(islice(plans, most + 1 if watched else 1))
+        fault = fault or _too_many(tied, most)
+        name = goal.name if len(tied) == 1 else None
+        found += [Scenario(name, goal.goal, plan, Fraction(goal.posterior) / len(tied)) for plan in tied]
+    total = sum((scenario.probability for scenario in found), Fraction(0))
+    shares = [replace(scenario, probability=scenario.probability / total) for scenario in found]
+    return shares, wording.POSTERIOR, fault
+
+
+def _too_many(found: Sequence[object], most: int) -> str | None:
+    return f"max_ties: the human has more than {most} optimal plans" if len(found) > most else None
+
+
+def _given(task: Task, served: Sequence[GoalAnswer]) -> tuple[list[Scenario], str, str | None]:
+    """Plans that were given with their probabilities: of these nothing is known but what the answer says."""
+    found = []
+    for entry in served:
+        if entry.human_plan is None or entry.probability <= 0:
+            return [], "", f"scenario '{entry.name}': expected a plan and a probability above 0"
+        goal = task.goal if entry.goal is None else condition(task, entry.goal)
+        found.append(Scenario(entry.name, goal, entry.human_plan, Fraction(entry.probability)))
+    fault = (
+        None
+        if close(1.0, sum((s.probability for s in found), Fraction(0)))
+        else "the probabilities do not add up to 1"
+    )
+    return found, wording.GIVEN_PLANS, fault
+
+
+def _selection_fault(
+    task: Task, result: Result, chosen: Sequence[Scenario], served: Sequence[GoalAnswer]
+) -> str | None:
+    """Whether the scenarios are those to consider, with their plans and probabilities."""
+    names = [scenario.name or entry.name for scenario, entry in zip(chosen, served, strict=False)]
+    if len(served) != len(chosen) or names != [entry.name for entry in served]:
+        expected = ", ".join(scenario.name or " ".join(scenario.plan) for scenario in chosen)
+        return f"the scenarios to consider are {expected or 'none'}"
+    if len(set(names)) < len(names):
+        return "two scenarios have one name"
+    if not chosen:
+        return (
+            None if result.status == "infeasible" and result.plan is None else "no goal can be reached alone"
+        )
+    for scenario, entry in zip(chosen, served, strict=True):
+        if not close(entry.probability, scenario.probability):
+            share = float(scenario.probability)
+            return f"scenario '{entry.name}': the probability is {share:.12g}"
+        if entry.goal is not None and condition(task, entry.goal) != scenario.goal:
+            return f"scenario '{entry.name}': its goal is another one"
+        if len(chosen) > 1 and entry.human_plan != scenario.plan:
+            return f"scenario '{entry.name}': human_plan is not the optimal plan that is considered"
+    if len(chosen) > 1:
+        return _header_fault(task, result, chosen)
+    seen = result.recognition is not None and result.recognition.observed and result.recognition.explained
+    if (seen or result.options.ties == "watched") and result.human_plan != chosen[0].plan:
+        return f"scenario '{served[0].name}': pi_H is not the optimal plan that is considered"
+    return None
+
+
+def _header_fault(task: Task, result: Result, chosen: Sequence[Scenario]) -> str | None:
+    options = result.options
+    if (result.mode, options.mode) != ("serendipity", "serendipity"):
+        return "scenarios are for mode serendipity"
+    known = options.ties in ("fixed", "watched") and options.human_model == "omniscient"
+    if not known or options.max_cost is not None or task.robot_goal:
+        return "other ties, human models, max_cost and robots' goals are for a single scenario"
+    if result.status not in ("optimal", "feasible") or result.plan is None:
+        return "leaving the human alone is always an answer"
+    longest = max(len(scenario.plan) for scenario in chosen)
+    expected = longest if options.horizon is None else options.horizon
+    if result.horizon != expected or longest > int(expected):
+        return f"the horizon is {expected}, at least {longest}; the answer says {result.horizon}"
+    if result.reason is not None:
+        return f"status {result.status} with a reason"
+    if result.window is not None or result.human_plan is not None or result.realised:
+        return "windows, plans and verdicts belong to single scenarios"
+    return None
+
+
+def _nothing_fault(task: Task, result: Result) -> str | None:
+    """Whether an answer that says that there is no plan says more than that."""
+    own = (result.human_plan, result.human_cost, result.lower_bound, result.horizon)
+    if own != (None, None, None, None):
+        return "infeasible, with a plan, a cost, a bound or a horizon"
+    case = Case(task, result, IndividualOptimum(task))
+    found = mode_and_human(case) or status_and_fields(case) or reason(case)
+    return None if found is None else found.message
+
+
+def _certain(task: Task, result: Result, scenario: Scenario, entry: GoalAnswer) -> Examined:
+    """One scenario is left: the answer is one of section 3."""
+    same = (entry.human_plan, entry.cost, entry.window, entry.plan)
+    if same != (result.human_plan, result.cost, result.window, result.plan):
+        return Examined(
+            (Claim("replay", "refuted", f"scenario '{entry.name}': the entry is not the answer"),)
+        )
+    ties = "fixed" if result.options.ties == "watched" else result.options.ties
+    known = replace(result, goals=None, recognition=None, options=result.options.but(ties=ties))
+    return Examined(single=(task.with_goal(scenario.goal), known))

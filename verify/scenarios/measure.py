@@ -1,0 +1,72 @@
+"""What is minimised over scenarios (semantics 11), as one number: the objective before the cost."""
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from math import lcm
+
+from verify.calls.call import ExaminedCall, Score
+from verify.scenarios.timelines import Figures
+
+
+class Measure:
+    """The mean, the greatest, or the greatest excess over what each scenario allows by itself.
+
+    Args:
+        calls: one for each scenario.
+        weights: their probabilities; they add up to 1.
+        floors: objective and cost that each scenario allows by itself.
+
+    Attributes:
+        is_mean: whether what scenarios pay adds up; else the greatest counts.
+        shares: by scenario, by how much what it pays is multiplied.
+        ahead: by scenario, what it has paid at first, so to say.
+        epoch: what an epoch of window adds.
+    """
+
+    def __init__(
+        self, calls: Sequence[ExaminedCall], weights: Sequence[Fraction], floors: Sequence[Score]
+    ) -> None:
+        options, prices = calls[0].options, calls[0].prices
+        self.is_mean = options.risk == "mean"
+        parts = lcm(*(weight.denominator for weight in weights)) if self.is_mean else 1
+        self.shares = [int(weight * parts) if self.is_mean else 1 for weight in weights]
+        self._scale = parts * prices.scale
+        dearest = max(prices.team, default=0) * len(calls[0].task.agents)
+        self._unit = 8 * parts * (dearest * (int(calls[0].horizon) + 1) + 1)
+        self.epoch = prices.epoch * self._unit
+        self.ahead = [0] * len(floors)
+        if options.risk == "regret":
+            self.ahead = [-self._one(floor) for floor in floors]
+
+    def pay(self, units: int) -> int:
+        """Units of cost, which count for the objective, too."""
+        return self._one((units, units))
+
+    def parts(self, scores: Sequence[Score]) -> list[int]:
+        """What each scenario contributes if it comes to so many units."""
+        each = zip(self.shares, self.ahead, map(self._one, scores), strict=True)
+        return [share * (ahead + one) for share, ahead, one in each]
+
+    def joined(self, parts: Iterable[int]) -> int:
+        """Contributions together."""
+        return sum(parts) if self.is_mean else max(parts)
+
+    def room(self, below: int, others: Sequence[int]) -> int:
+        """What one has to be below for all together to be below so much."""
+        return below - sum(others) if self.is_mean else below
+
+    def number(self, figures: Figures) -> int:
+        """Objective and cost as one number."""
+        return self._one((int(figures[0] * self._scale), int(figures[1] * self._scale)))
+
+    def bound(self, objective: Fraction) -> int:
+        """Whatever has a lower objective is below this, and nothing else."""
+        return -(-objective * self._scale).__floor__() * self._unit - self._unit // 2
+
+    def figures(self, value: int) -> Figures:
+        """Objective and cost that a number stands for."""
+        objective = (value + self._unit // 2) // self._unit
+        return Fraction(objective, self._scale), Fraction(value - objective * self._unit, self._scale)
+
+    def _one(self, score: Score) -> int:
+        return score[0] * self._unit + score[1]

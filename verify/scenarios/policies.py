@@ -1,0 +1,235 @@
+"""Search for a better policy over scenarios (semantics 11), independent of ``search``.
+
+Scenarios that are not told apart are a *group*.  In each epoch robots do something by themselves, the same in
+the whole group, and what the human does divides it; where robots see nothing it stays whole.  The search goes
+depth first, and keeps the least value of each group once it is known, or a bound that it is not below.  No
+group is worth less than its scenarios one by one, each a group of its own, and these no less than what is
+left to pay by distances in the human's automaton.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from serendipity.model import Step
+from verify.base.undecided import UndecidedError
+from verify.calls.call import ExaminedCall, Score
+from verify.limits import limits
+from verify.programs.effort import Attempt
+from verify.scenarios.courses import INFINITE, OVER, Course, Member, Moves, RobotSet, Seen
+from verify.scenarios.measure import Measure
+
+Group = tuple[int, tuple[Member, ...]]
+"""Scenarios that are not told apart, and after how many epochs."""
+
+
+@dataclass(frozen=True, slots=True)
+class Better:
+    """A policy that is better than the one asked about: its value, and what robots do until they see more."""
+
+    value: int
+    robots: tuple[Step, ...]
+
+
+class _Choice(NamedTuple):
+    """What a scenario may do in an epoch: a bound on what it contributes then, of which so much is paid."""
+
+    bound: int
+    paid: int
+    seen: Seen
+    after: Member
+
+
+class PolicySearch:
+    """All policies over the scenarios of one answer.
+
+    Args:
+        calls: one for each scenario, with the human's plan in it, and the same horizon.
+        measure: what is minimised.
+        floors: objective and cost that each scenario allows by itself.
+
+    Raises:
+        UndecidedError: a rule of the options is not covered.
+    """
+
+    def __init__(self, calls: Sequence[ExaminedCall], measure: Measure, floors: Sequence[Score]) -> None:
+        if not all(call.question.replans for call in calls):
+            raise UndecidedError("scenarios are examined under suffix replan and preservation kernel only")
+        self._measure, self._floors = measure, measure.parts(floors)
+        self._watching = calls[0].options.policy == "watching"
+        self._effort, self._horizon = calls[0].effort, int(calls[0].horizon)
+        self._moves = Moves(calls[0], measure.pay)
+        self._courses = [
+            Course(call, k, self._moves, measure.pay, measure.epoch) for k, call in enumerate(calls)
+        ]
+        init = self._moves.bits.of(calls[0].task.init)
+        self._first = [Member(k, init, ahead=ahead) for k, ahead in enumerate(measure.ahead)]
+        self._known: dict[Group, tuple[int, bool]] = {}
+        self._chosen: dict[Group, tuple[RobotSet, list[Group]]] = {}
+        self._most: list[int] = []
+        self._looked_at = 0
+
+    def better(self, than: int) -> Better | None:
+        """The best policy of a value below ``than``; None: proved that there is none.
+
+        Raises:
+            UndecidedError: it takes too long.
+        """
+        floors, measure = self._floors, self._measure
+        others = ([*floors[:k], *floors[k + 1 :]] for k in range(len(floors)))
+        self._most = [
+            measure.room(than, rest) - at.ahead for at, rest in zip(self._first, others, strict=True)
+        ]
+        shift, root = _levelled(0, self._first)
+        try:
+            value = self._value(root, than - shift)
+        except RecursionError:
+            raise UndecidedError("the plans are too long to look at every policy") from None
+        self._effort.attempts.append(Attempt("policies", decided=True, states=self._looked_at))
+        return None if value is None else Better(value + shift, tuple(self._until_told_apart(root)))
+
+    def _until_told_apart(self, group: Group) -> Iterator[Step]:
+        following = [group]
+        while len(following) == 1 and following[0] in self._chosen:
+            robots, after = self._chosen[following[0]]
+            yield from (Step(following[0][0] + 1, i) for i in robots.actions)
+            following = after
+
+    # -- groups
+
+    def _value(self, group: Group, below: int) -> int | None:
+        """The least value of what a group has left to pay, if it is below so much."""
+        epoch, members = group
+        least, exact = self._known.get(group, (None, False))
+        if least is None:
+            least, exact = self._bound(epoch, members), epoch == self._horizon
+            self._known[group] = least, exact
+        if exact or least >= below:
+            return least if least < below else None
+        asked = below
+        if len(members) == 1 and least > self._bound(epoch, members):  # asked before: now once and for all
+            below = max(below, self._most[members[0].scenario])
+        self._look()
+        found = self._least(group, below)
+        self._known[group] = (below, False) if found is None else (found, True)
+        return found if found is not None and found < asked else None
+
+    def _bound(self, epoch: int, members: Sequence[Member]) -> int:
+        return min(INFINITE, self._measure.joined(self._simple(epoch, at) for at in members))
+
+    def _simple(self, epoch: int, at: Member) -> int:
+        """A bound on what a scenario contributes, had at once."""
+        return self._measure.shares[at.scenario] * self._courses[at.scenario].least(at, epoch) + at.ahead
+
+    def _single(self, epoch: int, at: Member, below: int) -> int | None:
+        """What a scenario contributes if robots know it to be this one, and if that is below so much."""
+        value = self._value((epoch, (at._replace(ahead=0),)), below - at.ahead)
+        return None if value is None else value + at.ahead
+
+    def _least(self, group: Group, below: int) -> int | None:
+        """The least value of a group by all that can be done in its next epoch."""
+        epoch, members = group
+        rests = [self._simple(epoch, at) for at in members]
+        for k, at in enumerate(members if len(members) > 1 else ()):
+            rest = self._single(epoch, at, self._room(below, rests, k))
+            if rest is None:
+                return None
+            rests[k] = rest
+        best = below
+        for robots in self._robots(members):
+            choices = []
+            for k, at in enumerate(members):
+                found = list(self._choices(epoch + 1, at, robots, self._room(best, rests, k)))
+                if not found:
+                    break
+                choices.append(sorted(found, key=lambda choice: choice.bound))
+            else:
+                best = self._combined(group, robots, choices, best)
+        return best if best < below else None
+
+    def _room(self, below: int, rests: Sequence[int], k: int) -> int:
+        return self._measure.room(below, [*rests[:k], *rests[k + 1 :]])
+
+    def _robots(self, members: Sequence[Member]) -> Sequence[RobotSet]:
+        """What robots may do by themselves in the whole group."""
+        first, *others = dict.fromkeys(at.state for at in members)
+        sets = self._moves.robots(first)
+        if any(at.phase == OVER for at in members):
+            return sets[:1]
+        possible = [set(self._moves.robots(state)) for state in others]
+        return [robots for robots in sets if all(robots in sets for sets in possible)]
+
+    def _choices(self, epoch: int, at: Member, robots: RobotSet, below: int) -> Iterator[_Choice]:
+        """What a scenario may do in an epoch and still contribute less than so much."""
+        share = self._measure.shares[at.scenario]
+        for seen, spent, after in dict.fromkeys(self._courses[at.scenario].ways(at, epoch, robots)):
+            paid = share * spent
+            if not self._measure.is_mean:
+                after, paid = after._replace(ahead=at.ahead + spent), 0
+            rest = self._single(epoch, after, below - paid)
+            if rest is not None:
+                yield _Choice(paid + rest, paid, seen, after)
+
+    # -- what all do together
+
+    def _combined(
+        self, group: Group, robots: RobotSet, choices: Sequence[Sequence[_Choice]], below: int
+    ) -> int:
+        """The least value by any choice for each scenario, or ``below`` if none is less."""
+        measure, best = self._measure, below
+        least = [each[0].bound for each in choices]
+
+        def extended(chosen: list[_Choice]) -> None:
+            nonlocal best
+            k = len(chosen)
+            if k == len(choices):
+                best = self._divided(group, robots, chosen, best)
+                return
+            before = [choice.bound for choice in chosen]
+            for choice in choices[k]:
+                if measure.joined((*before, choice.bound, *least[k + 1 :])) >= best:
+                    break
+                extended([*chosen, choice])
+
+        extended([])
+        return best
+
+    def _divided(self, group: Group, robots: RobotSet, chosen: Sequence[_Choice], below: int) -> int:
+        """The value of a choice for each scenario, or ``below`` if that is no less."""
+        self._look()
+        measure, epoch = self._measure, group[0] + 1
+        parts: dict[Seen | bool, list[_Choice]] = {}
+        for choice in chosen:
+            parts.setdefault(choice.seen if self._watching else True, []).append(choice)
+        values = [measure.joined(choice.bound for choice in part) for part in parts.values()]
+        groups = []
+        for k, part in enumerate(parts.values()):
+            shift, after = _levelled(epoch, [choice.after for choice in part])
+            shift += sum(choice.paid for choice in part)
+            value = self._value(after, self._room(below, values, k) - shift)
+            if value is None:
+                return below
+            values[k] = value + shift
+            groups.append(after)
+        self._chosen[group] = robots, groups
+        return measure.joined(values)
+
+    def _look(self) -> None:
+        """Count a group, or what one may do.
+
+        Raises:
+            UndecidedError: there are too many.
+            LimitReachedError: the deadline came first.
+        """
+        self._looked_at += 1
+        self._effort.deadline.check()
+        if self._looked_at > limits().policies:
+            raise UndecidedError(
+                f"more than {limits().policies:,} states of scenarios that are not told apart"
+            )
+
+
+def _levelled(epoch: int, members: Sequence[Member]) -> tuple[int, Group]:
+    """A group, and what all its scenarios are ahead, which is left out of it."""
+    shift = min(at.ahead for at in members)
+    return shift, (epoch, tuple(at._replace(ahead=at.ahead - shift) for at in members))

@@ -1,0 +1,152 @@
+"""Proofs that no policy is better over scenarios than an answer says (semantics 11)."""
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from functools import cached_property
+from time import perf_counter
+
+from serendipity.model import Claim, Result
+from serendipity.model.answers.certificate import ClaimVerdict
+from verify.base import wording
+from verify.base.execution import plan_step
+from verify.base.optimal_plans import OptimalPlans
+from verify.base.undecided import UNDECIDED, why
+from verify.calls.answer import best_plan
+from verify.calls.call import ExaminedCall, Score
+from verify.programs.effort import Effort, NoProgramError
+from verify.scenarios.check import beyond_rules
+from verify.scenarios.measure import Measure
+from verify.scenarios.policies import Better, PolicySearch
+from verify.scenarios.timelines import Figures, Timeline, answered, close, differing, figures, measured
+
+_ROUNDED = 1 - Fraction(1, 10**9)
+"""A bound that was summed from rounded probabilities may be too high by its last digits."""
+
+
+class ScenariosProof:
+    """The claims about an answer over scenarios that need an optimiser.
+
+    Args:
+        result: an answer that breaks no rule.
+        lines: its timelines.
+        effort: the solver's settings.
+    """
+
+    def __init__(self, result: Result, lines: Sequence[Timeline], effort: Effort) -> None:
+        self.result = result
+        self.lines = lines
+        self.effort = effort
+        options = result.options.but(horizon=result.horizon, time_limit=None)
+        self._calls = []
+        for line in lines:
+            plans = OptimalPlans(line.task, line.case.alone)
+            self._calls.append(ExaminedCall(line.task, options, line.case.pi_h, plans, effort))
+
+    def claims(self) -> Iterator[Claim]:
+        """What rules can't say: one proof for the optimum and its bound."""
+        started, mark = perf_counter(), self.effort.mark
+        first, *others = beyond_rules(self.result)
+        better: Better | None = None
+        try:
+            fault = self._figures_fault()
+            if fault is not None:
+                yield Claim("cost", "refuted", fault, seconds=perf_counter() - started)
+                return
+            verdict, reason, better = self._best()
+        except UNDECIDED as error:
+            verdict, reason = "undecided", why(error)
+        bound = self.result.lower_bound if verdict == "proved" else None
+        task, discount = self.lines[0].task, self.result.options.discount
+        example = None if better is None else tuple(plan_step(task, s, discount) for s in better.robots)
+        spent = self.effort.since(mark)
+        yield Claim(first, verdict, reason, example, perf_counter() - started, bound, *spent)
+        for name in others:
+            yield Claim(name, verdict, wording.LIKE.format(first, reason), example, 0.0, bound, *spent)
+
+    # -- figures
+
+    @cached_property
+    def _floors(self) -> list[Score]:
+        """What each scenario allows by itself, in units."""
+        return [floor_of(call) for call in self._calls]
+
+    @cached_property
+    def _idle(self) -> Figures:
+        """The best with idle robots; it differs from the human's plans only if they are not optimal."""
+        return self._measured([_idle(call) for call in self._calls])
+
+    def _measured(self, scores: Sequence[Score]) -> Figures:
+        return measured(self.result.options.risk, self.lines, self._in_units(scores), self._known_floors())
+
+    def _known_floors(self) -> list[Figures]:
+        return self._in_units(self._floors) if self.result.options.risk == "regret" else []
+
+    def _in_units(self, scores: Sequence[Score]) -> list[Figures]:
+        cost = self._calls[0].prices.cost
+        return [(cost(objective), cost(units)) for objective, units in scores]
+
+    def _figures_fault(self) -> str | None:
+        """What regret compares with, and what the human gains alone if their plans are not optimal."""
+        result, lines = self.result, self.lines
+        expected = figures(result, lines, self._known_floors())
+        at_most = result.options.risk == "regret" and result.status == "feasible"
+        fault = differing(result, expected, at_most=at_most)
+        if fault is not None:
+            return fault
+        said, alone, idle = result.saving_alone, expected["human_cost"], self._idle[1]
+        known = said is not None or result.status != "feasible"
+        if known and not at_most and (said is None or not close(said, alone - idle)):
+            return wording.EXPECTED_SAVING_ALONE.format(float(alone - idle), said)
+        if result.opportunity and expected["cost"] >= idle:
+            return wording.NO_CHEAPER.format(f"{float(idle):.12g}")
+        return None
+
+    # -- optima
+
+    def _best(self) -> tuple[ClaimVerdict, str, Better | None]:
+        """Whether a policy is better than the answer says."""
+        measure = Measure(self._calls, [line.weight for line in self.lines], self._floors)
+        limit = self._limit(measure)
+        if measure.joined(measure.parts(self._floors)) >= limit:
+            return "proved", wording.EACH_ADDS_UP, None
+        if self.effort.proof is not None:
+            raise NoProgramError("scenarios whose best answers by themselves don't come to the answer")
+        better = PolicySearch(self._calls, measure, self._floors).better(limit)
+        if better is None:
+            return "proved", wording.ALL_POLICIES, None
+        objective, cost = measure.figures(better.value)
+        if self.result.status == "optimal" and not self.result.opportunity and cost >= self._idle[1]:
+            return "proved", wording.ALL_POLICIES, None
+        return "refuted", wording.BETTER_POLICY.format(float(cost), float(objective)), better
+
+    def _limit(self, measure: Measure) -> int:
+        """What no policy is below, if the answer is right."""
+        result = self.result
+        assert result.lower_bound is not None, "a rule"
+        if result.status != "optimal":
+            bound = Fraction(result.lower_bound) * _ROUNDED
+            if not result.opportunity and result.options.risk != "regret":  # net of an epoch of every window
+                bound += result.options.window_weight
+            return measure.bound(bound)
+        if not result.opportunity:
+            return measure.number(self._idle)
+        return measure.number(answered(result, self.lines, self._known_floors()))
+
+
+def _left_alone(call: ExaminedCall) -> Score:
+    """The human's plan and idle robots; that counts as one epoch of window, whatever the plan's length."""
+    assert call.baseline is not None, "only goals with a plan are considered"
+    return call.baseline + call.prices.epoch, call.baseline
+
+
+def floor_of(call: ExaminedCall) -> Score:
+    """What the scenario by itself allows."""
+    best = best_plan(call) if call.human_plan else None
+    return _left_alone(call) if best is None else (best.objective, best.cost)
+
+
+def _idle(call: ExaminedCall) -> Score:
+    if call.is_optimal:
+        return _left_alone(call)
+    best = call.best(call.question.but(robots=False), _left_alone(call))
+    return _left_alone(call) if best is None else (best.objective, best.cost)
