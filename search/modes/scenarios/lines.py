@@ -97,8 +97,15 @@ class Line:
 
     # -- what may happen
 
-    def ways(self, at: Member, epoch: int, robots: JointAction) -> Iterator[Way]:
-        """What may happen in an epoch, counted from 1, in which robots do so much by themselves."""
+    def ways(self, at: Member, epoch: int, robots: JointAction, most: int = INFINITE_WORTH) -> Iterator[Way]:
+        """What may happen in an epoch, counted from 1, in which robots do so much by themselves.
+
+        Args:
+            at: before the epoch.
+            epoch: its number.
+            robots: what they do by themselves.
+            most: what can't be had for less, from here to the end, may be left out.
+        """
         if at.phase == OVER:
             yield from self._end(at, robots)
             return
@@ -113,7 +120,8 @@ class Line:
         start = epoch if opens and self._tells_starts else at.start
         for part in (NOTHING, *self._acting.human(at.state), *self._acting.joint(at.state)):
             if self._fits(part, robots):
-                yield from self._within(at._replace(start=start, phase=INSIDE), epoch, part, robots, opens)
+                inside = at._replace(start=start, phase=INSIDE)
+                yield from self._within(inside, epoch, part, robots, opens, most)
 
     def _planned(self, state: int, epoch: int) -> JointAction | None:
         """Rule 1; beyond the end of their plan they wait."""
@@ -134,16 +142,19 @@ class Line:
         yield Way(part, paid, at._replace(state=state, tail=at.tail[1:]), False)
 
     def _within(
-        self, at: Member, epoch: int, part: JointAction, robots: JointAction, opens: bool
+        self, at: Member, epoch: int, part: JointAction, robots: JointAction, opens: bool, most: int
     ) -> Iterator[Way]:
         """Rules 2 and 3: the window goes on after the epoch, or is over."""
         paid, state = self._together(at, part, robots)
         paid += self._worths.epoch
-        start = at.start or epoch
-        if self._suffix.key(state, self._horizon - epoch, start, INFINITE_KEY) < INFINITE_KEY:
-            tail = self._suffix.actions(state, self._horizon - epoch, start)
+        start, left = at.start or epoch, self._horizon - epoch
+        limit = self._worths.key(most - paid) if most < INFINITE_WORTH else INFINITE_KEY
+        if self._suffix.key(state, left, start, limit) < limit:
+            tail = self._suffix.actions(state, left, start)
             yield Way(part, paid, Member(self.number, state, OVER, 0, tail, at.ahead), opens)
-        if epoch < self._horizon and (not at.start or epoch - at.start + 1 < self._max_window):
+        least = paid + self._worths.epoch + self._worths.of_key(self._context.bound(state))
+        may_last = left and (not at.start or epoch - at.start + 1 < self._max_window)
+        if may_last and least < most:
             yield Way(part, paid, at._replace(state=state), opens)
 
     def _together(self, at: Member, part: JointAction, robots: JointAction) -> tuple[int, int]:

@@ -63,6 +63,14 @@ class Worths:
             return INFINITE_WORTH
         return (key >> self._keys.objective_shift << self._bits) + self._keys.scaled_cost(key)
 
+    def key(self, worth: int) -> int:
+        """The least key that is not worth less."""
+        if worth >= INFINITE_WORTH:
+            return INFINITE_KEY
+        objective = worth >> self._bits
+        cost = min(worth - (objective << self._bits), (1 << self._keys.cost_bits) - 1)
+        return (objective << self._keys.objective_shift) + (cost << self._keys.cost_shift)
+
     def figures(self, value: int, parts: int) -> tuple[Fraction, Fraction]:
         """Objective and cost of a value, which counts so many parts of worths."""
         objective = value + (1 << self._bits - 1) >> self._bits  # a cost may be a difference, below 0
@@ -119,6 +127,8 @@ class Mean:
 
     def limit(self, members: Sequence[Member], rests: Sequence[int], one: int, value: int) -> int:
         """See :class:`Measure`."""
+        if value >= INFINITE_WORTH:
+            return INFINITE_WORTH
         others = self.value(members, [0 if i == one else rest for i, rest in enumerate(rests)])
         return -((others - value) // self._shares[members[one].scenario])
 
@@ -146,7 +156,7 @@ class Greatest:
 
     def limit(self, members: Sequence[Member], rests: Sequence[int], one: int, value: int) -> int:
         """See :class:`Measure`."""
-        return value - members[one].ahead
+        return value - members[one].ahead if value < INFINITE_WORTH else INFINITE_WORTH
 
 
 def measure_of(risk: str, probabilities: Sequence[Fraction]) -> Measure:

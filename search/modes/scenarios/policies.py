@@ -167,11 +167,12 @@ class PolicySearch:
         """All that a group may do in its next epoch, and may be better than the policy that is known."""
         members, epoch = group.members, group.epoch + 1
         floors = [self._lines[m.scenario].floor(m, group.epoch) for m in members]
+        limits = [self._measure.limit(members, floors, i, group.upper) for i in range(len(members))]
         for robots in self._robots(group):
             each, bounds = [], []
-            for m, floor in zip(members, floors, strict=True):
+            for m, floor, most in zip(members, floors, limits, strict=True):
                 line = self._lines[m.scenario]
-                each.append(list(line.ways(m, epoch, robots)))
+                each.append(list(line.ways(m, epoch, robots, most)))
                 bounds.append([max(floor, w.paid + line.least(w.after, epoch)) for w in each[-1]])
             if all(each):
                 for ways in self._combined(group, each, bounds):

@@ -10,8 +10,9 @@ from heapq import heappop, heappush
 from itertools import count
 from typing import NamedTuple
 
+from search.engine.paths import plan_steps
 from search.modes.scenarios.lines import OVER, Line, Way
-from search.modes.scenarios.measure import INFINITE_WORTH, SHARE, Measure, Member
+from search.modes.scenarios.measure import SHARE, Measure, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
 from search.packed.successor_generator import Successors
@@ -69,7 +70,7 @@ class SequenceSearch:
 
     Attributes:
         lower: no sequence is worth less.
-        upper: of the best one known; infinite without one.
+        upper: of the best one known, or of leaving everybody alone.
     """
 
     def __init__(
@@ -87,19 +88,18 @@ class SequenceSearch:
         self._members = members
         self._horizon = horizon
         self._deadline = deadline
-        self._floors = [0] * len(lines)
+        self._floors = [line.least(m, 0) for line, m in zip(lines, members, strict=True)]
         self._best: _Sequence | None = None
-        self.lower, self.upper = 0, INFINITE_WORTH
+        self.lower = 0
+        self.upper = measure.value(members, [line.certain.alone(0) for line in lines])
         self.expanded = self.generated = 0
 
     def guided(self) -> Iterator[None]:
-        """Try idle robots, and what is best for each scenario; yield after each.
+        """Try what is best for each scenario, and idle robots; yield after each.
 
         Raises:
             LimitReachedError: the deadline ran out; the bounds hold.
         """
-        self._offer({})
-        yield
         for i, line in enumerate(self._lines):
             deadline = self._deadline.part(SHARE)
             self._floors[i], _ = line.known(deadline)
@@ -108,6 +108,8 @@ class SequenceSearch:
                 epochs = range(1, self._horizon + 1)
                 self._offer({epoch: guide.at(epoch)[0] for epoch in epochs})
             yield
+        self._offer({})
+        yield
 
     def _root(self) -> _Sequence:
         places = tuple({m._replace(ahead=0): _Label(0)} for m in self._members)
@@ -161,7 +163,8 @@ class SequenceSearch:
             limit = self._limit(i)
             for m, label in node.places[i].items():
                 self._deadline.tick()
-                for way in line.ways(m, epoch, robots) if line.possible(robots, m.state) else ():
+                possible = line.possible(robots, m.state)
+                for way in line.ways(m, epoch, robots, limit - label.paid) if possible else ():
                     paid = label.paid + way.paid
                     known = places.get(way.after)
                     if (known is None or paid < known.paid) and paid + line.least(way.after, epoch) < limit:
@@ -173,8 +176,6 @@ class SequenceSearch:
 
     def _limit(self, scenario: int) -> int:
         """What a scenario pays at which a sequence is no better than the best one known."""
-        if self.upper >= INFINITE_WORTH:
-            return INFINITE_WORTH
         return self._measure.limit(self._members, self._floors, scenario, self.upper)
 
     def _bound(self, node: _Sequence) -> int:
@@ -193,7 +194,9 @@ class SequenceSearch:
 
     def played(self) -> dict[int, Played]:
         """What happens in each scenario beside the best sequence known."""
-        assert self._best is not None, "there is a sequence"
+        if self._best is None:
+            alone = ((line.number, line.left_alone(line.first(), 0)) for line in self._lines)
+            return {number: Played(plan_steps(plan), None) for number, plan in alone}
         found, own = {}, self._best.steps()
         for line, places in zip(self._lines, self._best.places, strict=True):
             best = min(places, key=lambda m: places[m].paid + line.least(m, self._horizon))
