@@ -4,10 +4,15 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from serendipity.model import GroundAction
-from serendipity.model.task.actions import conflicting
+from search.classical import team
+from search.packed import operators, packed_task, parallelise
+from search.packed.due import Due
+from search.packed.operator_index import OperatorIndex
+from search.packed.packed_task import PackedGoal, PackedTask
+from search.packed.successor_generator import Successors
+from serendipity.model.task import actions
+from serendipity.model.task.actions import GroundAction, conflicting
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
-from tests.verify.planted.roles import part
 
 
 def _without_agents(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
@@ -38,9 +43,9 @@ def _disables_by_deleting(a: GroundAction, b: GroundAction) -> bool:
 def _packed_without_deletes(original: Any, self: Any, action_id: int) -> Any:
     op = original(self, action_id)
     deleted = 0
-    for fact in part(self, "task").actions[action_id].delete:
-        bits = part(self, "bits of a fact")[fact]
-        if bits is not None and fact in part(self, "single facts"):
+    for fact in self.task.actions[action_id].delete:
+        bits = self.fact_bits[fact]
+        if bits is not None and fact in self.boolean:
             deleted |= bits[0]
     return op._replace(keep=op.keep | deleted)
 
@@ -60,12 +65,12 @@ def _useful_by_adding(original: Any, task: Any, *arguments: Any) -> Any:
 
 
 def _only_indexed(self: Any, state: int) -> list[Any]:
-    found: list[Any] = part(self, "index of operators").get(state & part(self, "indexed variable"), [])
+    found: list[Any] = self.by_value.get(state & self.field, [])
     return found
 
 
 def _changed_only(self: Any) -> Any:
-    return part(self, "variables that operators change")(part(self, "own operators"))
+    return self.changed_by(self.own)
 
 
 def _one_robot(original: Any, self: Any, state: int) -> list[Any]:
@@ -85,69 +90,79 @@ def _without(deed: str) -> Callable[..., Any]:
 
 BUGS = (
     Bug(
-        "whether an action is applicable",
+        GroundAction,
+        "applicable",
         "negative preconditions are forgotten, by everybody",
         replaced(lambda self, state: all(f in state for f in self.pre)),
     ),
     Bug(
-        "whether two actions conflict",
+        actions,
+        "conflicting",
         "an agent may act twice in an epoch",
         replaced(_without_agents),
         survives="a set of actions has one of each agent by how it is put together",
     ),
     Bug(
-        "whether two actions conflict",
+        actions,
+        "conflicting",
         "two actions may delete the same fact",
         replaced(_without_double_deletes),
     ),
-    Bug("whether two actions conflict", "one may delete what another adds", replaced(_without_adds)),
-    Bug("whether two actions conflict", "strict interference is ignored", replaced(_never_strict)),
-    Bug("whether two actions conflict", "interference is always strict", replaced(_always_strict)),
+    Bug(actions, "conflicting", "one may delete what another adds", replaced(_without_adds)),
+    Bug(actions, "conflicting", "strict interference is ignored", replaced(_never_strict)),
+    Bug(actions, "conflicting", "interference is always strict", replaced(_always_strict)),
     Bug(
-        "whether an action disables another",
+        actions,
+        "disables",
         "negative preconditions are forgotten",
         replaced(_disables_by_deleting),
     ),
     Bug(
-        "whether an operator is applicable",
+        operators,
+        "applicable",
         "values that a condition forbids are forgotten",
         replaced(lambda op, state: state & op.need_mask == op.need),
     ),
-    Bug("packing an action", "deletes of single facts are lost", wrapped(_packed_without_deletes)),
-    Bug("packing conditions", "negative conditions are lost", wrapped(_positive_only)),
-    Bug("packing conditions", "a third condition is lost", wrapped(_first_two)),
-    Bug("actions relevant to the goals", "deleting is of no use", wrapped(_useful_by_adding)),
-    Bug("whether two actions may share an epoch", "all may", replaced(always(True))),
-    Bug("whether two actions may share an epoch", "none may", replaced(always(False))),
+    Bug(PackedTask, "_pack_action", "deletes of single facts are lost", wrapped(_packed_without_deletes)),
+    Bug(PackedTask, "_literals", "negative conditions are lost", wrapped(_positive_only)),
+    Bug(PackedTask, "_literals", "a third condition is lost", wrapped(_first_two)),
+    Bug(packed_task, "relevant_to_goals", "deleting is of no use", wrapped(_useful_by_adding)),
+    Bug(PackedTask, "compatible", "all may", replaced(always(True))),
+    Bug(PackedTask, "compatible", "none may", replaced(always(False))),
     Bug(
-        "whether the goal holds",
+        PackedGoal,
+        "holds",
         "negative goals are forgotten",
         replaced(lambda self, state: state & self.need_mask == self.need),
     ),
     Bug(
-        "operators that an index offers",
+        OperatorIndex,
+        "candidates",
         "those without the indexed variable are lost",
         replaced(_only_indexed),
     ),
     Bug(
-        "variables of the human's own actions",
+        PackedTask,
+        "own_mask",
         "the key of the cache leaves out what they only ask for",
         replaced(property(_changed_only)),
     ),
-    Bug("variables that robots change", "there are none", replaced(property(always(0)))),
-    Bug("what robots do beside the human", "nothing, ever", wrapped(_idle)),
-    Bug("robots' joint actions", "one robot at a time", wrapped(_one_robot)),
-    Bug("joint actions with the human", "never offered", replaced(always([]))),
-    Bug("whether an action fits beside others", "it always does", replaced(always(True))),
-    Bug("whether a set can be done in some order", "every set can", replaced(always(True))),
-    Bug("sets of a team that need one epoch", "there are none", replaced(always(()))),
+    Bug(PackedTask, "outside", "there are none", replaced(property(always(0)))),
+    Bug(Successors, "with_robots", "nothing, ever", wrapped(_idle)),
+    Bug(Successors, "robots", "one robot at a time", wrapped(_one_robot)),
+    Bug(Successors, "joint", "never offered", replaced(always([]))),
+    Bug(Due, "fits", "it always does", replaced(always(True))),
+    Bug(Successors, "sequential", "every set can", replaced(always(True))),
+    Bug(team, "circles", "there are none", replaced(always(()))),
     Bug(
-        "what an action does, while a plan is put into epochs",
+        parallelise,
+        "_deeds",
         "an agent may act twice in an epoch",
         wrapped(_without("acts")),
     ),
     Bug(
-        "what an action does, while a plan is put into epochs",
+        parallelise,
+        "_deeds",
         "what somebody deletes does not matter",
         wrapped(_without("deletes")),
     ),

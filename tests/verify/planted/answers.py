@@ -4,6 +4,9 @@ from collections.abc import Iterator
 from itertools import islice
 from typing import Any
 
+from search.modes.simulation.eyes import Nearby
+from search.modes.simulation.human import Human
+from serendipity.facade import ties
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 
@@ -29,11 +32,11 @@ def _all_seeing(original: Any, self: Any, belief: int, state: int) -> int:
 
 
 BUGS = (
-    Bug("which optimal plans are looked at", "the canonical one only", wrapped(_only_the_first)),
-    Bug("which of the answers over ties counts", "the other one", wrapped(_other_extreme)),
-    Bug("the mean over ties", "the answer for the canonical plan", wrapped(_first_answer)),
-    Bug("what a human who looks up decides", "nothing new, if their plan works", wrapped(_stubborn)),
-    Bug("whether a human takes part when asked", "always", replaced(always(True))),
-    Bug("whether a human takes part when asked", "never", replaced(always(False))),
-    Bug("what a local human sees", "everything", wrapped(_all_seeing)),
+    Bug(ties, "until_settled", "the canonical one only", wrapped(_only_the_first)),
+    Bug(ties, "_extreme", "the other one", wrapped(_other_extreme)),
+    Bug(ties, "_mean", "the answer for the canonical plan", wrapped(_first_answer)),
+    Bug(Human, "_decide", "nothing new, if their plan works", wrapped(_stubborn)),
+    Bug(Human, "accepts", "always", replaced(always(True))),
+    Bug(Human, "accepts", "never", replaced(always(False))),
+    Bug(Nearby, "look", "everything", wrapped(_all_seeing)),
 )

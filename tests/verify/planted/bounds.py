@@ -2,9 +2,20 @@
 
 from typing import Any
 
+from search.bounds import first_interaction
+from search.bounds.achiever_automaton import AchieverAutomaton
+from search.bounds.achiever_costs import AchieverCosts
+from search.bounds.achievers import Achievers
+from search.bounds.first_interaction import FirstInteraction, _Promise
+from search.bounds.interactions import Interactions
+from search.bounds.prefix_bounds import FirstInteractionOnTheWay
+from search.bounds.private_distances import PrivateDistances
+from search.human import pattern_database
+from search.human.individual_planner import IndividualPlanner
 from search.packed.cost_vector import INFINITE_KEY
+from search.robots.transition_graphs import TransitionGraph
+from search.spaces import factory
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
-from tests.verify.planted.roles import part, put
 
 
 def _doubled(original: Any, *arguments: Any) -> dict[int, int]:
@@ -21,12 +32,12 @@ def _own_moves(original: Any, fields: Any, forms: Any, *arguments: Any) -> Any:
 
 def _too_late(original: Any, self: Any, *arguments: Any) -> None:
     original(self, *arguments)
-    put(self, "latest epoch of a need", part(self, "latest epoch of a need") - 2)
+    self.latest -= 2
 
 
 def _no_help(self: Any, epoch: int, state: int, idle: Any = ()) -> int:
-    without = part(part(self, "bounds along pi_H"), "bounds without help")
-    return int(without[epoch] - part(self, "spent along pi_H")[epoch])
+    without = self._openings.without
+    return int(without[epoch] - self._spent[epoch])
 
 
 def _no_help_later(original: Any, self: Any, epoch: int, state: int, idle: Any = ()) -> int:
@@ -49,41 +60,39 @@ def _without_handing_over(original: Any, self: Any, spot: Any) -> Any:
 
 def _never_flipped(original: Any, self: Any, *arguments: Any) -> None:
     original(self, *arguments)
-    put(self, "what pi_H changes", type(part(self, "what pi_H changes"))(0))
+    self._flips = type(self._flips)(0)
 
 
 def _slow_walks(original: Any, self: Any, *arguments: Any) -> None:
     original(self, *arguments)
-    for walks in part(self, "walks").values():
+    for walks in self.walks.values():
         walks.always.clear()
         walks.by_value.clear()
 
 
 def _far_goal(original: Any, self: Any, *arguments: Any) -> Any:
     found = original(self, *arguments)
-    steps_after = part(self, "steps after a need")
-    put(self, "steps after a need", {need: steps + 2 for need, steps in steps_after.items()})
+    self.steps_after = {need: steps + 2 for need, steps in self.steps_after.items()}
     return found
 
 
 def _own_interactions(original: Any, self: Any, action: int) -> bool:
-    packed = part(self, "packed task")
-    alone = part(packed, "operator")(action).agents == part(packed, "the human's bit")
+    alone = self._packed.op(action).agents == self._packed.human_bit
     return original(self, action) and alone
 
 
 def _limit_is_exact(original: Any, self: Any, start: int, limit: int) -> int:
     found: int = original(self, start, limit)
-    part(self, "known costs alone")[start] = found
+    self._known[start] = found
     return found
 
 
 def _dear(original: Any, self: Any, *arguments: Any) -> Any:
     found = original(self, *arguments)
     for provided in found.values():
-        cost = part(provided, "cost of achievers")
-        put(provided, "steps of achievers", part(provided, "steps of achievers"))
-        put(provided, "cost of achievers", lambda state, cost=cost: 3 * cost(state))
+        cost = provided.cost
+        provided._steps = provided._steps
+        provided.cost = lambda state, cost=cost: 3 * cost(state)
     return found
 
 
@@ -94,37 +103,40 @@ def _too_dear_soon(original: Any, self: Any, need: int, slack: int) -> Any:
 _SLOWER = "a weaker bound is still a bound: the search only takes longer"
 
 BUGS = (
-    Bug("distances in the pattern database", "doubled", wrapped(_doubled)),
-    Bug("distances in the pattern database", "all zero", wrapped(_zero), survives=_SLOWER),
-    Bug("bound of the first interaction", "says nothing", replaced(always(0)), survives=_SLOWER),
-    Bug("actions in the pattern database", "joint actions are forgotten", wrapped(_own_moves)),
+    Bug(pattern_database, "backward", "doubled", wrapped(_doubled)),
+    Bug(pattern_database, "backward", "all zero", wrapped(_zero), survives=_SLOWER),
+    Bug(FirstInteraction, "__call__", "says nothing", replaced(always(0)), survives=_SLOWER),
+    Bug(pattern_database, "_transitions", "joint actions are forgotten", wrapped(_own_moves)),
     Bug(
-        "search for the human's plan alone",
+        IndividualPlanner,
+        "_search",
         "a value beyond the limit is taken for exact",
         wrapped(_limit_is_exact),
         crashes="AssertionError",
     ),
-    Bug("whether an action is an interaction", "a joint action is none", wrapped(_own_interactions)),
-    Bug("private distances", "the goal is two actions further", wrapped(_far_goal)),
-    Bug("a need that may pay", "help has to come two epochs earlier", wrapped(_too_late)),
-    Bug("bound if the window opens now", "nobody helps", replaced(_no_help)),
-    Bug("bound if the window opens later", "nobody helps", wrapped(_no_help_later)),
-    Bug("needs that may still pay", "only the first is kept", wrapped(_cheapest_need)),
-    Bug("epochs that a cost takes", "twice as many", wrapped(lambda f, self, cost: 2 * f(self, cost))),
-    Bug("achievers of a need", "three times as dear", wrapped(_dear)),
+    Bug(Interactions, "is_interaction", "a joint action is none", wrapped(_own_interactions)),
+    Bug(PrivateDistances, "explore", "the goal is two actions further", wrapped(_far_goal)),
+    Bug(_Promise, "__init__", "help has to come two epochs earlier", wrapped(_too_late)),
+    Bug(FirstInteractionOnTheWay, "opening", "nobody helps", replaced(_no_help)),
+    Bug(FirstInteractionOnTheWay, "later", "nobody helps", wrapped(_no_help_later)),
+    Bug(first_interaction, "survivors", "only the first is kept", wrapped(_cheapest_need)),
+    Bug(Achievers, "epochs", "twice as many", wrapped(lambda f, self, cost: 2 * f(self, cost))),
+    Bug(Achievers, "provided", "three times as dear", wrapped(_dear)),
     Bug(
-        "phases of pi_H",
+        Achievers,
+        "phases",
         "pi_H changes nothing outside",
         wrapped(lambda _, __, epochs: [(0, epochs)]),
     ),
-    Bug("longest window that may pay", "a window has no time for robots", replaced(always(0))),
-    Bug("cost to achieve a need", "what is achieved already is out of reach", wrapped(_achieved_is_never)),
-    Bug("edges of the achiever automaton", "nothing is handed over", wrapped(_without_handing_over)),
-    Bug("what pi_H changes in the achiever automaton", "nothing", wrapped(_never_flipped)),
+    Bug(factory, "_reach", "a window has no time for robots", replaced(always(0))),
+    Bug(AchieverCosts, "__call__", "what is achieved already is out of reach", wrapped(_achieved_is_never)),
+    Bug(AchieverAutomaton, "_changes", "nothing is handed over", wrapped(_without_handing_over)),
+    Bug(AchieverAutomaton, "__init__", "nothing", wrapped(_never_flipped)),
     Bug(
-        "slack of the achiever automaton",
+        AchieverAutomaton,
+        "distances",
         "half of what robots may pay is too much",
         wrapped(_too_dear_soon),
     ),
-    Bug("robots' walks in the transition graph", "robots can't walk", wrapped(_slow_walks)),
+    Bug(TransitionGraph, "__init__", "robots can't walk", wrapped(_slow_walks)),
 )

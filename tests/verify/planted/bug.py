@@ -3,11 +3,10 @@
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from inspect import ismodule
 from typing import Any
 
 import pytest
-
-from tests.verify.planted.roles import Place, place
 
 Change = Callable[[Any], Any]
 """What stands in a place now -> what stands there with the bug."""
@@ -18,7 +17,9 @@ class Bug:
     """A bug in the planner.
 
     Attributes:
-        role: what is broken, one of ``roles.PLACES``.
+        owner: the class or module of what is broken.  A function of the module that defines it is replaced
+            wherever it was imported, too; one of a module that imports it, there only.
+        attribute: its name.
         what: what is wrong.
         change: makes it wrong.
         survives: why no certificate can refute it; empty where one has to.
@@ -26,7 +27,8 @@ class Bug:
             where it is refuted.
     """
 
-    role: str
+    owner: Any
+    attribute: str
     what: str
     change: Change
     survives: str = ""
@@ -34,20 +36,27 @@ class Bug:
 
     @property
     def name(self) -> str:
-        """Role and bug."""
-        return f"{self.role}: {self.what}"
+        """What is broken, and how."""
+        return f"{self.owner.__name__.rpartition('.')[2]}.{self.attribute}: {self.what}"
 
     def plant(self, patch: pytest.MonkeyPatch) -> None:
-        """Plant it.
-
-        Raises:
-            LookupError: if nothing plays its role any more.
-        """
-        at = place(self.role)
-        now = getattr(at.owner, at.name)
+        """Plant it."""
+        now = getattr(self.owner, self.attribute)
         wrong = self.change(now)
-        for owner in (at.owner, *_importers(at, now)):
-            patch.setattr(owner, at.name, wrong)
+        for owner in (self.owner, *self._importers(now)):
+            patch.setattr(owner, self.attribute, wrong)
+
+    def _importers(self, function: Any) -> list[Any]:
+        """The modules of the program that have imported a function from the one that defines it."""
+        if not ismodule(self.owner) or getattr(function, "__module__", None) != self.owner.__name__:
+            return []
+        return [
+            module
+            for where, module in list(sys.modules.items())
+            if where.partition(".")[0] in ("serendipity", "search", "verify")
+            and module is not self.owner
+            and getattr(module, self.attribute, None) is function
+        ]
 
 
 def replaced(value: Any) -> Change:
@@ -70,16 +79,3 @@ def wrapped(around: Callable[..., Any]) -> Change:
         return broken
 
     return change
-
-
-def _importers(at: Place, function: Any) -> list[Any]:
-    """The modules of the program that have imported a function from the one that defines it."""
-    if at.owner is not at.module or getattr(function, "__module__", None) != at.module.__name__:
-        return []
-    return [
-        module
-        for where, module in list(sys.modules.items())
-        if where.partition(".")[0] in ("serendipity", "search", "verify")
-        and module is not at.module
-        and getattr(module, at.name, None) is function
-    ]

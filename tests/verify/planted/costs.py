@@ -3,30 +3,30 @@
 from dataclasses import replace
 from typing import Any
 
-from search.packed.cost_vector import INFINITE_KEY
+from search.engine.dominance import ParetoFront
+from search.human.individual_planner import PlanGraph
+from search.human.suffix_rules import Preserved, Replan, Subplan
+from search.packed.cost_vector import INFINITE_KEY, CostLayout, Weights
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
-from tests.verify.planted.roles import part, put
 
 
 def _free_windows(original: Any, self: Any, *arguments: Any) -> None:
     original(self, *arguments)
-    layout = part(self, "layout")
-    put(self, "layout", replace(layout, epoch_weight=1 << layout.length_shift))
+    self.keys = replace(self.keys, epoch_weight=1 << self.keys.length_shift)
 
 
 def _undiscounted(original: Any, self: Any, *arguments: Any) -> None:
     original(self, *arguments)
-    put(self, "robots' weights", part(self, "human's weights"))
+    self.robots = self.human
 
 
 def _discount_for_all(original: Any, self: Any, *arguments: Any) -> None:
     original(self, *arguments)
-    put(self, "human's weights", part(self, "robots' weights"))
+    self.human = self.robots
 
 
 def _unannounced(self: Any, op: Any) -> Any:
-    whose = "human's weights" if op.agents & part(self, "the human's bit in weights") else "robots' weights"
-    return part(self, whose)[op.cost]
+    return (self.human if op.agents & self._human_bit else self.robots)[op.cost]
 
 
 def _any_length(original: Any, self: Any, state: int, epochs: int, start: int, limit: int) -> Any:
@@ -34,25 +34,25 @@ def _any_length(original: Any, self: Any, state: int, epochs: int, start: int, l
 
 
 def _whatever_robots_want(self: Any, state: int, epochs: int, start: int, limit: int) -> Any:
-    layout = part(self, "layout of a replanned suffix")
-    own = part(self, "planner of a replanned suffix").key(state, limit)
+    layout = self.keys
+    own = self.alone.key(state, limit)
     too_long = own >= limit or layout.actions(own) > epochs
     return INFINITE_KEY if too_long else layout.announce(own)
 
 
 def _all_steps(original: Any, self: Any, state: int, epochs: int, start: int, limit: int) -> Any:
-    return original(self, state, len(part(self, "steps of a suffix from pi_H")), start, limit)
+    return original(self, state, len(self._steps), start, limit)
 
 
 def _any_goal(original: Any, self: Any, *arguments: Any) -> None:
     original(self, *arguments)
-    put(self, "goals", part(self, "goals")[:1])
+    self._goals = self._goals[:1]
 
 
 def _any_state(self: Any, state: int, epochs: int, start: int) -> list[int]:
-    steps = len(part(self, "steps of a preserved suffix"))
+    steps = len(self._ops)
     first = max(start - 1, steps - epochs)
-    return [j for j in range(first, steps + 1) if part(self, "whether the rest works")(state, j)]
+    return [j for j in range(first, steps + 1) if self._works(state, j)]
 
 
 def _any_end(original: Any, self: Any, state: int, epochs: int, start: int) -> Any:
@@ -68,7 +68,7 @@ def _by_epoch_alone(self: Any, labels: Any, epoch: int, key: int, idle: Any) -> 
 
 
 def _never_busy(self: Any, labels: Any, epoch: int, key: int, idle: Any) -> bool:
-    no_worse = part(self, "order of limits") or always(True)
+    no_worse = self._no_worse or always(True)
     return any(t <= epoch and k <= key and no_worse(k, key) for t, k, _ in labels)
 
 
@@ -77,7 +77,7 @@ def _no_other_order(original: Any, self: Any, no_worse: Any = None) -> None:
 
 
 def _largest(self: Any) -> Any:
-    *_, last = part(self, "all plans")()
+    *_, last = self.plans()
     return last
 
 
@@ -92,41 +92,45 @@ def _prefer_early(original: Any, self: Any, start: int, horizon: int) -> Any:
 _TIES = "a tie: 'optimal' stands for objective and cost, not for the order beyond (semantics 3.1)"
 
 BUGS = (
-    Bug("weights of operators", "epochs of the window are free", wrapped(_free_windows)),
-    Bug("weights of operators", "robots get no discount", wrapped(_undiscounted)),
-    Bug("weights of operators", "the human is discounted too", wrapped(_discount_for_all)),
-    Bug("cost of a joint action", "communication is free", replaced(_unannounced)),
-    Bug("cost of communicating a suffix", "communication is free", wrapped(_not_announced)),
+    Bug(Weights, "__init__", "epochs of the window are free", wrapped(_free_windows)),
+    Bug(Weights, "__init__", "robots get no discount", wrapped(_undiscounted)),
+    Bug(Weights, "__init__", "the human is discounted too", wrapped(_discount_for_all)),
+    Bug(Weights, "team", "communication is free", replaced(_unannounced)),
+    Bug(CostLayout, "announce", "communication is free", wrapped(_not_announced)),
     Bug(
-        "cost vector of an action",
+        CostLayout,
+        "of_action",
         "actions are not counted",
         replaced(lambda self, cost: self.of_cost(cost)),
         crashes="AssertionError: asked for plans where there are none",
     ),
     Bug(
-        "cost vector of a window's start",
+        CostLayout,
+        "of_start",
         "an earlier window is preferred",
         wrapped(_prefer_early),
         survives=_TIES,
     ),
-    Bug("dominance between labels", "later but cheaper dominates", replaced(_by_key_alone)),
-    Bug("dominance between labels", "earlier but dearer dominates", replaced(_by_epoch_alone)),
-    Bug("dominance between labels", "busy robots dominate idle ones", replaced(_never_busy)),
-    Bug("limits in dominance", "they don't count", wrapped(_no_other_order)),
-    Bug("cost of a replanned suffix", "it may pass T", wrapped(_any_length)),
-    Bug("cost of a replanned suffix", "the robots' goal is forgotten", replaced(_whatever_robots_want)),
-    Bug("cost of a suffix from pi_H", "it may pass T", wrapped(_all_steps)),
-    Bug("goals of a suffix from pi_H", "the robots' goal is forgotten", wrapped(_any_goal)),
+    Bug(ParetoFront, "_covered", "later but cheaper dominates", replaced(_by_key_alone)),
+    Bug(ParetoFront, "_covered", "earlier but dearer dominates", replaced(_by_epoch_alone)),
+    Bug(ParetoFront, "_covered", "busy robots dominate idle ones", replaced(_never_busy)),
+    Bug(ParetoFront, "__init__", "they don't count", wrapped(_no_other_order)),
+    Bug(Replan, "key", "it may pass T", wrapped(_any_length)),
+    Bug(Replan, "key", "the robots' goal is forgotten", replaced(_whatever_robots_want)),
+    Bug(Subplan, "key", "it may pass T", wrapped(_all_steps)),
+    Bug(Subplan, "__init__", "the robots' goal is forgotten", wrapped(_any_goal)),
     Bug(
-        "steps of pi_H where a preserved suffix may begin",
+        Preserved,
+        "_fitting",
         "any state is preserved",
         replaced(_any_state),
     ),
     Bug(
-        "steps of pi_H where a preserved suffix may begin",
+        Preserved,
+        "_fitting",
         "the rest may start before the window",
         wrapped(_any_end),
         survives="such a plan does steps of pi_H twice, so it costs no less than pi_H",
     ),
-    Bug("the canonical plan", "the last in string order", replaced(_largest)),
+    Bug(PlanGraph, "canonical", "the last in string order", replaced(_largest)),
 )

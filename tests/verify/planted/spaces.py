@@ -4,17 +4,21 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import Any
 
+from search.packed.cost_vector import CostLayout
 from search.packed.joint_actions import NOTHING
+from search.spaces.fixed_human_plan import FixedHumanPlan
+from search.spaces.unrestricted import Unrestricted
+from search.spaces.windowed import AnyOfPlan, InLayers, Windowed
+from search.strategies import human_plan, outcome, windows
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
-from tests.verify.planted.roles import part
 
 
 def _unchecked(self: Any, epoch: int, state: int) -> Iterable[Any]:
-    return [option for _, option in part(self, "steps of pi_H")[epoch - 1]]
+    return [option for _, option in self._layers[epoch - 1]]
 
 
 def _own_actions(self: Any, epoch: int, state: int) -> Iterable[Any]:
-    return (NOTHING, *part(self, "successors").human(state))
+    return (NOTHING, *self._successors.human(state))
 
 
 def _only_waiting(self: Any, epoch: int, state: int) -> Iterable[Any]:
@@ -22,10 +26,10 @@ def _only_waiting(self: Any, epoch: int, state: int) -> Iterable[Any]:
 
 
 def _joint_before(self: Any, epoch: int, state: int) -> Iterable[Any]:
-    own = part(self, "successors").human(state)
-    actions, names = part(self, "actions"), part(self, "names of pi_H")
+    own = self._successors.human(state)
+    actions, names = self._actions, self._planned
     planned = (chosen for chosen in own if actions[chosen.actions[0]].name in names)
-    return (NOTHING, *planned, *part(self, "successors").joint(state))
+    return (NOTHING, *planned, *self._successors.joint(state))
 
 
 def _later_start(original: Any, self: Any, node: Any) -> Iterator[tuple[int, Any]]:
@@ -80,36 +84,37 @@ def _dear_at_the_limit(self: Any, key: int, most_cost: int | None) -> bool:
 
 
 def _ties_help(self: Any) -> bool:
-    best, layout = part(self, "incumbent"), part(self, "layout of the call")
-    if part(self, "predicted plan") is None or best.node is None:
+    best, layout = self.best, self.keys
+    if self.plan is None or best.node is None:
         return False
-    return bool(layout.cost(best.key) <= layout.cost(part(self, "best with robots idle").key))
+    return bool(layout.cost(best.key) <= layout.cost(self.idle.key))
 
 
 BUGS = (
     Bug(
-        "prefix that follows pi_H",
+        InLayers,
+        "options",
         "pi_H is followed where it is not applicable",
         replaced(_unchecked),
     ),
-    Bug("prefix of actions of pi_H", "any own action is in pi_H", replaced(_own_actions)),
-    Bug("prefix of actions of pi_H", "the human only waits before the window", replaced(_only_waiting)),
-    Bug("prefix of actions of pi_H", "joint actions before the window", replaced(_joint_before)),
-    Bug("opening a window", "it is said to start an epoch later", wrapped(_later_start)),
-    Bug("opening a window", "in epoch 1 only", wrapped(_only_from_the_start)),
-    Bug("ending a window", "it is said to end an epoch earlier", wrapped(_late_end)),
-    Bug("limits of the window space", "max_window: an epoch more", wrapped(_longer)),
-    Bug("limits of the window space", "max_window: always 1", wrapped(_one_epoch)),
-    Bug("limits of the window space", "horizon: an epoch less", wrapped(_shorter_horizon)),
-    Bug("limits of the window space", "horizon: an epoch more", wrapped(_longer_horizon)),
-    Bug("whether a cost exceeds max_cost", "it never does", replaced(_never_dear)),
-    Bug("whether a cost exceeds max_cost", "the limit itself does", replaced(_dear_at_the_limit)),
-    Bug("limits of the unrestricted space", "horizon: an epoch less", wrapped(_shorter_horizon)),
-    Bug("limits of the unrestricted space", "horizon: an epoch more", wrapped(_longer_horizon)),
-    Bug("limits of the unrestricted space", "the robots' goal is forgotten", wrapped(_own_goal)),
-    Bug("limits of the space of a fixed plan", "the robots' goal is forgotten", wrapped(_own_goal)),
-    Bug("best-first search", "the first plan found is called optimal", wrapped(_first_is_best)),
-    Bug("whether an answer is an opportunity", "a tie is one", replaced(_ties_help)),
-    Bug("whether an answer is an opportunity", "nothing is one", replaced(always(False))),
-    Bug("whether a given plan can be improved", "it is taken for optimal", replaced(always(False))),
+    Bug(AnyOfPlan, "options", "any own action is in pi_H", replaced(_own_actions)),
+    Bug(AnyOfPlan, "options", "the human only waits before the window", replaced(_only_waiting)),
+    Bug(AnyOfPlan, "options", "joint actions before the window", replaced(_joint_before)),
+    Bug(Windowed, "_open", "it is said to start an epoch later", wrapped(_later_start)),
+    Bug(Windowed, "_open", "in epoch 1 only", wrapped(_only_from_the_start)),
+    Bug(Windowed, "_end", "it is said to end an epoch earlier", wrapped(_late_end)),
+    Bug(Windowed, "__init__", "max_window: an epoch more", wrapped(_longer)),
+    Bug(Windowed, "__init__", "max_window: always 1", wrapped(_one_epoch)),
+    Bug(Windowed, "__init__", "horizon: an epoch less", wrapped(_shorter_horizon)),
+    Bug(Windowed, "__init__", "horizon: an epoch more", wrapped(_longer_horizon)),
+    Bug(CostLayout, "exceeds", "it never does", replaced(_never_dear)),
+    Bug(CostLayout, "exceeds", "the limit itself does", replaced(_dear_at_the_limit)),
+    Bug(Unrestricted, "__init__", "horizon: an epoch less", wrapped(_shorter_horizon)),
+    Bug(Unrestricted, "__init__", "horizon: an epoch more", wrapped(_longer_horizon)),
+    Bug(Unrestricted, "__init__", "the robots' goal is forgotten", wrapped(_own_goal)),
+    Bug(FixedHumanPlan, "__init__", "the robots' goal is forgotten", wrapped(_own_goal)),
+    Bug(windows, "best_first", "the first plan found is called optimal", wrapped(_first_is_best)),
+    Bug(outcome, "helps", "a tie is one", replaced(_ties_help)),
+    Bug(outcome, "helps", "nothing is one", replaced(always(False))),
+    Bug(human_plan, "_is_dearer", "it is taken for optimal", replaced(always(False))),
 )

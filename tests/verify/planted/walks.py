@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from search.packed import successor_generator
+from search.robots.decoupled import Decoupled, DecoupledSuccessors
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 
@@ -23,14 +25,15 @@ def _stays(original: Any, self: Any, node: Any) -> Any:
 
 BUGS = (
     Bug(
-        "whether a walk ends in time",
+        successor_generator,
+        "in_time",
         "robots need no time to walk",
         replaced(always(True)),
         crashes="InputError",
     ),
-    Bug("length of a walk", "a step shorter", wrapped(_short_cut)),
-    Bug("length of a walk", "nothing is in reach", replaced(always([]))),
-    Bug("how long robots have been idle", "what they do takes no time", wrapped(_take_no_time)),
-    Bug("whether pi_H asks where robots are", "never", replaced(always(False))),
-    Bug("writing walks down", "a walk is left out", wrapped(_stays)),
+    Bug(Decoupled, "ways", "a step shorter", wrapped(_short_cut)),
+    Bug(Decoupled, "ways", "nothing is in reach", replaced(always([]))),
+    Bug(DecoupledSuccessors, "rested", "what they do takes no time", wrapped(_take_no_time)),
+    Bug(Decoupled, "touched_by", "never", replaced(always(False))),
+    Bug(Decoupled, "steps", "a walk is left out", wrapped(_stays)),
 )
