@@ -46,10 +46,7 @@ def test_every_look_is_the_same_plan(look: str, names: list[str], run: Runs) -> 
     assert (answer["human_cost"], answer["cost"]) == (13.0, 12.6)
 
 
-@pytest.mark.parametrize(
-    "look",
-    ["plain", "comments", "json lines", "noops", "carriage returns only"],
-)
+@pytest.mark.parametrize("look", ["plain", "comments", "json lines", "noops", "carriage returns only"])
 def test_an_error_names_file_and_line(look: str, names: list[str], run: Runs) -> None:
     spoilt = [*names[:4], "fly commx hall5 hall1", *names[5:]]
     Path("plan.txt").write_text(LOOKS[look](spoilt))

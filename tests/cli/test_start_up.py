@@ -14,12 +14,7 @@ SOLVERS = ("pulp", "highspy")
 def modules_after(program: str) -> set[str]:
     """Modules that a program has loaded when it ends."""
     shown = f"{program}\nimport sys\nprint(' '.join(sys.modules))"
-    done = subprocess.run(
-        [sys.executable, "-c", shown],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    done = subprocess.run([sys.executable, "-c", shown], capture_output=True, text=True, check=True)
     return set(done.stdout.splitlines()[-1].split())
 
 

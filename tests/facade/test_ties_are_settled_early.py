@@ -199,11 +199,7 @@ def test_what_does_not_matter_is_left_out_and_still_certified(ties: str) -> None
     task = build(
         goal="done",
         init="a",
-        actions={
-            **{f"way{k} h": "a -> b !a" for k in range(20)},
-            "do h": "b -> done",
-            "idle r": "-> waved",
-        },
+        actions={**{f"way{k} h": "a -> b !a" for k in range(20)}, "do h": "b -> done", "idle r": "-> waved"},
     )
     answer = proved(task, discount="0.9", ties=ties)
     assert (answer.cost, answer.optimal_plans) == (2.0, 20)
@@ -220,11 +216,7 @@ def test_listed_answers_are_certified() -> None:
 
 def test_no_mean_saving_where_doing_nothing_is_no_answer() -> None:
     """It was 0, while each single answer had none."""
-    task = build(
-        goal="a b",
-        robot_goal="c",
-        actions={"one h": "-> a", "two h": "-> b", "both h r": "-> c"},
-    )
+    task = build(goal="a b", robot_goal="c", actions={"one h": "-> a", "two h": "-> b", "both h r": "-> c"})
     answer = proved(task, mode="communication", ties="expected", horizon=3)
     assert len(answer.ties or ()) == 2
     assert (answer.status, answer.saving, answer.saving_alone) == ("optimal", None, None)

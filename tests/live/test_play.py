@@ -55,10 +55,7 @@ def test_the_papers_example() -> None:
     }
     end = go(table, TAKE, *TO_ROOM1)["end"]
     assert (end["paid"], end["team"], end["alone"], end["saved"]) == (11.0, 12.6, 13.0, 0.4)
-    assert [(step["epoch"], step["text"]) for step in end["help"]][-1] == (
-        6,
-        f"commx and robot: {TAKE}",
-    )
+    assert [(step["epoch"], step["text"]) for step in end["help"]][-1] == (6, f"commx and robot: {TAKE}")
     told = table.do({"do": "explain"})
     said = [sentence["text"] for sentence in told["sentences"] if sentence["topic"] == "run"]
     assert said[0] == "Epoch 1: waits: its part comes in epoch 2." and "mk2" in said[1]

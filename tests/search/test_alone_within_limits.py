@@ -15,12 +15,7 @@ from serendipity.testing.countdown import Countdown
 
 def _door() -> Task:
     """From b on the human needs ``p``, which only a robot changes: the private bound takes it for granted."""
-    actions = {
-        "in h": "a -> b !a",
-        "out h": "b p -> g !b",
-        "around h": "b -> g !b @ 5",
-        "open r": "-> p @ 9",
-    }
+    actions = {"in h": "a -> b !a", "out h": "b p -> g !b", "around h": "b -> g !b @ 5", "open r": "-> p @ 9"}
     return build(init="a", goal="g", actions=actions)
 
 

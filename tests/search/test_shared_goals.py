@@ -84,10 +84,7 @@ def test_where_the_kernel_has_no_bound_on_the_team(monkeypatch: pytest.MonkeyPat
 
 def test_a_fact_that_two_must_add_at_once() -> None:
     """Both need it to be false and make it true, which is no conflict: a circle that was missed."""
-    task = build(
-        goal="a b",
-        actions={"left h": "!c -> a c @ 1", "right r": "!c -> b c @ 1"},
-    )
+    task = build(goal="a b", actions={"left h": "!c -> a c @ 1", "right r": "!c -> b c @ 1"})
     answer = serendipity.plan(task, mode="composite", horizon="inf")
     assert (answer.status, answer.cost) == ("optimal", 2)
 

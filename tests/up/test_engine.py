@@ -229,10 +229,7 @@ def test_wrong_parameters_are_told(parameters: dict[str, object], message: str) 
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [
-        (
-            {"mode": "serendipity"},
-            "mode 'serendipity' is help for somebody: expected an object",
-        ),
+        ({"mode": "serendipity"}, "mode 'serendipity' is help for somebody: expected an object"),
         ({"human": "Bob"}, "agent 'Bob': there is no such object"),
         ({"human": "Ann"}, "no other object of type 'Person"),
         ({"human": "Place", "robots": "Robot"}, "human: expected one object, got 5"),

@@ -178,10 +178,7 @@ def lasting(action: GroundAction) -> GroundAction:
             "INTERMEDIATE_CONDITIONS",
         ),
         (lambda p: p.add_timed_goal(GlobalStartTiming(9), p.fluent("has_eaten")), "TIMED_GOALS"),
-        (
-            lambda p: p.add_timed_effect(GlobalStartTiming(0), p.fluent("has_eaten"), True),
-            "after the begin",
-        ),
+        (lambda p: p.add_timed_effect(GlobalStartTiming(0), p.fluent("has_eaten"), True), "after the begin"),
         (
             lambda p: p.add_timed_effect(
                 GlobalStartTiming(9), p.fluent("has_eaten"), True, p.fluent("has_eaten")

@@ -59,10 +59,7 @@ def test_calls_of_all_claims_add_up() -> None:
     certificate = certify(task, answer, method="program")
     optimal = next(claim for claim in certificate.claims if claim.claim == "optimal")
     assert certificate.solver_calls == optimal.solver_calls == 2
-    assert certificate.size == {
-        "variables": optimal.size["columns"],
-        "constraints": optimal.size["rows"],
-    }
+    assert certificate.size == {"variables": optimal.size["columns"], "constraints": optimal.size["rows"]}
 
 
 def test_what_a_limit_leaves_is_no_counter_example(monkeypatch: pytest.MonkeyPatch) -> None:

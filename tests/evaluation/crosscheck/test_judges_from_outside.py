@@ -40,11 +40,7 @@ def judge(claim: Proposal) -> OutsideJudge:
 
 @pytest.mark.parametrize(
     "claim",
-    [
-        Proposal("optimal", (X, Y)),
-        Proposal("feasible", (Z,)),
-        Proposal("unknown", words="no memory"),
-    ],
+    [Proposal("optimal", (X, Y)), Proposal("feasible", (Z,)), Proposal("unknown", words="no memory")],
     ids=lambda claim: claim.status,
 )
 def test_what_can_be_so_is_no_disagreement(claim: Proposal) -> None:
@@ -89,11 +85,7 @@ def test_an_engine_of_the_library_agrees(seed: int) -> None:
 
 def test_a_shrunk_case_asks_the_same_question() -> None:
     """Without an option it would be another: within the human's epochs no robot could help here."""
-    task = build(
-        init="a",
-        goal="c",
-        actions={"x h": "a -> c @ 9", "y r": "a -> b", "z r": "b -> c"},
-    )
+    task = build(init="a", goal="c", actions={"x h": "a -> c @ 9", "y r": "a -> b", "z r": "b -> c"})
     call = PlanCall(task, {"mode": "serendipity", "discount": "1/2", "suffix": "subplan"})
     honest = OutsideJudge("stranger", lambda *_: Proposal("optimal", (1, 2)))
     assert compare(call, SEARCH, outside=[honest]) is None

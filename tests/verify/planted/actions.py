@@ -102,21 +102,11 @@ BUGS = (
         replaced(_without_agents),
         survives="a set of actions has one of each agent by how it is put together",
     ),
-    Bug(
-        actions,
-        "conflicting",
-        "two actions may delete the same fact",
-        replaced(_without_double_deletes),
-    ),
+    Bug(actions, "conflicting", "two actions may delete the same fact", replaced(_without_double_deletes)),
     Bug(actions, "conflicting", "one may delete what another adds", replaced(_without_adds)),
     Bug(actions, "conflicting", "strict interference is ignored", replaced(_never_strict)),
     Bug(actions, "conflicting", "interference is always strict", replaced(_always_strict)),
-    Bug(
-        actions,
-        "disables",
-        "negative preconditions are forgotten",
-        replaced(_disables_by_deleting),
-    ),
+    Bug(actions, "disables", "negative preconditions are forgotten", replaced(_disables_by_deleting)),
     Bug(
         operators,
         "applicable",
@@ -135,12 +125,7 @@ BUGS = (
         "negative goals are forgotten",
         replaced(lambda self, state: state & self.need_mask == self.need),
     ),
-    Bug(
-        OperatorIndex,
-        "candidates",
-        "those without the indexed variable are lost",
-        replaced(_only_indexed),
-    ),
+    Bug(OperatorIndex, "candidates", "those without the indexed variable are lost", replaced(_only_indexed)),
     Bug(
         PackedTask,
         "own_mask",
@@ -154,16 +139,6 @@ BUGS = (
     Bug(Due, "fits", "it always does", replaced(always(True))),
     Bug(Successors, "sequential", "every set can", replaced(always(True))),
     Bug(team, "circles", "there are none", replaced(always(()))),
-    Bug(
-        parallelise,
-        "_deeds",
-        "an agent may act twice in an epoch",
-        wrapped(_without("acts")),
-    ),
-    Bug(
-        parallelise,
-        "_deeds",
-        "what somebody deletes does not matter",
-        wrapped(_without("deletes")),
-    ),
+    Bug(parallelise, "_deeds", "an agent may act twice in an epoch", wrapped(_without("acts"))),
+    Bug(parallelise, "_deeds", "what somebody deletes does not matter", wrapped(_without("deletes"))),
 )

@@ -122,21 +122,11 @@ BUGS = (
     Bug(first_interaction, "survivors", "only the first is kept", wrapped(_cheapest_need)),
     Bug(Achievers, "epochs", "twice as many", wrapped(lambda f, self, cost: 2 * f(self, cost))),
     Bug(Achievers, "provided", "three times as dear", wrapped(_dear)),
-    Bug(
-        Achievers,
-        "phases",
-        "pi_H changes nothing outside",
-        wrapped(lambda _, __, epochs: [(0, epochs)]),
-    ),
+    Bug(Achievers, "phases", "pi_H changes nothing outside", wrapped(lambda _, __, epochs: [(0, epochs)])),
     Bug(factory, "_reach", "a window has no time for robots", replaced(always(0))),
     Bug(AchieverCosts, "__call__", "what is achieved already is out of reach", wrapped(_achieved_is_never)),
     Bug(AchieverAutomaton, "_changes", "nothing is handed over", wrapped(_without_handing_over)),
     Bug(AchieverAutomaton, "__init__", "nothing", wrapped(_never_flipped)),
-    Bug(
-        AchieverAutomaton,
-        "distances",
-        "half of what robots may pay is too much",
-        wrapped(_too_dear_soon),
-    ),
+    Bug(AchieverAutomaton, "distances", "half of what robots may pay is too much", wrapped(_too_dear_soon)),
     Bug(TransitionGraph, "__init__", "robots can't walk", wrapped(_slow_walks)),
 )

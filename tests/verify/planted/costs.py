@@ -104,13 +104,7 @@ BUGS = (
         replaced(lambda self, cost: self.of_cost(cost)),
         crashes="AssertionError: asked for plans where there are none",
     ),
-    Bug(
-        CostLayout,
-        "of_start",
-        "an earlier window is preferred",
-        wrapped(_prefer_early),
-        survives=_TIES,
-    ),
+    Bug(CostLayout, "of_start", "an earlier window is preferred", wrapped(_prefer_early), survives=_TIES),
     Bug(ParetoFront, "_covered", "later but cheaper dominates", replaced(_by_key_alone)),
     Bug(ParetoFront, "_covered", "earlier but dearer dominates", replaced(_by_epoch_alone)),
     Bug(ParetoFront, "_covered", "busy robots dominate idle ones", replaced(_never_busy)),
@@ -119,12 +113,7 @@ BUGS = (
     Bug(Replan, "key", "the robots' goal is forgotten", replaced(_whatever_robots_want)),
     Bug(Subplan, "key", "it may pass T", wrapped(_all_steps)),
     Bug(Subplan, "__init__", "the robots' goal is forgotten", wrapped(_any_goal)),
-    Bug(
-        Preserved,
-        "_fitting",
-        "any state is preserved",
-        replaced(_any_state),
-    ),
+    Bug(Preserved, "_fitting", "any state is preserved", replaced(_any_state)),
     Bug(
         Preserved,
         "_fitting",

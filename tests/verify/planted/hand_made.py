@@ -85,12 +85,7 @@ def _horizons() -> Iterator[PlanCall]:
 
 
 def _suffixes() -> Iterator[PlanCall]:
-    actions = {
-        "one h": "a -> b @ 2",
-        "two h": "b -> c @ 2",
-        "three h": "c -> d @ 2",
-        "skip r": "-> c",
-    }
+    actions = {"one h": "a -> b @ 2", "two h": "b -> c @ 2", "three h": "c -> d @ 2", "skip r": "-> c"}
     for options in ({"preservation": "state"}, {"suffix": "subplan"}, {}):
         yield PlanCall(build(init="a", goal="d", actions=actions), options)
     new = {"do h": "-> g @ 9", "open r": "-> o", "quick h": "o -> g @ 2"}
@@ -173,12 +168,7 @@ def _limits() -> Iterator[PlanCall]:
 
 def _provisions() -> Iterator[PlanCall]:
     """What robots pass on to each other, and what the human sets going."""
-    relay = {
-        "do h": "-> g @ 9",
-        "use h": "k2 -> g",
-        "carry s": "k0 -> k1 !k0",
-        "bring r": "k1 -> k2 !k1",
-    }
+    relay = {"do h": "-> g @ 9", "use h": "k2 -> g", "carry s": "k0 -> k1 !k0", "bring r": "k1 -> k2 !k1"}
     for horizon in ("3", "4"):
         yield PlanCall(
             build(agents="h r s", init="k0", goal="g", actions=relay),
@@ -209,12 +199,7 @@ def _provisions() -> Iterator[PlanCall]:
     for horizon in ("2", "3", "4"):
         yield PlanCall(build(init="v0 b", goal="g", actions=flipped), {"horizon": horizon})
     # What the second joint action needs is too dear for the robot, and comes with the first.
-    twice = {
-        "do h": "a -> g @ 9",
-        "lift h r": "a -> b f !a",
-        "use h r": "b f -> g",
-        "fetch r": "-> f @ 50",
-    }
+    twice = {"do h": "a -> g @ 9", "lift h r": "a -> b f !a", "use h r": "b f -> g", "fetch r": "-> f @ 50"}
     for mode in ("serendipity", "communication"):
         options = {"mode": mode, "horizon": "2", "window_weight": "0"}
         yield PlanCall(build(init="a", goal="g", actions=twice), options)

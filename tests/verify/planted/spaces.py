@@ -91,12 +91,7 @@ def _ties_help(self: Any) -> bool:
 
 
 BUGS = (
-    Bug(
-        InLayers,
-        "options",
-        "pi_H is followed where it is not applicable",
-        replaced(_unchecked),
-    ),
+    Bug(InLayers, "options", "pi_H is followed where it is not applicable", replaced(_unchecked)),
     Bug(AnyOfPlan, "options", "any own action is in pi_H", replaced(_own_actions)),
     Bug(AnyOfPlan, "options", "the human only waits before the window", replaced(_only_waiting)),
     Bug(AnyOfPlan, "options", "joint actions before the window", replaced(_joint_before)),

@@ -152,10 +152,7 @@ def test_equal_proofs_are_equal_files(tmp_path: Path) -> None:
     ("options", "what"),
     [
         ({"mode": "composite", "horizon": "inf"}, "plans without a horizon"),
-        (
-            {"human_model": "observant", "discount": "0.9"},
-            "a human who replans, where",
-        ),
+        ({"human_model": "observant", "discount": "0.9"}, "a human who replans, where"),
         ({"mode": "assistance"}, "mode assistance"),
     ],
 )

@@ -94,11 +94,7 @@ def test_wrong_value_is_refuted(ties: str) -> None:
 
 @pytest.mark.parametrize(
     ("number", "action", "words"),
-    [
-        (0, "carry s a g", "can't do 'carry s a g'"),
-        (1, "noop", "for ever"),
-        (1, None, "idles"),
-    ],
+    [(0, "carry s a g", "can't do 'carry s a g'"), (1, "noop", "for ever"), (1, None, "idles")],
     ids=["impossible action", "waiting for ever", "missing state"],
 )
 def test_wrong_decisions_are_refuted(number: int, action: str | None, words: str) -> None:

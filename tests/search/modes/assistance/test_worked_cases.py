@@ -20,12 +20,7 @@ def pair(result: Result) -> tuple[str, str]:
 
 @pytest.mark.parametrize(
     ("ties", "value"),
-    [
-        ("optimistic", ("1", "1")),
-        ("fixed", ("1", "1")),
-        ("robust", ("2", "0")),
-        ("expected", ("3/2", "1/2")),
-    ],
+    [("optimistic", ("1", "1")), ("fixed", ("1", "1")), ("robust", ("2", "0")), ("expected", ("3/2", "1/2"))],
 )
 def test_case_5(ties: str, value: tuple[str, str]) -> None:
     assert pair(serendipity.plan(case_5(), mode="assistance", ties=ties)) == value
