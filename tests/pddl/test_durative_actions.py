@@ -180,37 +180,31 @@ def test_each_agent_may_have_files(tmp_path: Path) -> None:
     assert (task.epoch, action(task, "sweep bob hall").duration) == (2, 3)
 
 
+LASTS, OVER_ALL, ENDS = "(= ?duration 4)", "(over all (path ?x ?y))", "(at end (at ?a ?y))"
+"""What is spoilt of walks."""
+
+
 @pytest.mark.parametrize(
     ("old", "new", "line", "message"),
     [
-        ("(= ?duration 4)", "(= ?duration long)", 8, "expected a number, got 'long'"),
-        ("(= ?duration 4)", "()", 8, "expected '(= ?duration N)' or '(>= ?duration N)', got '()'"),
-        ("(= ?duration 4)", "(<= ?duration 4)", 8, "expected '(= ?duration N)' or '(>= ?duration N)'"),
-        ("(= ?duration 4)", "(< ?duration 4)", 8, "expected '=', '<=' or '>=' before '?duration'"),
-        ("(= ?duration 4)", "(= ?time 4)", 8, "expected '?duration', got '?time'"),
-        ("(= ?duration 4)", "(= ?duration (far ?x))", 8, "function 'far' takes 2 arguments, got 1"),
-        ("(= ?duration 4)", "(= ?duration (- (far bed hall) 3))", 8, "object 'bed' is not declared"),
+        (LASTS, "(= ?duration long)", 8, "expected a number, got 'long'"),
+        (LASTS, "()", 8, "expected '(= ?duration N)' or '(>= ?duration N)', got '()'"),
+        (LASTS, "(<= ?duration 4)", 8, "expected '(= ?duration N)' or '(>= ?duration N)'"),
+        (LASTS, "(< ?duration 4)", 8, "expected '=', '<=' or '>=' before '?duration'"),
+        (LASTS, "(= ?time 4)", 8, "expected '?duration', got '?time'"),
+        (LASTS, "(= ?duration (far ?x))", 8, "function 'far' takes 2 arguments, got 1"),
+        (LASTS, "(= ?duration (- (far bed hall) 3))", 8, "object 'bed' is not declared"),
+        (LASTS, "(= ?duration (- (far ?x ?y) 3))", 6, "'walk ann bed hall': expected a duration above 0"),
+        (LASTS, "(= ?duration (far ?y ?x))", 6, "no initial value of 'far hall bed' for its duration"),
+        (LASTS, "(= ?duration (/ 4 0))", 8, "division by zero"),
+        (LASTS, "(= ?duration (/ 4 (- (far ?x ?y) 3)))", 6, "division by zero in its duration"),
         (
-            "(= ?duration 4)",
-            "(= ?duration (- (far ?x ?y) 3))",
-            6,
-            "'walk ann bed hall': expected a duration above 0",
-        ),
-        (
-            "(= ?duration 4)",
-            "(= ?duration (far ?y ?x))",
-            6,
-            "no initial value of 'far hall bed' for its duration",
-        ),
-        ("(= ?duration 4)", "(= ?duration (/ 4 0))", 8, "division by zero"),
-        ("(= ?duration 4)", "(= ?duration (/ 4 (- (far ?x ?y) 3)))", 6, "division by zero in its duration"),
-        (
-            "(= ?duration 4)",
+            LASTS,
             "(and (>= ?duration 4) (<= ?duration (far ?x ?y)))",
             6,
             "expected a duration of at least 4, and of at most 3",
         ),
-        ("(= ?duration 4)", "(= ?duration 0.000001)", 11, "takes 6,000,000 epochs of 1e-06"),
+        (LASTS, "(= ?duration 0.000001)", 11, "takes 6,000,000 epochs of 1e-06"),
         ("    :duration (= ?duration 4)\n", "", 6, "action 'walk': expected a ':duration'"),
         (
             ":duration (= ?duration 4)",
@@ -224,45 +218,30 @@ def test_each_agent_may_have_files(tmp_path: Path) -> None:
             9,
             "expected '(at start ...)' or '(over all ...)' or '(at end",
         ),
+        (OVER_ALL, "(over all (or (clean ?x) (clean ?y)))", 6, "'over all': expected no 'or'"),
+        (OVER_ALL, "(over all (>= (far ?x ?y) 2))", 9, "numeric conditions are not supported"),
+        (ENDS, "(at ?a ?y)", 10, "expected '(at start ...)' or '(at end ...)', got '(at ?a ?y)'"),
+        (ENDS, "(over all (at ?a ?y))", 10, "expected '(at start ...)' or '(at end ...)'"),
         (
-            "(over all (path ?x ?y))",
-            "(over all (or (clean ?x) (clean ?y)))",
-            6,
-            "'over all': expected no 'or'",
-        ),
-        (
-            "(over all (path ?x ?y))",
-            "(over all (>= (far ?x ?y) 2))",
-            9,
-            "numeric conditions are not supported",
-        ),
-        (
-            "(at end (at ?a ?y))",
-            "(at ?a ?y)",
-            10,
-            "expected '(at start ...)' or '(at end ...)', got '(at ?a ?y)'",
-        ),
-        ("(at end (at ?a ?y))", "(over all (at ?a ?y))", 10, "expected '(at start ...)' or '(at end ...)'"),
-        (
-            "(at end (at ?a ?y))",
+            ENDS,
             "(increase (far ?x ?y) (* #t 2))",
             10,
             "continuous effects ('increase' without 'at start' or 'at end') are not supported",
         ),
         (
-            "(at end (at ?a ?y))",
+            ENDS,
             "(at end (increase (total-cost) (* 2 ?duration)))",
             10,
             "'?duration' in effects on numbers is not supported",
         ),
         (
-            "(at end (at ?a ?y))",
+            ENDS,
             "(at end (decrease (far ?x ?y) 1))",
             10,
             "numeric effects are not supported, except 'increase (total-cost)'",
         ),
         (
-            "(at end (at ?a ?y))",
+            ENDS,
             "(when (at start (clean ?x)) (at end (at ?a ?y)))",
             10,
             "conditional effects of durative actions are not supported",
