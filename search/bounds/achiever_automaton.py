@@ -43,7 +43,6 @@ class AchieverAutomaton:
     """Distances in the automaton of one outside field.
 
     Args:
-        packed: the packed task.
         transitions: what robots' ops do to each variable.
         field: the outside field.
         needs: ids of the needs that are judged by this field, with the needs.

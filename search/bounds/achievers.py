@@ -66,7 +66,6 @@ class Achievers:
     """The robots' side.
 
     Args:
-        packed: the packed task.
         transitions: what robots' ops do to each variable.
         interactions: what the human's ops mention.
         weights: key increment of a robots' op by the index of its cost.

@@ -39,7 +39,6 @@ class Interactions:
     """The human's ops, split at what they mention.
 
     Args:
-        packed: the packed task.
         mask: the private fields that the projection of :func:`.whole_graph` or :func:`.partial_graph` keeps.
 
     Attributes:

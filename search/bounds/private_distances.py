@@ -127,7 +127,6 @@ class OwnPrivateDistances:
     """The human's ways backward, in the unit of :func:`.own_weights`.
 
     Args:
-        packed: the packed task.
         interactions: what their ops mention.
         distances: to the goal, by projected state.
         moves: what leads to each projected state without an interaction.

@@ -34,7 +34,6 @@ class SearchContext:
     """The prepared task under the options of one call.
 
     Args:
-        prepared: the task.
         options: options in force.
         deadline: polled while tables are built.
         plan: ``pi_H`` where it is known; None while it is being predicted.

@@ -32,7 +32,6 @@ class TaskTables:
     """A packed task, and what follows from it whatever a call's options are.
 
     Args:
-        packed: the packed task.
         human: what the human can do alone, where it is not to be found from the packed task.
 
     Attributes:
@@ -74,9 +73,6 @@ class TaskTables:
 
 class PreparedTask:
     """A task with its packings, and their tables.
-
-    Args:
-        task: the task.
 
     Attributes:
         task: the task.
@@ -151,7 +147,6 @@ class PreparedTask:
         Args:
             goals: goals of the human's.
             facts: ids of facts to pack besides what the goals ask for.
-            deadline: polled.
         """
         asked = facts.union(*((*goal.positive, *goal.negative) for goal in goals))
         packed = self.including(asked, deadline).packed
@@ -193,7 +188,6 @@ def prepare(task: Task, deadline: Deadline | None = None) -> PreparedTask:
     planning call finds it otherwise, within its time limit.
 
     Args:
-        task: the task.
         deadline: polled for time, and asked for memory.
 
     Raises:

@@ -21,7 +21,6 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
     Args:
         planner: the kernel on the problem.
         state: the packed state to begin in.
-        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline came first.
@@ -60,7 +59,6 @@ def in_order(operators: Sequence[Operator], plan: Sequence[int], deadline: Deadl
     Args:
         operators: of the problem.
         plan: some of them, by their numbers, as they can be done one after another.
-        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline came first.

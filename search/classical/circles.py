@@ -31,9 +31,7 @@ def circles(
     """Every circle of operators that some state may allow.
 
     Args:
-        packed: the packed task.
         operators: what may be done.
-        deadline: polled.
 
     Raises:
         TooManyError: they are too many to be looked for.

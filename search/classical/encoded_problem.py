@@ -33,9 +33,6 @@ def memory_for(problem: ClassicalProblem) -> int:
 class EncodedProblem:
     """A problem as rows of words, which are there for as long as this is.
 
-    Args:
-        problem: the problem.
-
     Attributes:
         spec: what the kernel is told; it makes a copy.
         size: bytes of a row.

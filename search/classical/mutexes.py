@@ -29,7 +29,6 @@ class ReachablePairs:
 
     Args:
         packed: the packed task, from its initial state.
-        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline came, or there are too many values.

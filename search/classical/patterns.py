@@ -32,7 +32,6 @@ def patterns(
         operators: the human's own.
         goal: what has to hold at the end.
         most_states: of a projection.
-        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline came.

@@ -127,8 +127,6 @@ class ClassicalPlanner:
         """The amount of a cheapest plan from a packed state; any value from ``limit`` on means "not below".
 
         Args:
-            state: the packed state.
-            deadline: polled.
             limit: what is dearer does not matter.
             on_bound: told now and then what no plan is cheaper than.
             before: an operator that leads to the state: only such plans matter as go on from it optimally.
@@ -149,7 +147,6 @@ class ClassicalPlanner:
         Meanwhile only :meth:`bound` and :meth:`first_plan` may have been asked for.
 
         Args:
-            deadline: polled.
             on_bound: as for :meth:`cheapest`.
 
         Raises:
@@ -237,8 +234,6 @@ class ClassicalPlanner:
         Which of several does not depend on what was asked before: all that was learnt is forgotten.
 
         Args:
-            state: the packed state.
-            deadline: polled.
             limit: as for :meth:`cheapest`.
             on_bound: as for :meth:`cheapest`.
 

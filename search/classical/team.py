@@ -38,8 +38,6 @@ class Team:
         There is no plan where none comes.  Plans are sets of actions.
 
         Args:
-            state: the packed state.
-            deadline: polled.
             on_bound: told now and then what no plan is cheaper than.
 
         Raises:
@@ -69,7 +67,6 @@ class Team:
 
         Args:
             state: the same packed state.
-            deadline: polled.
             on_bound: as before.
 
         Raises:
@@ -98,10 +95,8 @@ def team_planner(
     Amounts are in the unit of :meth:`.Weights.key_of`.
 
     Args:
-        packed: the packed task.
         goal: what has to hold at the end.
         weights: what actions cost the team; communication is left out.
-        deadline: polled.
         strict: strict interference, which keeps apart what could be in a circle.
     """
     kernel = library()

@@ -20,7 +20,6 @@ class AndOrGraph(Generic[State]):
     """States that are had by one of several rules (OR), each of which needs several of them (AND).
 
     Args:
-        rules: the rules.
         deadline: polled for each rule, and later for each state.
     """
 

@@ -75,7 +75,6 @@ class AStar(Generic[State]):
         """Note a way to a state, if it is the cheapest so far.
 
         Args:
-            state: the state.
             spent: what has been spent by then.
             before: the state before it.
             step: what leads from there to it.

@@ -125,7 +125,6 @@ def best_first(
         space: what is searched.
         best: the incumbent, which is made better.
         progress: what is known so far, which is brought up to date.
-        deadline: polled.
         ties: how far incumbents of the best objective are told apart; None: all the way.
         is_enough: asked before each node whether to end there, whatever has been found; None: never.
 

@@ -29,7 +29,6 @@ class Memory:
     """Costs and plans of the human alone that have been found; good for calls that weigh alike.
 
     Args:
-        packed: the packed task.
         weight: of one of their own ops; None: as :func:`.own_weights` has it.
         strict: strict interference, which matters beside bystanders.
 
@@ -89,7 +88,6 @@ class IndividualPlanner:
     """The human's optimal key to a goal with every robot idle.
 
     Args:
-        packed: the packed task.
         goal: what has to hold at the end.
         bound: admissible lower bound to ``goal`` on sums of weights.
         memory: how operators weigh, and what earlier calls have found with the same goal and weights.

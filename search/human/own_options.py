@@ -13,7 +13,6 @@ def own_options(packed: PackedTask, weight: Callable[[Operator], int], *, strict
     """What the human can do alone in a packed state; with a script also waiting, as long as it runs.
 
     Args:
-        packed: the packed task.
         weight: of one of their own ops.
         strict: strict interference, which matters beside bystanders.
     """
@@ -26,7 +25,6 @@ class BesideScript(Lookup):
     """The human's options, each with what bystanders do in its epoch, and with what the clock changes.
 
     Args:
-        packed: the packed task.
         weight: of one of the human's own ops.
         strict: strict interference.
     """

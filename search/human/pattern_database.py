@@ -74,7 +74,6 @@ def own_projection(packed: PackedTask, graph: Projected, deadline: Deadline) -> 
     """Costs to the human's goal in their private variables, or in as many as stay tractable.
 
     Args:
-        packed: the packed task.
         graph: the human's graph.
         deadline: polled while the table is built.
 
@@ -191,10 +190,7 @@ def _graph(
     """The human's graph over some fields; None where it has too many states.
 
     Args:
-        packed: the packed task.
-        fields: the fields.
         most: states that it may have.
-        deadline: polled.
         forms: of their actions; None for all of them.
     """
     weights = own_weights(packed)

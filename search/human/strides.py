@@ -49,9 +49,6 @@ class Stride(NamedTuple):
 class Script:
     """The fields of the script, as they are after each epoch while the human is alone.
 
-    Args:
-        packed: the packed task.
-
     Attributes:
         clock: the field of the clock; 0 without a script.
         fields: what the script changes.
@@ -301,7 +298,6 @@ class StridingPlanner(IndividualPlanner):
 
         Args:
             start: a packed state in which the human is free.
-            limit: the limit.
             in_order: of the best ones the one of fewest actions, and then the canonical one.
         """
         outside = ~(self._script.fields | self._script.clock)

@@ -45,7 +45,6 @@ class PlanInTime:
     """``pi_H`` as actions, each with the ones of its epochs.
 
     Args:
-        packed: the packed task.
         plan: ``pi_H`` in single epochs.
 
     Attributes:
@@ -72,14 +71,12 @@ class SuffixInTime:
     """A suffix of actions of ``pi_H``: any subsequence (Def. 2.0, eq. 9), or all from one on (Def. 3.1).
 
     Args:
-        packed: the packed task.
         plan: ``pi_H``, in single epochs.
         weight: key increment of an op.
         due: what happens whatever is chosen.
         goals: what has to hold at the end.
         own: facts of the human's own domain, where the state decides which actions are left (semantics 3.3);
             None for any subsequence.
-        deadline: polled.
     """
 
     def __init__(

@@ -23,7 +23,6 @@ class HumanTables:
     """Tables for each state from which nothing else can be reached (:meth:`covers`), but for one goal.
 
     Args:
-        packed: the packed task.
         project: makes the projection; None: from the packed task.
 
     Attributes:

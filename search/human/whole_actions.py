@@ -23,11 +23,7 @@ _COUNT_BITS: Final = ACTIONS_BITS - MAX_EPOCH.bit_length()
 
 
 class Chains:
-    """The human's own actions from the first epoch to the last.
-
-    Args:
-        packed: the packed task.
-    """
+    """The human's own actions from the first epoch to the last."""
 
     def __init__(self, packed: PackedTask) -> None:
         self._packed = packed
@@ -83,7 +79,6 @@ class OwnPlanner:
     Args:
         planner: the kernel, on whole actions.
         chains: these, in the order of its operators.
-        packed: the packed task.
         shift: bits below the number of epochs in what it adds up, for the number of actions, which decides
             between plans that are equal else.
     """
@@ -163,7 +158,6 @@ def alone_planner(packed: PackedTask, goal: PackedGoal, mask: int, deadline: Dea
     """The human alone, by the kernel; None without one that could.
 
     Args:
-        packed: the packed task.
         goal: what has to hold at the end.
         mask: the fields that matter.
         deadline: asked for memory.

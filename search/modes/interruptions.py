@@ -74,10 +74,8 @@ def interruptions(
     """The report of semantics 3.2, or None where the human has no plan alone.
 
     Args:
-        prepared: the task.
         options: discount, horizon, suffix, preservation and interference count.
         human_plan: ``pi_H``, already replayed, or None to predict it.
-        deadline: deadline and cancellation.
         on_progress: called with the number of searches done, and of all.
 
     Raises:

@@ -32,7 +32,6 @@ def least_over_ties(
         prepared: the task; robots have no goals of their own.
         options: of the call, in mode ``serendipity`` or ``communication``.
         graph: their optimal plans from the initial state.
-        deadline: deadline and cancellation.
     """
     plan = graph.canonical()
     horizon = int(horizon_of(prepared.task, options, plan))

@@ -160,7 +160,6 @@ class Weights:
         robots: increment of an action without the human by the index of its cost.
 
     Args:
-        packed: the packed task.
         scaling: its costs as integers, by options.
         options: discount, window weight and communication weight.
         plan: ``pi_H``, or None to leave communication costs out.

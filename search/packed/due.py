@@ -14,7 +14,6 @@ class Due:
     """What is due in a packed state.
 
     Args:
-        packed: the packed task.
         weight: key increment of an op.
         strict: strict interference (semantics 2).
     """

@@ -60,7 +60,6 @@ def forms_of(ops: Iterable[Operator], all_ones: int, deadline: Deadline) -> tupl
     """Ops by their forms.
 
     Args:
-        ops: the ops.
         all_ones: all fields.
         deadline: polled while they are sorted.
     """

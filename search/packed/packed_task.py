@@ -56,7 +56,6 @@ class PackedTask:
     """Packed form of a task.
 
     Args:
-        task: the task.
         extra: ids of facts to pack although no useful action asks for them.
         deadline: polled while facts and actions are packed.
         kept: ids of actions to pack although they contribute to nothing.

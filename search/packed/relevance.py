@@ -20,7 +20,6 @@ def relevant_to_goals(
     """Facts and actions from which the goals can be influenced (backward closure).
 
     Args:
-        task: the task.
         extra: facts that matter, too.
         deadline: polled while actions are gone through.
         kept: actions that matter, whatever they do.

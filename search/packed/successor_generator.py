@@ -158,7 +158,6 @@ class Successors:
 
         Args:
             first: the human's part.
-            state: the packed state.
             idle: for how long robots have been idle.
             promising: whether the part and what one robot does are worth looking at.
         """

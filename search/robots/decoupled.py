@@ -72,7 +72,6 @@ class Decoupled:
     """The walks of robots that can be folded.
 
     Args:
-        packed: the packed task.
         places: where robots are.
         deadline: polled while they are found.
 

@@ -11,9 +11,6 @@ from search.robots.transition_graphs import PositionVariables, TransitionGraphs
 class RobotTables:
     """Tables that hold for every state, but for one goal.
 
-    Args:
-        packed: the packed task.
-
     Attributes:
         positions: the place of each robot, and what moves it.
         transitions: what robots' ops do to each variable.

@@ -85,7 +85,6 @@ class TransitionGraphs:
     """:class:`TransitionGraph` by field, made when first asked for.
 
     Args:
-        packed: the packed task.
         places: where robots are.
     """
 

@@ -44,7 +44,6 @@ def window_space(
     """The space of plans with a window.
 
     Args:
-        context: of the call.
         plan: ``pi_H``.
         horizon: ``T``, at least ``|pi_H|``.
         most_cost: largest scaled cost of an acceptable plan, or None.
@@ -99,7 +98,6 @@ def free_space(
     """The space of plans without a window.
 
     Args:
-        context: of the call.
         horizon: ``T``, or None.
         most_cost: largest scaled cost of an acceptable plan, or None.
         limit: key that a plan has to beat.
@@ -143,7 +141,6 @@ class BoundsAlong:
     The human's private fields follow ``pi_H``, so their part of the first is known in advance.
 
     Args:
-        context: of the call.
         plan: ``pi_H``.
         horizon: ``T``, at least ``|pi_H|``.
         limit: key that a plan has to beat.

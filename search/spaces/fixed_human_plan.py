@@ -73,7 +73,6 @@ def follow_plan(context: SearchContext, plan: HumanPlan, horizon: int | None, be
     """Make an incumbent the best plan in which the human does exactly ``pi_H``.
 
     Args:
-        context: of the call.
         plan: ``pi_H``, which fits ``T``.
         horizon: ``T``, or None where it is infinite.
         best: the incumbent, of an infinite key.

@@ -21,7 +21,6 @@ class Weighed:
     """The task under some weights, and bounds, which the spaces of all windows share.
 
     Args:
-        context: of the call.
         plan: ``pi_H``.
         horizon: ``T``.
         weight: key increment of an op.
@@ -68,7 +67,6 @@ class FixedWindow:
 
     Args:
         weighed: what all windows share.
-        window: the window.
     """
 
     def __init__(self, weighed: Weighed, window: Window) -> None:

@@ -41,7 +41,6 @@ class Call:
     """One planning call: its incumbents and its bound.
 
     Args:
-        context: of the call.
         given: ``pi_H``, already replayed, or None to predict it.
         warm: what is known before.
         least_alone: what an optimal plan of the human's costs; None to find out.
@@ -250,7 +249,6 @@ class Call:
         """All plans of the call that may be better than an incumbent.
 
         Args:
-            deadline: polled.
             limit: key that they have to beat.
             idle: robots do nothing.
         """

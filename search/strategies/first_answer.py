@@ -38,7 +38,6 @@ def optimal_plans_in_time(
 
     Args:
         prepared: a task in single epochs.
-        deadline: polled.
         options: of the call.
 
     Raises:
@@ -67,7 +66,6 @@ class FirstAnswer:
     """Doing nothing beside some plan of the human's that is found soon, where an optimal one may take long.
 
     Args:
-        context: of the call.
         given: ``pi_H``, already replayed, or None to predict it.
         warm: what is known before.
 
@@ -139,11 +137,7 @@ class FirstAnswer:
         return next((plan for plan in plans if _fits(self._context.options, plan)), None)
 
     def beside(self, plan: HumanPlan) -> Answer | None:
-        """Doing nothing beside a plan of the human's; None where robots have a goal, or ``T`` is too short.
-
-        Args:
-            plan: the plan.
-        """
+        """Doing nothing beside a plan of the human's; None where robots have a goal, or ``T`` is too short."""
         context = self._context
         if context.task.robot_goal or not _fits(context.options, plan):
             return None
@@ -173,9 +167,7 @@ def first_answer(prepared: PreparedTask, options: Options, deadline: Deadline) -
     """The first answer where ``pi_H`` is to be predicted.
 
     Args:
-        prepared: the task.
         options: of the call.
-        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline came before any plan.
@@ -208,7 +200,6 @@ def plan_alone(
     """A plan of the human's with every robot idle.
 
     Args:
-        task: the task.
         found: the plan, with what was searched for it.
         least: no answer costs less.
         given: ``pi_H``; None for the plan itself.
@@ -237,7 +228,6 @@ def optimal_plan_alone(task: Task, given: HumanPlan | None, optimal: FoundPlan |
     """The answer of individual mode: the human's canonical plan, or the given one where it costs no more.
 
     Args:
-        task: the task.
         given: ``pi_H``, where it is given.
         optimal: the human's canonical plan; None where they have none.
     """

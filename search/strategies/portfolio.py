@@ -121,13 +121,11 @@ def solve(
     """Answers with falling objective and rising lower bound; the last one is the best known.
 
     Args:
-        prepared: the task.
         options: options in force; ``mode`` is not ``assistance``.
         human_plan: ``pi_H``, already replayed, or None to predict it.
         predicts: False: without ``human_plan`` the human is known to have no plan alone.
         optimum: what a plan of the human's costs that is not to be improved on; None for what an optimal
             one costs.
-        deadline: deadline and cancellation.
         warm: what is known before.
         turns: those that may be taken; of these, those that the options name.
 

@@ -61,7 +61,6 @@ def replayed(
     """The known plan as an incumbent, by the rules of the call; None where it breaks one of them.
 
     Args:
-        context: of the call.
         plan: ``pi_H``; empty where there is none.
         horizon: ``T``, or None where it is infinite.
         most_cost: largest scaled cost of an acceptable plan, or None.
@@ -136,7 +135,6 @@ def _followed(context: SearchContext, plan: HumanPlan, warm: WarmStart, last: in
     """The node after some epochs of the known plan; None where one is impossible, or breaks the prefix.
 
     Args:
-        context: of the call.
         plan: ``pi_H``.
         warm: the known plan.
         last: the last of these epochs.

@@ -43,7 +43,6 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
     Args:
         prepared: a task of one human and exactly one robot.
         options: ``ties`` and ``no_block`` count.
-        deadline: deadline and cancellation.
     """
     own_deadline = deadline.part(_OWN_SHARE)
     try:

@@ -14,7 +14,6 @@ class Writer:
     """Names for one game.
 
     Args:
-        game: the game.
         ties: how the prime's optimal actions count.
     """
 

@@ -60,9 +60,7 @@ class Human:
     """One human with their beliefs, plans and decisions, in packed states.
 
     Args:
-        prepared: the task.
         options: discount and weights.
-        deadline: polled.
         human_model: ``observant`` or ``local``.
         actions: ids of actions that will be asked about, beyond the useful ones.
         visible: what a local human sees; None for the default.

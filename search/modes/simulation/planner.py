@@ -42,11 +42,9 @@ def solve_for_human(
     does not count.
 
     Args:
-        prepared: the task.
         options: options in force; ``human_model`` is not ``omniscient``.
         human_plan: ``pi_H``, already replayed, or None to predict it.
         visible: what a local human sees; None for the default.
-        deadline: deadline and cancellation.
         warm: what is known before.
 
     Raises:

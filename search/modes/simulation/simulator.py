@@ -105,14 +105,12 @@ def simulate(
     """The robots' part of a plan, played beside a human who replans.
 
     Args:
-        prepared: the task.
         options: discount and interference.
         human_plan: their plan at the beginning; empty where they have none.
         steps: the composite plan; what it wants the human to do alone is not looked at.
         human_model: ``observant`` or ``local``.
         horizon: ``T``, or None for any.
         visible: what a local human sees; None for the default.
-        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline ran out in the first epoch, or before it.
@@ -143,7 +141,6 @@ def simulate_from(
         options: discount and interference.
         steps: the composite plan, its epochs counted from the start.
         horizon: ``T``, or None for any.
-        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline ran out in the first epoch, or before it.
@@ -158,10 +155,8 @@ def way_on(
 
     Args:
         start: where it begins.
-        human: the human.
         options: discount and interference.
         steps: the plan, its epochs counted from the start.
-        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline ran out in the first epoch, or before it.

@@ -18,8 +18,6 @@ def are_apart(packed: PackedTask, deadline: Deadline, *, strict: bool) -> bool:
     what the human pays after a window is no bound on what they pay in it.
 
     Args:
-        packed: the packed task.
-        deadline: polled.
         strict: strict interference, which forbids the latter.
     """
     if packed.joint or any(op.agents & op.agents - 1 for op in packed.others):

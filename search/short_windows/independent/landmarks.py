@@ -42,9 +42,7 @@ class Landmarks:
     """The human's own task without deletes.
 
     Args:
-        packed: the packed task.
         amount: of one of the human's own operators, above 0.
-        deadline: polled.
     """
 
     def __init__(self, packed: PackedTask, amount: Callable[..., int], deadline: Deadline) -> None:
@@ -87,7 +85,6 @@ class Landmarks:
         """Landmarks of a state: their costs add up.
 
         Args:
-            state: the packed state.
             given: the values that other states may have instead of its own.
 
         Raises:

@@ -60,7 +60,6 @@ def outcomes(
         fields: those that the robot sets and that matter to the human.
         shared: those that others set, too.
         lost: by field the values from which the human can't get to their goal.
-        deadline: polled.
 
     Raises:
         LimitReachedError: there are too many, or the deadline came.

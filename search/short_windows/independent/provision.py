@@ -41,7 +41,6 @@ def provisions(
         packed: the packed task; each action without the human has one participant.
         steps: the human's plan, an action an epoch.
         epochs: how many are looked at.
-        deadline: polled.
     """
     changes = []
     for op in packed.others:
@@ -100,7 +99,6 @@ def detours(packed: PackedTask, field: int, robot: int, amount: Callable[[Operat
     """Least costs for other robots to bring a field from one value to another, by both; ``FAR``: no way.
 
     Args:
-        packed: the packed task.
         field: one that others ask for only where they set nothing else.
         robot: the one that pays nothing.
         amount: of an operator.

@@ -57,7 +57,6 @@ def cheapest(
     Args:
         rows: the columns.
         amounts: of each.
-        deadline: polled.
         last: decides among equal amounts, the least first.
 
     Raises:

@@ -25,7 +25,6 @@ class Window:
     """A window of one epoch, in which the human waits, by the outcomes that robots can leave behind.
 
     Args:
-        context: of the call.
         timelines: robots, up to the window.
         landmarks: of the human's own task.
         lost: by field the values from which the human can't get to their goal.

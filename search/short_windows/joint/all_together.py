@@ -68,7 +68,6 @@ class AllTogether:
 
         Args:
             most: so many states, and it ends.
-            deadline: polled.
 
         Raises:
             LimitReachedError: the deadline came.

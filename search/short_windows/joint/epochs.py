@@ -185,8 +185,6 @@ def conflicts(
 
     Args:
         task: whose actions they are.
-        operators: the operators.
-        deadline: polled.
         strict: strict interference.
     """
     actions = [task.actions[op.action] for op in operators]

@@ -18,7 +18,6 @@ class Watched:
     Where many fields matter (a place each, say), no single field tells ops apart.
 
     Args:
-        packed: the packed task.
         ops: the ops; candidates come in this order.
         deadline: polled while they are sorted in.
     """

@@ -41,7 +41,6 @@ class Game:
     Args:
         prepared: a task of one human (the prime) and exactly one robot (the supporter); joint actions
             are nobody's move.
-        deadline: polled.
         own_deadline: polled while the prime's own optimum is worked out; default ``deadline``.
     """
 

@@ -47,7 +47,6 @@ class CheapestRun:
     """The search: a space for :func:`.best_first`.
 
     Args:
-        game: the game.
         bound: consistent lower bound.
         fixed: the prime takes their smallest action, else the best one for us.
         no_block: no move may take the prime's last plan away.

@@ -14,7 +14,6 @@ class Graph:
     """Choices and replies, expanded when first needed.
 
     Args:
-        game: the game.
         bound: consistent lower bound.
         rule: how the prime's actions count.
         no_block: no move may take the prime's last plan away.

@@ -26,7 +26,6 @@ class LaoStar:
     """The search.
 
     Args:
-        game: the game.
         bound: consistent lower bound.
         rule: how the prime's optimal actions count.
         no_block: no move may take the prime's last plan away.
