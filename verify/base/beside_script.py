@@ -20,7 +20,6 @@ class AloneBesideScript(IndividualOptimum):
 
     Args:
         task: the task, in single epochs.
-        deadline: polled.
         options: its head start, and its interference, which says what disturbs a bystander.
     """
 
@@ -88,8 +87,6 @@ def alone_of(
     """What is to be known of the human alone, with a script or without.
 
     Args:
-        task: the task.
-        deadline: polled.
         options: a call's: interference, and the head start; None for a call without them.
     """
     asked = options or Options()

@@ -15,7 +15,6 @@ class BitDistances:
         operators: the actions.
         goal: where the distance is 0.
         most: states looked at before a question is given up.
-        deadline: polled.
     """
 
     def __init__(
@@ -75,12 +74,10 @@ def reaches_below(
 
     Args:
         moves: the actions.
-        goal: the goal.
         start: the state.
         limit: what must be undercut.
         least: a consistent lower bound on what a state still takes.
         most: states looked at before giving up.
-        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline came first.

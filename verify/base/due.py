@@ -28,7 +28,6 @@ def filled(task: Task, steps: Iterable[Step], last: int, *, strict: bool) -> tup
     """A plan with all that is due; where it can't be executed any more what is left stays as it is.
 
     Args:
-        task: the task.
         steps: what is chosen.
         last: the last epoch.
         strict: interference as in semantics 2.

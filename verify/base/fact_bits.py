@@ -68,12 +68,7 @@ class BitOperator(NamedTuple):
 
 
 class BitOperators:
-    """Operators that are looked up by one of their needs each: the one that the fewest share.
-
-    Args:
-        operators: the operators.
-        deadline: polled.
-    """
+    """Operators that are looked up by one of their needs each: the one that the fewest share."""
 
     def __init__(self, operators: Iterable[BitOperator], deadline: Deadline) -> None:
         count: dict[int, int] = {}

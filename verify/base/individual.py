@@ -28,7 +28,6 @@ class IndividualOptimum:
     """Optimal (cost, length) of the human alone; tables are built when first needed.
 
     Args:
-        task: the task.
         deadline: polled by every question; None for no limit.
     """
 

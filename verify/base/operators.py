@@ -39,7 +39,6 @@ class OwnActions:
     by length: a cost of 1 weighs as much as ``_LONGEST`` actions.
 
     Args:
-        task: the task.
         deadline: polled while they are gathered.
 
     Attributes:

@@ -17,7 +17,6 @@ class OptimalPlanGraph:
     name, only the first begins a plan (semantics 1): ways and plans are the same.
 
     Args:
-        task: the task.
         plans: the human's optimal plans.
         most: how many there may be.
 

@@ -17,7 +17,6 @@ class ProjectedCosts:
     """Weights of cheapest plans in the projection, for the states that are reached from those asked for.
 
     Args:
-        task: the task.
         own: the human's own actions.
         deadline: polled, also by :meth:`bound`.
     """

@@ -21,7 +21,6 @@ def dijkstra(
     Args:
         sources: different nodes, each with the distance that it starts with.
         edges: the nodes that follow a node, each with the edge's weight.
-        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline came first.

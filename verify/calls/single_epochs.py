@@ -41,9 +41,7 @@ def examined_in_time(
     """The claims of a result in time.
 
     Args:
-        task: the task.
         result: the result, of checked types.
-        deadline: polled.
         examine: makes the claims of a task and a result in single epochs.
     """
     if not _is_known(task, result):
@@ -73,9 +71,7 @@ class SingleEpochs:
     """A task in time and a result for it, in single epochs.
 
     Args:
-        task: the task.
         result: the result, of checked types.
-        deadline: polled.
 
     Attributes:
         units: the task in single epochs, and what it has to do with the one in time.

@@ -34,7 +34,6 @@ def solve(
     """The best plan by integer programming alone: slow, and independent of the search.
 
     Args:
-        task: the task.
         options: mode and options; ``time_limit`` (seconds) and ``memory_limit`` (MiB, the solver's
             included) bound the whole call.
         human_plan: names of the actions that the human is going to do; None predicts them.

@@ -18,8 +18,6 @@ def difference(task: Task, result: Result, data: dict[str, Any], deadline: Deadl
     The result is certified again, and wherever a solver would be asked the proof answers.
 
     Args:
-        task: the task.
-        result: the result.
         data: the proof, which the checker has accepted.
         deadline: when to stop.
 

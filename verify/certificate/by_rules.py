@@ -15,7 +15,6 @@ def check_by_rules(task: Task, result: Result, deadline: Deadline) -> tuple[Clai
     """The claims that break a rule, or follow all; what needs an optimiser is not in scope.
 
     Args:
-        task: the task.
         result: a result for it, of checked types.
         deadline: what is not checked by then stays undecided.
     """

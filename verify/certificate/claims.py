@@ -33,7 +33,6 @@ class Examiner:
 
     Args:
         call: task, options, ``pi_H`` and the solver's settings.
-        result: the result.
         steps: its plan by ids.
         checker: checks counter-examples.
     """

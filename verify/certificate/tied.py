@@ -25,7 +25,6 @@ def combined(task: Task, result: Result, effort: Effort, plans: OptimalPlans) ->
     """Compare an answer with what every optimal ``pi_H`` allows.
 
     Args:
-        task: the task.
         result: an answer that breaks no rule, or the bound of one that is ``unknown``.
         effort: the solver's settings.
         plans: the human's optimal plans.

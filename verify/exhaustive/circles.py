@@ -9,8 +9,6 @@ def circles(actions: list[tuple[int, GroundAction]], task: Task, deadline: Deadl
 
     Args:
         actions: candidates with their ids.
-        task: the task.
-        deadline: polled.
     """
     by_id = dict(actions)
     disables = _all_disabled(actions, deadline)

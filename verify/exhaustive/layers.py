@@ -60,7 +60,6 @@ def advance(
         hopeful: the rows of states, with what was paid, that are worth keeping.
         operators: the team's.
         agents: how many there are.
-        deadline: polled.
     """
     known = LeastPaid(operators.layout.words, deadline, dtype=operators.weight.dtype)
     where = np.zeros((0, 2), np.int64)

@@ -47,11 +47,9 @@ class TeamEpochs:
     """Sets of actions by which the agents spend an epoch.
 
     Args:
-        task: the task.
         actions: ids of those that may occur, as the table has them.
         table: the same as operators, whose weights are what they add to the objective.
         strict: interference as in semantics 2.
-        deadline: polled.
 
     Attributes:
         order: the human, then the robots, then bystanders, and the clock last, as its actions take effect.
@@ -212,7 +210,6 @@ def excluding(actions: Sequence[GroundAction], facts: int, agents: int, *, stric
     """Which actions can't share an epoch with which others (eq. 5, 6, 10), all declared effects counted.
 
     Args:
-        actions: the actions.
         facts: number of facts.
         agents: number of agents.
         strict: whether none may falsify a precondition of another either.

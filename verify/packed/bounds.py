@@ -68,7 +68,6 @@ class PatternBounds:
         goal: facts that have to be true.
         start: states to begin with: ways are kept that are good where walks lead from there.
         care: how much work to put into it.
-        deadline: polled.
     """
 
     def __init__(

@@ -27,7 +27,6 @@ class PackedSearch:
         table: the operators.
         goal: what ends a path.
         bound: what is left from some states, never too much; ``FAR`` where no path leads on.
-        deadline: polled.
         below: paths of this weight or more are left out; with a path's last operator it fits into a word,
             unless weights are Python's integers.
         most_states: to be kept at most.

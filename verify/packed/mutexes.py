@@ -19,7 +19,6 @@ class ReachablePairs:
         facts: how many there are.
         init: the facts that are true at first.
         actions: all that may ever happen; with circles of actions, if several may happen at once.
-        deadline: polled.
 
     Attributes:
         beside: by fact, the facts that may be true beside it as bits; 0 where it can't be true at all.
@@ -78,7 +77,6 @@ def exclusive_groups(pairs: ReachablePairs, facts: Iterable[int], deadline: Dead
     Args:
         pairs: those that may be.
         facts: to be grouped.
-        deadline: polled.
     """
     every = _bits(facts)
     against = {f: every & ~pairs.beside[f] & ~(1 << f) for f in facts}

@@ -21,7 +21,6 @@ class Pattern:
         table: the operators.
         fields: by number.
         most_moves: between its states; they all stand in memory.
-        deadline: polled.
 
     Raises:
         TooManyMovesError: there are more.

@@ -25,7 +25,6 @@ class StateSpace:
         init: those that are true at first.
         actions: all that may ever happen, circles of actions that happen at once included.
         groups: of facts that may exclude each other.
-        deadline: polled.
 
     Raises:
         TooLargeError: there are too many facts or actions.
@@ -70,7 +69,6 @@ class PackedProblem:
         facts: that operators and goal look at.
         operators: what may be done.
         goal: facts that have to be true, and false.
-        deadline: polled.
         bounded: whether lower bounds spare the search states; else it looks at all that cost little enough.
         exact: weights may add up to any sum: they are Python's integers, and there are no bounds.
 

@@ -38,7 +38,6 @@ class Board:
     Args:
         task: one human, one robot.
         fixed: they take the smallest of their optimal actions.
-        deadline: polled.
 
     Attributes:
         deadline: when to give up.

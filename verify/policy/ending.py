@@ -17,7 +17,6 @@ def ends(board: Board, ties: str, *, no_block: bool, deadline: Deadline) -> bool
         board: states and moves.
         ties: how the human's choices count.
         no_block: no move may take the human's last plan away.
-        deadline: polled.
 
     Raises:
         UndecidedError: there are too many states.
@@ -35,7 +34,6 @@ def lost_states(board: Board, ties: str, *, no_block: bool, deadline: Deadline) 
         board: states and moves.
         ties: how the human's choices count.
         no_block: no move may take the human's last plan away.
-        deadline: polled.
 
     Raises:
         UndecidedError: there are too many states.

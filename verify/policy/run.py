@@ -12,7 +12,6 @@ def check_run(task: Task, board: Board, result: Result) -> None:
     """Return if the plan is a run in which the human acts optimally, at the totals reported.
 
     Args:
-        task: the task.
         board: its states and moves.
         result: an answer of mode ``assistance`` with a plan.
 

@@ -23,7 +23,6 @@ def least_alone(task: Task, options: Options, effort: Effort) -> Fraction | None
     """The least cost of a plan of the human's own, by a program; None: there is no plan.
 
     Args:
-        task: the task.
         options: the call's; they decide on units only.
         effort: the solver's settings; where it reads a proof, that answers instead of the solver.
 

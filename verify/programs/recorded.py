@@ -72,7 +72,6 @@ def refute(
     Args:
         writer: gets the entry.
         entry: what describes the program.
-        model: the program.
         limit: of the objective; None: nothing at all is allowed.
         values: of the columns, in the program's best solution; empty where it has none.
         deadline: when to stop.
@@ -191,8 +190,6 @@ def described(name: str, scale: int, model: Model, deadline: Deadline) -> Entry:
     Args:
         name: which plans it allows.
         scale: units of its objective per unit of the domain's cost; 0: only their order is the same.
-        model: the program.
-        deadline: polled.
     """
     rows = zip(model.rows, model.families, strict=True)
     return {

@@ -18,7 +18,6 @@ class Combination:
     """The rows of a program as arrays, and ``objective <= limit`` beside them.
 
     Args:
-        model: the program.
         limit: of the objective, or None.
     """
 

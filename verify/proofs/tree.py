@@ -41,7 +41,6 @@ def refutation(model: Model, limit: int | None, deadline: Deadline) -> Node:
     """The tree of a program.
 
     Args:
-        model: the program.
         limit: nothing with an objective at or below this; None: nothing at all.
         deadline: when to stop.
 

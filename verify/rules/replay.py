@@ -45,9 +45,7 @@ def replay(task: Task, steps: Sequence[PlanStep], deadline: Deadline, *, strict:
     """Execute the steps from ``I`` until the first fault.
 
     Args:
-        task: the task.
         steps: the plan, in any order.
-        deadline: polled.
         strict: interference as in semantics 2.
 
     Raises:
@@ -72,9 +70,7 @@ def replay_human(task: Task, names: Iterable[str], deadline: Deadline) -> tuple[
     """``pi_H`` from its names.
 
     Args:
-        task: the task.
         names: names of its actions, in order.
-        deadline: polled.
 
     Raises:
         PlanError: it is not a plan of the human alone.

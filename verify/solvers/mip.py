@@ -76,7 +76,6 @@ def optimise(model: Model, *, solver: str = "highs", deadline: Deadline | None =
     """Minimise the model's objective, with one thread and a fixed seed.
 
     Args:
-        model: the program.
         solver: one of :data:`SOLVERS`.
         deadline: when to stop; an outcome that it stops is ``undecided``.
 

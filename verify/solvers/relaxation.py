@@ -37,7 +37,6 @@ class Relaxation:
     """The linear relaxation of a program; what changes between two questions is the bounds of columns.
 
     Args:
-        model: the program.
         deadline: HiGHS looks at the time between its steps.
     """
 

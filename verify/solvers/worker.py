@@ -58,7 +58,6 @@ def minimise(program: Tables, end: float, *, presolve: bool, news: IO[str] | Non
     """Minimise with one thread and a fixed seed; the objective is integral, so a gap below one half is none.
 
     Args:
-        program: the program.
         end: when HiGHS is to stop, in seconds of the system's clock; it may overrun it.
         presolve: whether HiGHS reduces the program first.
         news: where every better bound is written down at once, a JSON object a line.

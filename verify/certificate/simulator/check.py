@@ -23,7 +23,6 @@ def realised_claim(task: Task, result: Result, plans: OptimalPlans | None = None
     human model, for the plan being what robots and human do then.
 
     Args:
-        task: the task.
         result: a result whose plan can be replayed.
         plans: what is known of the human alone, from other questions.
     """

@@ -84,7 +84,6 @@ def play(
     """Play the robots' part of a plan against the human.
 
     Args:
-        task: the task.
         options: discount and interference.
         human_plan: their plan at the beginning.
         steps: the composite plan; what they do alone in it is not looked at.
@@ -128,7 +127,6 @@ class Play:
     """The rules of semantics 6 for one task and one human.
 
     Args:
-        task: the task.
         options: interference.
         person: their costs and plans alone.
         sees: what they see of a state; None for everything.

@@ -29,7 +29,6 @@ def differences(
         base: the state without any robot.
         changed: bits of the facts that it can change and that matter.
         undone: of each fact the bit that another robot can have undone.
-        deadline: polled.
 
     Raises:
         TooManyPackedStatesError: there are too many.

@@ -51,9 +51,7 @@ def private_facts(task: Task, part: Relevant, deadline: Deadline) -> dict[int, i
     """The agent to whom each private fact belongs; the human goes first where two could.
 
     Args:
-        task: the task.
         part: the facts and actions that matter.
-        deadline: polled.
     """
     owners: dict[int, set[int]] = {}
     for i in deadline.each(part.actions):
@@ -74,10 +72,8 @@ def automata(
     """The automaton of each agent, in the order of ids.
 
     Args:
-        task: the task.
         part: what of it matters.
         units: groups of facts that go into an automaton, or stay out, together.
-        deadline: polled.
         owner: whose facts are whose; None: as :func:`private_facts` has it.
 
     Raises:
@@ -100,9 +96,7 @@ class SmallAutomata:
     """Automata over few facts: each agent's largest group, and what many of their actions need.
 
     Args:
-        task: the task.
         units: groups of facts of which exactly one is true.
-        deadline: polled.
         owner: whose facts are whose.
     """
 

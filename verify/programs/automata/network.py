@@ -172,7 +172,6 @@ def distances(
         automaton: states and moves.
         weights: units by action id.
         goals: indices of the states to reach.
-        deadline: polled.
     """
     backward: list[list[tuple[int, int]]] = [[] for _ in automaton.states]
     for state, moves in enumerate(deadline.each(automaton.moves)):

@@ -58,10 +58,8 @@ def outer_needs(
     """For each action the facts outside its participants' automata that it needs true, and false.
 
     Args:
-        task: the task.
         part: what of it matters.
         machines: an automaton for each agent, by id.
-        deadline: polled.
     """
     pre: dict[int, tuple[int, ...]] = {}
     neg: dict[int, tuple[int, ...]] = {}

@@ -180,7 +180,6 @@ def distances(
         edges: where each starts, where it leads, and what it weighs.
         values: for each node the distance that it starts with, or ``far``.
         far: stands for no way.
-        deadline: polled.
         limit: a node that is further is not looked at; None: each is that there is a way to.
     """
     values = values.copy()
@@ -211,7 +210,6 @@ class Ways:
         start: for each state what is paid there at first, or ``far``.
         left: what is left to be paid from each state; where all of it exceeds ``limit`` nobody goes.
         limit: what may be paid.
-        deadline: polled.
 
     Attributes:
         done: for each state the least price of a way there, or ``far``.

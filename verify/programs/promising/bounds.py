@@ -33,7 +33,6 @@ class Spending:
         counted: whether an agent's spending counts, by id.
         price: of each action.
         offered: the actions in which those take part who are left out; what they change is free.
-        deadline: polled.
 
     Attributes:
         states: for each state what was spent on the way there; ``far``: it is not reached.
@@ -147,7 +146,6 @@ class Use:
         literals: by literal, what may have been spent when it becomes true.
         joint: by action the same afterwards, for the human's joint actions; :data:`NEVER` elsewhere.
         end: what may have been spent at the end.
-        deadline: polled.
     """
 
     def __init__(
