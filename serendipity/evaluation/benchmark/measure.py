@@ -108,7 +108,6 @@ def measure(
     """Time each contender on each call of a mode that it knows.
 
     Args:
-        tasks: the tasks.
         modes: names in ``MODES``.
         discounts: as texts, so that they stay exact.
         contenders: names in ``CONTENDERS``; those that are absent must be left out before.

@@ -66,7 +66,6 @@ def forgeries(call: PlanCall, dice: Random) -> Iterator[Forgery]:
     """False results for a call, or for one about its task in another mode.
 
     Args:
-        call: the call.
         dice: decides everything.
     """
     asked = _asked(call, dice)

@@ -51,7 +51,6 @@ class Truth:
     """True answers to calls about one task.
 
     Args:
-        task: the task.
         recognition: of the goals that the human may have, where there are several.
     """
 

@@ -101,7 +101,6 @@ def roles(problem: Problem, robots: int, can_alone: Callable[[Problem, Roles], b
     """The first agent of the file who can do it alone, or else the first, and the next others.
 
     Args:
-        problem: the problem.
         robots: how many there are at most.
         can_alone: whether a human is known to have a plan alone.
 

@@ -46,7 +46,6 @@ def replay(
     """The epochs of a plan beside the script of its task.
 
     Args:
-        task: the task.
         steps: the plan.
         epochs: how many there are; after the plan the script goes on as far as it can.
         turns: whether the steps of an epoch follow each other (semantics 7).

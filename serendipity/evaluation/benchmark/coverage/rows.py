@@ -112,7 +112,6 @@ def can_alone(problem: Problem, who: Roles, time_limit: float) -> bool:
     """True if the human is found to have a plan alone: by the search, else by Fast Downward.
 
     Args:
-        problem: the problem.
         who: who it is about.
         time_limit: seconds for each of them.
     """
