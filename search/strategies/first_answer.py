@@ -137,7 +137,7 @@ class FirstAnswer:
         return next((plan for plan in plans if _fits(self._context.options, plan)), None)
 
     def beside(self, plan: HumanPlan) -> Answer | None:
-        """Doing nothing beside a plan of the human's; None where robots have a goal, or ``T`` is too short."""
+        """Doing nothing beside a plan of the human's; None where robots have a goal or ``T`` is too short."""
         context = self._context
         if context.task.robot_goal or not _fits(context.options, plan):
             return None
