@@ -1,4 +1,4 @@
-"""Tasks of somebody who acts alone, beside no script, with each action as one step, however long it takes.
+"""Actions as one step each, however long they take, and tasks of somebody who acts alone, beside no script.
 
 Nothing happens while an action of theirs goes on, so what its epochs ask for and change is put together.
 """
@@ -21,10 +21,10 @@ def whole_actions(task: Task) -> Task | None:
     rates = {action.cost / action.duration for action in own}
     if task.script or (len(alike) > 1 and (len(rates) > 1 or 0 in rates)):
         return None
-    return replace(task, actions=tuple(map(_whole, task.actions)))
+    return replace(task, actions=tuple(map(whole, task.actions)))
 
 
-def _whole(action: GroundAction) -> GroundAction:
+def whole(action: GroundAction) -> GroundAction:
     """An action as a step of its own; one that no state allows where its start is in its own way."""
     timing = action.timing
     if timing is None:

@@ -10,13 +10,14 @@ and things stand on each other, there is one place with towers in it.
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain, pairwise
 
 import networkx as nx
 
 from serendipity.model import GroundAction, Task
+from serendipity.model.task.whole_actions import whole
 from serendipity.pictures.map.names import Parts, common_ends, find, natural, parts, spellings, without
 from serendipity.pictures.map.stacks import Stacks
 
@@ -163,16 +164,6 @@ def _towers(task: Task) -> Places:
         still=dict.fromkeys(fixed, place),
         towers=True,
     )
-
-
-def whole(action: GroundAction) -> GroundAction:
-    """An action of several epochs as one of a single epoch, with what its start and its end change."""
-    timing = action.timing
-    if timing is None:
-        return action
-    add = set(timing.start_add).difference(action.delete).union(action.add)
-    delete = set(timing.start_delete).difference(action.add).union(action.delete)
-    return replace(action, add=tuple(sorted(add)), delete=tuple(sorted(delete)), timing=None)
 
 
 def _wholes(task: Task) -> Iterator[GroundAction]:

@@ -12,8 +12,9 @@ from serendipity.model.task.actions import State
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.execution import actions_named, shares, variant_named
 from serendipity.model.task.plans import PlanTimes
+from serendipity.model.task.whole_actions import whole
 from serendipity.pictures.map.layout import lay_out
-from serendipity.pictures.map.places import Places, Whereabouts, find_places, whole
+from serendipity.pictures.map.places import Places, Whereabouts, find_places
 from serendipity.pictures.scene.crowds import cell_size
 from serendipity.pictures.scene.finder import Finder
 from serendipity.pictures.scene.scene import Act, Frame, Meeting, Scene, find_changes
