@@ -303,16 +303,12 @@ class EpochSearch:
         if self._alone is None:
             self._complete_one_by_one(places)
             return
-        layers = [(self._layers[number], number, epoch) for number, epoch in places]
-        states = np.concatenate([layer.states for layer, _, _ in layers])
-        paid = np.concatenate([layer.paid for layer, _, _ in layers])
-        where = np.concatenate(
-            [
-                np.stack([np.full(len(la), n), np.arange(len(la)), np.full(len(la), e)], 1)
-                for la, n, e in layers
-            ]
-        )
-        still = (where[:, 2] < self._question.horizon) & self._robots_rest(states)
+        layers = [self._layers[number] for number, _ in places]
+        states = np.concatenate([layer.states for layer in layers])
+        paid = np.concatenate([layer.paid for layer in layers])
+        numbers, epochs = np.repeat(places, [*map(len, layers)], axis=0).T
+        within = np.concatenate([np.arange(len(layer)) for layer in layers])
+        still = (epochs < self._question.horizon) & self._robots_rest(states)
         for _ in range(limits().misfits):
             rows = np.flatnonzero(still)
             if not len(rows):
@@ -326,7 +322,7 @@ class EpochSearch:
             same = rows[(states[rows] == search.row(begin)).all(axis=1)]
             row = int(same[np.argmin(paid[same])])
             still[row] = False
-            number, place, epoch = where[row].tolist()
+            number, place, epoch = int(numbers[row]), int(within[row]), int(epochs[row])
             state = self._whole_state(number, place)
             suffix = best_suffix(self._question, state, epoch + 1, self._plans)
             if suffix is not None:
