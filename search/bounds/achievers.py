@@ -70,7 +70,6 @@ class Achievers:
         interactions: what the human's ops mention.
         weights: key increment of a robots' op by the index of its cost.
         followed: the ops of ``pi_H``, in order, where the human follows it for a while.
-        deadline: polled while needs are priced.
 
     A need that is judged by a field that ``pi_H`` changes counts twice: before that
     happens, and, under the id ``-1 - need``, afterwards.

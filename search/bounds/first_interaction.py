@@ -73,7 +73,6 @@ class FirstInteraction:
         ways: the human's side.
         needs: the surviving needs with the least totals of plans that touch them first; one may
             stand there twice, before and after ``pi_H`` has changed what it is judged by.
-        horizon: number of epochs.
     """
 
     def __init__(

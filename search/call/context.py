@@ -34,8 +34,6 @@ class SearchContext:
     """The prepared task under the options of one call.
 
     Args:
-        options: options in force.
-        deadline: polled while tables are built.
         plan: ``pi_H`` where it is known; None while it is being predicted.
         tables: a packing of the task, with its tables; None for the one that the options ask for.
     """

@@ -57,7 +57,6 @@ def in_order(operators: Sequence[Operator], plan: Sequence[int], deadline: Deadl
     """Of all orders in which a plan's operators do the same the first.
 
     Args:
-        operators: of the problem.
         plan: some of them, by their numbers, as they can be done one after another.
 
     Raises:

@@ -30,9 +30,6 @@ def circles(
 ) -> Iterator[tuple[Operator, ...]]:
     """Every circle of operators that some state may allow.
 
-    Args:
-        operators: what may be done.
-
     Raises:
         TooManyError: they are too many to be looked for.
     """

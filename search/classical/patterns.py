@@ -28,9 +28,7 @@ def patterns(
     all single ones and pairs that can say more than their parts (Pommerening, Roeger and Helmert 2013).
 
     Args:
-        fields: of the packed task.
         operators: the human's own.
-        goal: what has to hold at the end.
         most_states: of a projection.
 
     Raises:

@@ -71,8 +71,6 @@ class ClassicalPlanner:
     """The kernel on one problem, with all that it has learnt.
 
     Args:
-        library: the compiled kernel.
-        problem: what it is about.
         deadline: asked for memory.
 
     Attributes:

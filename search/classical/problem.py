@@ -74,7 +74,6 @@ def classical_problem(
         fields: masks of fields, with the number of their values.
         operators: what may be done; their fields are among them.
         costs: of each operator, as an integer, at least 0.
-        goal: what has to hold at the end.
         sizes: of each operator the number of its actions.
     """
     unit = gcd(*costs) or 1

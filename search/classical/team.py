@@ -66,7 +66,6 @@ class Team:
         There is no better plan than those before where none comes.
 
         Args:
-            state: the same packed state.
             on_bound: as before.
 
         Raises:
@@ -95,7 +94,6 @@ def team_planner(
     Amounts are in the unit of :meth:`.Weights.key_of`.
 
     Args:
-        goal: what has to hold at the end.
         weights: what actions cost the team; communication is left out.
         strict: strict interference, which keeps apart what could be in a circle.
     """

@@ -27,7 +27,6 @@ class AStar(Generic[State]):
     Args:
         start: where it starts; states are ordered, the smaller one comes first where all else is equal.
         estimate: consistent lower bound of what is missing from a state.
-        deadline: polled at each state that comes up.
         limit: what costs as much or more does not come up.
         deep_first: of states with equal sums those come first on which more has been spent, else those
             on which less has.

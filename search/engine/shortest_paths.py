@@ -94,7 +94,6 @@ def backward(
     Args:
         sources: where it starts, each with a distance to begin with.
         edges: of each kind, per state what leads to it: the weight (at least 0), and from where.
-        deadline: polled at each state that comes up.
 
     Returns:
         The least distance from each state from which a source can be reached, ascending.

@@ -88,10 +88,8 @@ class IndividualPlanner:
     """The human's optimal key to a goal with every robot idle.
 
     Args:
-        goal: what has to hold at the end.
         bound: admissible lower bound to ``goal`` on sums of weights.
         memory: how operators weigh, and what earlier calls have found with the same goal and weights.
-        deadline: polled at each state that comes up.
         prices: makes keys of sums of weights, then in the unit of :func:`.own_weights`, which the kernel
             knows; None: they are keys.
     """

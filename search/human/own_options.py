@@ -26,7 +26,6 @@ class BesideScript(Lookup):
 
     Args:
         weight: of one of the human's own ops.
-        strict: strict interference.
     """
 
     def __init__(self, packed: PackedTask, weight: Callable[[Operator], int], *, strict: bool) -> None:

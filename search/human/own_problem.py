@@ -14,7 +14,6 @@ def own_planner(
     """A planner whose amounts are in the unit of :func:`.own_weights`; None without a kernel that could.
 
     Args:
-        goal: what has to hold at the end.
         mask: the fields that matter.
         deadline: asked for memory.
     """

@@ -261,7 +261,6 @@ def _transitions(
     Args:
         fields: masks of the fields.
         forms: the ops, the cheapest last: their weight, and whether they are interactions.
-        deadline: polled while they are merged.
     """
     mask = sum(fields)
     merged: dict[tuple[int, int, bool], dict[tuple[int, int, Literals], int]] = {}

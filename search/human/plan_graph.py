@@ -173,7 +173,6 @@ def edges_into(
         goals: states where an optimal plan ends.
         expanded: per state its steps: action, successor, what has been spent by then.
         distance: per state what has to be spent to get there.
-        deadline: polled at each state.
     """
     tight: dict[State, list[tuple[int, State]]] = {}
     for state, steps in expanded.items():

@@ -74,7 +74,6 @@ class SuffixInTime:
         plan: ``pi_H``, in single epochs.
         weight: key increment of an op.
         due: what happens whatever is chosen.
-        goals: what has to hold at the end.
         own: facts of the human's own domain, where the state decides which actions are left (semantics 3.3);
             None for any subsequence.
     """

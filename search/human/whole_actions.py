@@ -158,7 +158,6 @@ def alone_planner(packed: PackedTask, goal: PackedGoal, mask: int, deadline: Dea
     """The human alone, by the kernel; None without one that could.
 
     Args:
-        goal: what has to hold at the end.
         mask: the fields that matter.
         deadline: asked for memory.
     """

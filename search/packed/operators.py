@@ -61,7 +61,6 @@ def forms_of(ops: Iterable[Operator], all_ones: int, deadline: Deadline) -> tupl
 
     Args:
         all_ones: all fields.
-        deadline: polled while they are sorted.
     """
     members: dict[tuple[int, int, int, int, int], list[Operator]] = {}
     for op in ops:

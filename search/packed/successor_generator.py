@@ -62,7 +62,6 @@ class Successors:
     """Applicable action sets of a task.
 
     Args:
-        encoding: the packed task.
         weight: key increment of an op.
         deadline: polled while sets of several robots' actions are put together, which can be many.
         strict: strict interference (semantics 2).

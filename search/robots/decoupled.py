@@ -73,7 +73,6 @@ class Decoupled:
 
     Args:
         places: where robots are.
-        deadline: polled while they are found.
 
     Attributes:
         bits: per slot a robot in bit sets of agents.
@@ -281,7 +280,6 @@ class DecoupledSuccessors(Successors):
     """Successors whose robots do deeds only; their walks are in the weights.
 
     Args:
-        encoding: the packed task.
         walks: the robots' walks, foldable.
         weight: key increment of an op.
         price: of a walk, by its cost (in the unit of :func:`.own_costs`) and its number of ops.

@@ -42,7 +42,6 @@ class Call:
 
     Args:
         given: ``pi_H``, already replayed, or None to predict it.
-        warm: what is known before.
         least_alone: what an optimal plan of the human's costs; None to find out.
 
     Attributes:

@@ -38,7 +38,6 @@ def optimal_plans_in_time(
 
     Args:
         prepared: a task in single epochs.
-        options: of the call.
 
     Raises:
         LimitReachedError: the deadline ran out.
@@ -67,7 +66,6 @@ class FirstAnswer:
 
     Args:
         given: ``pi_H``, already replayed, or None to predict it.
-        warm: what is known before.
 
     Attributes:
         plan: some plan of theirs; None where an optimal one is found soon, or one is given.
@@ -165,9 +163,6 @@ def _fits(options: Options, plan: HumanPlan) -> bool:
 
 def first_answer(prepared: PreparedTask, options: Options, deadline: Deadline) -> FirstAnswer:
     """The first answer where ``pi_H`` is to be predicted.
-
-    Args:
-        options: of the call.
 
     Raises:
         LimitReachedError: the deadline came before any plan.

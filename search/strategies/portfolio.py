@@ -126,7 +126,6 @@ def solve(
         predicts: False: without ``human_plan`` the human is known to have no plan alone.
         optimum: what a plan of the human's costs that is not to be improved on; None for what an optimal
             one costs.
-        warm: what is known before.
         turns: those that may be taken; of these, those that the options name.
 
     Raises:

@@ -64,7 +64,6 @@ def replayed(
         plan: ``pi_H``; empty where there is none.
         horizon: ``T``, or None where it is infinite.
         most_cost: largest scaled cost of an acceptable plan, or None.
-        warm: what is known.
 
     Raises:
         LimitReachedError: the deadline of the call came.

@@ -54,7 +54,6 @@ class Companion:
     Args:
         prepared: the task, which has no goal of the robots' own.
         options: in force; ``human_model`` is not ``omniscient``.
-        deadline: polled while tables are built.
         actions: ids of actions that contribute nothing to the goal, and are played all the same.
 
     Attributes:

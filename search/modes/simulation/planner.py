@@ -45,7 +45,6 @@ def solve_for_human(
         options: options in force; ``human_model`` is not ``omniscient``.
         human_plan: ``pi_H``, already replayed, or None to predict it.
         visible: what a local human sees; None for the default.
-        warm: what is known before.
 
     Raises:
         UsageError: the horizon is shorter than ``pi_H``, or one is missing.

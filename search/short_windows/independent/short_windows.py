@@ -33,11 +33,7 @@ _TRIALS: Final = 20
 
 
 class ShortWindows:
-    """Plans with a window of one epoch, by the epoch of the window.
-
-    Args:
-        question: which of them are wanted.
-    """
+    """Plans with a window of one epoch, by the epoch of the window."""
 
     def __init__(self, question: ShortWindowQuestion) -> None:
         self._question = question
@@ -85,7 +81,6 @@ class _Pass:
     """Windows of one epoch, one after another.
 
     Args:
-        question: which of them are wanted.
         others: per robot what it takes from others for nothing.
     """
 
@@ -162,9 +157,6 @@ class _Pass:
 
 def short_windows(question: ShortWindowQuestion) -> ShortWindows | None:
     """Plans with a window of one epoch, robots one by one; None where they can't be looked at so.
-
-    Args:
-        question: which of them are wanted.
 
     Raises:
         LimitReachedError: the deadline came.

@@ -37,7 +37,6 @@ class AllTogether:
     """Windows of one epoch, the earliest first, looked at in one go or in several.
 
     Args:
-        question: which of them are wanted.
         progress: what is known so far, which is brought up to date.
         longer: no plan with a longer window has a smaller key.
     """

@@ -43,7 +43,6 @@ class Epochs:
     """Layers of states, and what one more epoch can leave behind; amounts are costs and numbers of actions.
 
     Args:
-        library: the compiled kernel.
         context: of the call, whose actions may not share an epoch, from whose initial state it begins.
         problem: of the whole team, with amounts for weights.
         after: what follows; asked for bounds.
@@ -100,7 +99,6 @@ class Epochs:
         """Go on by an epoch in which an operator is given.
 
         Args:
-            op: the operator.
             limit: amount from which on nothing is of interest.
             most: states.
             deadline: polled, and asked for memory.
@@ -181,12 +179,7 @@ def _human_last(task: Task, operators: Sequence[Operator]) -> list[int]:
 def conflicts(
     task: Task, operators: Sequence[Operator], deadline: Deadline, *, strict: bool
 ) -> npt.NDArray[np.bool_]:
-    """By pairs of operators whether they may not share an epoch (semantics 2), but for agents.
-
-    Args:
-        task: whose actions they are.
-        strict: strict interference.
-    """
+    """By pairs of operators whether they may not share an epoch (semantics 2), but for agents."""
     actions = [task.actions[op.action] for op in operators]
     adds, deletes = _rows(task, [a.add for a in actions]), _rows(task, [a.delete for a in actions])
     found = _share(deletes, deletes, deadline) | (one_way := _share(deletes, adds, deadline)) | one_way.T

@@ -43,10 +43,6 @@ def distinct(values: NDArray[Number]) -> NDArray[Number]:
 def require_room(size: int, deadline: Deadline) -> None:
     """Ask for the memory of arrays that are large; asking takes a moment.
 
-    Args:
-        size: bytes.
-        deadline: is asked.
-
     Raises:
         LimitReachedError: there is not that much.
     """

@@ -31,12 +31,10 @@ class Closure:
     """Distances, filled in where they are asked for.
 
     Args:
-        arcs: the transitions.
         goal: where the distance is 0 (and nothing goes on).
         fields: masks of the fields that a state consists of.
         values: all values of each field.
         limit: most states of one closure.
-        deadline: polled while tables are filled.
     """
 
     def __init__(
@@ -67,7 +65,6 @@ class Closure:
         """Distance from ``state`` (only the masked fields set), or ``INFINITE_KEY``.
 
         Args:
-            state: a packed state.
             limit: in the unit of the arcs' weights; at or above it any value that is not above the distance.
 
         Raises:

@@ -48,10 +48,8 @@ class Layers:
     """Distances of everything reachable from one state.
 
     Args:
-        arcs: the transitions.
         goal: where the distance is 0.
         fields: masks of the fields that a state consists of, ascending.
-        start: the state.
         limit: most states.
         deadline: polled at each transition of each layer; asked for the memory of large arrays.
 

@@ -66,7 +66,6 @@ class PackedPlaces:
     """Places of states in the array.
 
     Args:
-        arcs: the transitions.
         fields: masks of the fields that a state consists of.
         values: all values of each field.
         start: a state; only combinations that may come up from there have a place.
@@ -206,7 +205,6 @@ class Perimeter:
         places: where states are.
         arcs: the transitions, of weights ``major << ACTIONS_BITS | minor``, which are compared in this order.
         goals: places of distance 0, each once.
-        deadline: polled while the ball grows.
     """
 
     def __init__(self, places: PackedPlaces, arcs: Sequence[Arc], goals: Places, deadline: Deadline) -> None:

@@ -24,9 +24,7 @@ class OwnCosts:
     """The prime's optimal keys ``cost << ACTIONS_BITS | length``, with the supporter idle.
 
     Args:
-        encoding: the packed task.
         scaled: integer cost by the index of an op's cost.
-        deadline: polled while tables are filled.
     """
 
     def __init__(self, packed: PackedTask, scaled: list[int], deadline: Deadline) -> None:
