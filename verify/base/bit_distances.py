@@ -12,7 +12,6 @@ class BitDistances:
     """Least weights to the goal, for everything reachable from the states asked about.
 
     Args:
-        operators: the actions.
         goal: where the distance is 0.
         most: states looked at before a question is given up.
     """
@@ -73,8 +72,6 @@ def reaches_below(
     """Whether the goal can be reached from ``start`` for less than ``limit``; None if that takes too long.
 
     Args:
-        moves: the actions.
-        start: the state.
         limit: what must be undercut.
         least: a consistent lower bound on what a state still takes.
         most: states looked at before giving up.

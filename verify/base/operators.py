@@ -38,9 +38,6 @@ class OwnActions:
     Operators are reduced to the facts that can matter to the human.  Their weight orders plans by cost, then
     by length: a cost of 1 weighs as much as ``_LONGEST`` actions.
 
-    Args:
-        deadline: polled while they are gathered.
-
     Attributes:
         ids: the actions' ids.
         facts: facts that an own action needs or that their goal names; no other matters to them.
@@ -120,8 +117,6 @@ class OwnActions:
 
         Args:
             state: where it starts.
-            goal: what has to hold.
-            deadline: polled at each action.
         """
         true, false = state, self.bits.all & ~state
         wanted, unwanted = self.bits.of(goal.positive), self.bits.of(goal.negative)

@@ -53,7 +53,6 @@ class PathSearch(Generic[N, L]):
         start: the first node.
         edges: the nodes that follow a node, each with the edge's weight and a label.
         estimate: what is left from a node, never too much; None where there is no way on.
-        deadline: polled before every node.
         below: nodes whose distance and estimate add up to this, or more, are left out; None: none is.
 
     Attributes:

@@ -176,9 +176,7 @@ def prices(task: Task, options: Options, human_plan: HumanPlan, deadline: Deadli
     Communication costs nothing outside communication mode, and ``K`` nothing without windows.
 
     Args:
-        options: options in force.
         human_plan: ``pi_H`` by ids.
-        deadline: polled; None for no limit.
 
     Raises:
         LimitReachedError: the deadline came first.

@@ -117,7 +117,6 @@ def calls(
     """The calls that make up a task: one, or one for each optimal ``pi_H`` under ``ties``.
 
     Args:
-        options: options in force.
         given: ``pi_H`` by ids, or None to predict it.
         effort: solver, encoding and deadline.
         plans: the human's optimal plans.

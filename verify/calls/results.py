@@ -20,7 +20,6 @@ def found_result(call: ExaminedCall, found: PricedPlan, *, opportunity: bool) ->
     """A plan as a result whose bound is its objective.
 
     Args:
-        call: what was asked.
         found: steps, window, and what they cost.
         opportunity: whether the plan is one.
     """

@@ -36,7 +36,6 @@ def achieved(said: TiedAnswer, plan: HumanPlan, each: EachPlan, plans: OptimalPl
     """The figures of a listed answer that has a cost.
 
     Args:
-        said: the answer.
         plan: its ``pi_H`` by ids.
         each: the answers beside all optimal plans.
         plans: the human's optimal plans.

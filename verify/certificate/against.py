@@ -19,7 +19,6 @@ def difference(task: Task, result: Result, data: dict[str, Any], deadline: Deadl
 
     Args:
         data: the proof, which the checker has accepted.
-        deadline: when to stop.
 
     Raises:
         InputError: the result is for another task.
@@ -47,9 +46,6 @@ def difference(task: Task, result: Result, data: dict[str, Any], deadline: Deadl
 
 class _Remembering(Deadline):
     """A deadline whose limits leave claims undecided, and which knows afterwards that they came.
-
-    Args:
-        deadline: the limits.
 
     Attributes:
         came: which of them, as ``LimitReachedError.reason`` has them; parts of this deadline add to it.

@@ -66,8 +66,6 @@ def certify(
     or the same objective at a lower cost.  The ties beyond (semantics 3.1) are not examined.
 
     Args:
-        task: the task that was asked.
-        result: the answer.
         encoding: ``automata`` or ``paper``.
         solver: ``highs`` or ``cbc``.
         method: ``auto``; ``program``: the solver decides every program, also where reachability and

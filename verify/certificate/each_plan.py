@@ -39,7 +39,6 @@ class EachPlan:
     all plans at once, where the rules and the method allow that; else question after question is asked.
 
     Args:
-        options: the call's.
         effort: method, solver and deadline.
         plans: the human's optimal plans.
 

@@ -26,7 +26,6 @@ def combined(task: Task, result: Result, effort: Effort, plans: OptimalPlans) ->
 
     Args:
         result: an answer that breaks no rule, or the bound of one that is ``unknown``.
-        effort: the solver's settings.
         plans: the human's optimal plans.
 
     Raises:

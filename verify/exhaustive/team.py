@@ -210,8 +210,6 @@ def excluding(actions: Sequence[GroundAction], facts: int, agents: int, *, stric
     """Which actions can't share an epoch with which others (eq. 5, 6, 10), all declared effects counted.
 
     Args:
-        facts: number of facts.
-        agents: number of agents.
         strict: whether none may falsify a precondition of another either.
     """
 

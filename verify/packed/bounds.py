@@ -63,7 +63,6 @@ class PatternBounds:
     """Bounds for one goal.
 
     Args:
-        table: the operators.
         views: the same operators with their facts in other fields; patterns are made of these, too.
         goal: facts that have to be true.
         start: states to begin with: ways are kept that are good where walks lead from there.

@@ -24,7 +24,6 @@ class PackedSearch:
     """A search from several states, each with what was paid on the way there.
 
     Args:
-        table: the operators.
         goal: what ends a path.
         bound: what is left from some states, never too much; ``FAR`` where no path leads on.
         below: paths of this weight or more are left out; with a path's last operator it fits into a word,

@@ -16,7 +16,6 @@ class ReachablePairs:
     """The pairs of facts that may be true together.
 
     Args:
-        facts: how many there are.
         init: the facts that are true at first.
         actions: all that may ever happen; with circles of actions, if several may happen at once.
 

@@ -18,7 +18,6 @@ class Pattern:
     Forgetting a field makes operators applicable in more states, so that distances never grow.
 
     Args:
-        table: the operators.
         fields: by number.
         most_moves: between its states; they all stand in memory.
 

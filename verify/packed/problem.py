@@ -21,7 +21,6 @@ class StateSpace:
     """The facts that may be true together, and layouts for them.
 
     Args:
-        facts: the number of facts.
         init: those that are true at first.
         actions: all that may ever happen, circles of actions that happen at once included.
         groups: of facts that may exclude each other.
@@ -67,7 +66,6 @@ class PackedProblem:
     Args:
         space: what may be true.
         facts: that operators and goal look at.
-        operators: what may be done.
         goal: facts that have to be true, and false.
         bounded: whether lower bounds spare the search states; else it looks at all that cost little enough.
         exact: weights may add up to any sum: they are Python's integers, and there are no bounds.

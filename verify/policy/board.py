@@ -98,7 +98,6 @@ class Board:
         """Whether both together, without turns, pay at least ``value``, as far as can be told.
 
         Args:
-            state: a packed state.
             value: the pair (human's total, supporter's total), compared lexicographically.
             most: how many states may be looked at where there is no table of all of them.
         """

@@ -23,7 +23,6 @@ class Walk:
     """Walks through every state that a policy can meet.
 
     Args:
-        board: the game.
         listed: the policy.
         ties: how the human's choices count.
         no_block: no move may take their last plan away.

@@ -14,7 +14,6 @@ def ends(board: Board, ties: str, *, no_block: bool, deadline: Deadline) -> bool
     """Whether some policy has a value in ``I`` (semantics 7: one whose runs end).
 
     Args:
-        board: states and moves.
         ties: how the human's choices count.
         no_block: no move may take the human's last plan away.
 
@@ -31,7 +30,6 @@ def lost_states(board: Board, ties: str, *, no_block: bool, deadline: Deadline) 
     """States that may come up, with the supporter to move, from which no policy has a value.
 
     Args:
-        board: states and moves.
         ties: how the human's choices count.
         no_block: no move may take the human's last plan away.
 

@@ -68,7 +68,6 @@ def answered(result: Result, value: Costs) -> Costs:
     A limit may come before that is worked out.  Doing nothing is worth no more than any plan of theirs then.
 
     Args:
-        result: the answer.
         value: of its policy.
     """
     upper = stated_bounds(result).upper

@@ -23,11 +23,9 @@ class Floors:
     """The lower bounds of one result.
 
     Args:
-        board: the game.
         policy: with its floors.
         ties: how the human's choices count.
         no_block: no move may take their last plan away.
-        deadline: when to give up.
     """
 
     def __init__(

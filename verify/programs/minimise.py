@@ -22,7 +22,6 @@ def minimise(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minim
     """Answer a question.
 
     Args:
-        effort: the solver's settings.
         plans: the human's optimal plans, for suffixes that are replanned.
     """
     if question.horizon == 0:

@@ -42,7 +42,6 @@ def write(
 
     Args:
         writer: gets the entry.
-        question: what was asked.
         model: its program, with what it has learned.
         minimum: the answer: proved best, or proved that there is none within the limit.
         cuts: what the program has learned about suffixes, in order.
@@ -74,7 +73,6 @@ def refute(
         entry: what describes the program.
         limit: of the objective; None: nothing at all is allowed.
         values: of the columns, in the program's best solution; empty where it has none.
-        deadline: when to stop.
 
     Raises:
         UndecidedError: the program could not be refuted.
@@ -103,7 +101,6 @@ def read(
 
     Args:
         reader: the programs, which the checker has accepted.
-        question: what is asked.
         encode: makes a question's program.
         plans: the human's optimal plans.
 

@@ -87,7 +87,6 @@ def packed(data: Mapping[str, Any], *, small: bool) -> bytes:
     """A proof file's content.
 
     Args:
-        data: the proof.
         small: pack it by gzip; equal proofs are equal files.
     """
     text = json.dumps(data, separators=(",", ":")).encode() + b"\n"

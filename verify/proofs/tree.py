@@ -42,7 +42,6 @@ def refutation(model: Model, limit: int | None, deadline: Deadline) -> Node:
 
     Args:
         limit: nothing with an objective at or below this; None: nothing at all.
-        deadline: when to stop.
 
     Raises:
         UndecidedError: some values satisfy the rows, or nobody could tell.

@@ -46,7 +46,6 @@ class AutomataEncoding:
         """Build the program.  The horizon has to be at least 1.
 
         Args:
-            question: what is asked.
             pruned: leave out what costs and goals exclude; else there is a program, whatever is asked,
                 of all that can be reached if nothing is ever deleted.
         """

@@ -16,7 +16,6 @@ def keep_within_windows(question: Subproblem, machine: Automaton) -> Windows | N
     """Drop the joint moves of the human's automaton that are in no window.
 
     Args:
-        question: what is asked.
         machine: its ``moves`` are replaced.
 
     Returns:
