@@ -18,7 +18,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import FREE, WINDOW, Subproblem, prices
 from verify.calls.solve import solve
-from verify.exhaustive.circles import circles
+from verify.exhaustive.team_problem import circles
 from verify.limits import limited
 from verify.programs.agents.product import automata
 from verify.programs.automata.encoding import AutomataEncoding

@@ -1,13 +1,99 @@
 """The exact value of a policy: along the graph where it does not return, by elimination where it does."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from typing import NamedTuple
 
 from search.modes.assistance.game.game import Move
 from search.modes.assistance.game.rules import ChoiceRule, Mean, Value
-from search.modes.assistance.solvers.components import components
-from search.modes.assistance.solvers.linear import Row, solve_linear
 from serendipity.model.resources.deadline import Deadline
+
+
+def components(nodes: Iterable[int], onward: Mapping[int, Collection[int]]) -> Iterator[list[int]]:
+    """Strongly connected components of a graph (Tarjan 1972), those without a way out first.
+
+    Args:
+        nodes: where to start; every successor is a node.
+        onward: successors of each node.
+    """
+    order: dict[int, int] = {}
+    lowest: dict[int, int] = {}
+    open_nodes: list[int] = []
+    inside: set[int] = set()
+    for root in nodes:
+        if root in order:
+            continue
+        stack: list[tuple[int, Iterator[int]]] = [(root, iter(onward[root]))]
+        order[root] = lowest[root] = len(order)
+        open_nodes.append(root)
+        inside.add(root)
+        while stack:
+            node, left = stack[-1]
+            successor = next(left, None)
+            if successor is None:
+                stack.pop()
+                if stack:
+                    parent = stack[-1][0]
+                    lowest[parent] = min(lowest[parent], lowest[node])
+                if lowest[node] == order[node]:
+                    yield _take(node, open_nodes, inside)
+            elif successor not in order:
+                order[successor] = lowest[successor] = len(order)
+                open_nodes.append(successor)
+                inside.add(successor)
+                stack.append((successor, iter(onward[successor])))
+            elif successor in inside:
+                lowest[node] = min(lowest[node], order[successor])
+
+
+def _take(root: int, open_nodes: list[int], inside: set[int]) -> list[int]:
+    component = []
+    while True:
+        node = open_nodes.pop()
+        inside.discard(node)
+        component.append(node)
+        if node == root:
+            return component
+
+
+Number = int | Fraction
+Row = tuple[int, dict[int, int], tuple[Number, Number]]
+"""``n_i``, the coefficients ``m_ij`` by ``j``, the pair ``c_i``."""
+
+
+def solve_linear(rows: Sequence[Row], deadline: Deadline) -> list[tuple[Fraction, Fraction]] | None:
+    """The pairs of ``n_i x_i = sum_j m_ij x_j + c_i``, by elimination; None if these do not determine them.
+
+    They do where every ``i`` leads out of the system in the end: its rows then sum to less
+    than ``n_i`` somewhere on the way.
+    """
+    system: list[tuple[dict[int, Fraction], Fraction, Fraction]] = []
+    for n, coefficients, (first, second) in rows:
+        scaled = {j: Fraction(m, n) for j, m in coefficients.items()}
+        system.append((scaled, Fraction(first) / n, Fraction(second) / n))
+    for i in range(len(system)):
+        own = 1 - system[i][0].pop(i, Fraction(0))
+        if own == 0:
+            return None
+        row, first, second = system[i]
+        system[i] = ({j: m / own for j, m in row.items()}, first / own, second / own)
+        for k in range(len(system)):
+            factor = system[k][0].pop(i, None) if k != i else None
+            if factor is not None:
+                deadline.tick()
+                system[k] = _substitute(system[k], system[i], factor)
+    return [(first, second) for _, first, second in system]
+
+
+def _substitute(
+    row: tuple[dict[int, Fraction], Fraction, Fraction],
+    solved: tuple[dict[int, Fraction], Fraction, Fraction],
+    factor: Fraction,
+) -> tuple[dict[int, Fraction], Fraction, Fraction]:
+    coefficients = row[0]
+    for j, m in solved[0].items():
+        coefficients[j] = coefficients.get(j, Fraction(0)) + factor * m
+    return coefficients, row[1] + factor * solved[1], row[2] + factor * solved[2]
 
 
 class Option(NamedTuple):
