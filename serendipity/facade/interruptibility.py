@@ -203,7 +203,6 @@ def drawn(report: InterruptionReport, suffix: str) -> str | bytes:
     """A report as heat maps beside each other: what the human saves by window, and what the team does.
 
     Args:
-        report: the report.
         suffix: ``.svg`` or ``.png``.
 
     Raises:

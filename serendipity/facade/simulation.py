@@ -94,14 +94,11 @@ def realised(
     Those that the deadline leaves no time for are missing.
 
     Args:
-        prepared: the task, prepared.
-        options: options in force.
         human_plan: ``pi_H`` by ids.
         steps: the plan of the answer.
         cost: its exact cost.
         horizon: ``T``, ``"inf"`` or None.
         visible: what a local human sees; None for the default.
-        deadline: polled.
     """
     models = ("observant",) if options.human_model != "local" else HUMAN_MODELS
     epochs = horizon if isinstance(horizon, int) else None

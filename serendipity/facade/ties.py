@@ -117,7 +117,6 @@ def beside_each(call: Request, plans: Sequence[HumanPlan], ties: str) -> Answer:
     """The answer over optimal plans that are known, as long as they make a difference.
 
     Args:
-        call: the call.
         plans: all of them.
         ties: ``robust``, ``optimistic`` or ``expected``.
     """

@@ -68,8 +68,6 @@ def make_usar(
 
     Args:
         rooms: how many locations, halls included.
-        medkits: how many medkits.
-        robots: how many robots.
         seed: of the building and of the positions.
         extra_edges: connections beyond a tree.
         corridors: how many the halls form; fewer are longer.  By default by chance, a fifth

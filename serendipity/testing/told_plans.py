@@ -14,9 +14,6 @@ def both_plans(
     """The plan of a claim, and ours; the first only where there is one.
 
     Args:
-        call: what was asked.
-        claim: the answer.
-        options: in force.
         human_plan: what the human was said to do, or None.
     """
     ours = plan(call.task, human_plan=human_plan, **options.to_dict())

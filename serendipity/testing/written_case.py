@@ -60,7 +60,6 @@ def command_line(call: PlanCall, folder: Path, command: str = "plan") -> str:
     """The command line that makes the call on the task written to ``folder``.
 
     Args:
-        call: what is asked.
         folder: where its task was written.
         command: the command to show.
     """

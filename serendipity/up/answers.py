@@ -121,7 +121,6 @@ class Answers:
 
     Args:
         problem: what is asked about.
-        call: what is asked.
         timeout: seconds, or None.
         ignored: what the caller gave that plays no part.
     """

@@ -25,7 +25,6 @@ def durative_schema(
 
     Args:
         reader: of its expressions.
-        action: the action.
         name: what the grounder calls it.
         increases: what it costs.
 

@@ -185,7 +185,6 @@ def human_plan_of(plan: Plan | Iterable[str], reading: Reading) -> tuple[PlanEnt
 
     Args:
         plan: a plan of the problem, in which others may act as well, or names.
-        reading: the problem.
 
     Raises:
         UsageError: it is a plan of another kind, or of another problem.

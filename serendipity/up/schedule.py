@@ -48,8 +48,6 @@ def start_times(task: Task, steps: Sequence[PlanStep], lasting: Sequence[bool]) 
     """The time at which each action of a plan begins, from 0, in the unit of durations.
 
     Args:
-        task: the task.
-        steps: the plan.
         lasting: of each step, whether it takes time, or is done at once.
 
     Raises:

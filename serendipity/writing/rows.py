@@ -13,7 +13,6 @@ def written(table: Table, form: str) -> str | bytes:
     """A table as the content of a file.
 
     Args:
-        table: the rows.
         form: one of :data:`FORMATS`.
 
     Raises:

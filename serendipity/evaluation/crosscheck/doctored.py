@@ -31,7 +31,6 @@ def doctored(right: Result, denied: Result | None, dice: Random) -> Iterator[tup
     Args:
         right: an answer.
         denied: the same call, answered that nothing helps.
-        dice: decides everything.
     """
     yield from (("said to be infeasible", without_plan(right, "infeasible", reason)) for reason in _REASONS)
     if right.cost is None or right.objective is None:

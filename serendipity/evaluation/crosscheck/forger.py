@@ -63,11 +63,7 @@ class _Asked:
 
 
 def forgeries(call: PlanCall, dice: Random) -> Iterator[Forgery]:
-    """False results for a call, or for one about its task in another mode.
-
-    Args:
-        dice: decides everything.
-    """
+    """False results for a call, or for one about its task in another mode."""
     asked = _asked(call, dice)
     try:
         right = asked.answer()
@@ -111,7 +107,6 @@ class _Forger:
     Args:
         asked: the call that they are presented for.
         right: its answer.
-        dice: decides everything.
     """
 
     def __init__(self, asked: _Asked, right: Result, dice: Random) -> None:

@@ -75,7 +75,6 @@ def compare(
     everybody, but its answer has to follow the rules; laws are for calls without limits.
 
     Args:
-        call: what is asked.
         judges: by name.
         laws: by name.
         outside: judges from outside; what is asked then is what they can be asked about the call's task.

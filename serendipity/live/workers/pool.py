@@ -66,11 +66,7 @@ class PoolFigures:
 
 
 class Pool:
-    """Worker processes, each on one job at a time.
-
-    Args:
-        limits: what they may use.
-    """
+    """Worker processes, each on one job at a time."""
 
     def __init__(self, limits: PoolLimits) -> None:
         self.limits = limits

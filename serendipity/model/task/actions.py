@@ -181,7 +181,6 @@ def conflicting(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
     Args:
         a: one action.
         b: another.
-        strict: whether interference is strict.
     """
     for agent in a.participants:  # loops: this is asked for millions of pairs
         if agent in b.participants:

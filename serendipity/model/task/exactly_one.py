@@ -28,7 +28,6 @@ class Balance:
         n_facts: how many facts there are.
         init: see above.
         actions: see above.
-        deadline: polled.
     """
 
     def __init__(

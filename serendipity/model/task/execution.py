@@ -17,7 +17,6 @@ def actions_named(task: Task, name: str, agents: Iterable[str]) -> tuple[int, ..
     """Ids of the ground actions of that name in which exactly these agents take part; variants, if several.
 
     Args:
-        task: the task.
         name: as plans write it, in canonical form.
         agents: names of the participants, in any order.
     """

@@ -22,7 +22,6 @@ def grown_groups(balance: Balance, deadline: Deadline, apart: Iterable[Group] = 
 
     Args:
         balance: of the task.
-        deadline: polled.
         apart: groups that are known; these share no fact with them, either.
 
     Raises:

@@ -38,8 +38,6 @@ def horizon_of(task: Task, options: Options, plan: HumanPlan | None) -> Horizon:
     """``T``: what the options say, else the length of ``pi_H`` in epochs.
 
     Args:
-        task: the task.
-        options: in force.
         plan: ``pi_H``, or None where the human has no plan alone.
 
     Raises:

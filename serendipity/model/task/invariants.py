@@ -86,7 +86,6 @@ def groups_by_form(facts: Sequence[str], balance: Balance, deadline: Deadline) -
     Args:
         facts: their names.
         balance: of the task.
-        deadline: polled.
 
     Raises:
         LimitReachedError: the deadline came first.

@@ -112,7 +112,6 @@ def unit_steps(task: Task, deadline: Deadline | None = None, waiting_cost: Fract
 
     Args:
         task: a task.
-        deadline: polled.
         waiting_cost: of each epoch in which the human waits before an action of theirs.
 
     Raises:
@@ -183,7 +182,6 @@ class _Steps:
         """The epochs of an action.
 
         Args:
-            action: the action.
             asked: facts that it asks for at the start, besides its own.
             free: facts that do not hold meanwhile.
         """

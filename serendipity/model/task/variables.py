@@ -55,7 +55,6 @@ def find_variables(
         facts: their names; ids are indices.
         init: ids of those that hold in ``I``.
         actions: every ground action.
-        deadline: polled; None for no limit.
 
     Raises:
         LimitReachedError: the deadline came first.

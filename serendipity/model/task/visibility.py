@@ -56,7 +56,6 @@ def surroundings(task: Task, tick: Callable[[], None] = _untimed) -> Surrounding
     """The surroundings of a task.
 
     Args:
-        task: the task.
         tick: called every so often; what it raises ends the work.
     """
     words, parts = [], []

@@ -33,7 +33,6 @@ class Clock:
     """The length of an epoch, in the unit of the input, and what it makes of durations.
 
     Args:
-        units: the files.
         blocks: the actions that can be executed.
         epoch: how long one is; None for the greatest common divisor of all durations and times of the
             script, where an action that is not durative has one unit of time.

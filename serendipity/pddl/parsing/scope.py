@@ -77,7 +77,6 @@ class Scope:
     """The names that may occur in a place.
 
     Args:
-        types: the types.
         predicates: types of their parameters, by name.
         functions: types of their parameters, by name.
         objects: types, by name.

@@ -38,10 +38,6 @@ def oddly_priced(dice: Random, task: Task) -> Task:
 
     Some actions, or all; in one way, or each in its own.  It stays as it is where the human would then
     need many steps.
-
-    Args:
-        dice: decides everything.
-        task: any.
     """
     ways = dice.choice(((dice.choice(_WAYS),), _WAYS))
     share = dice.choice((0.3, 1))
@@ -60,7 +56,6 @@ def odd_options(dice: Random, options: dict[str, str]) -> dict[str, str]:
     """The same options with other numbers, where there are any.
 
     Args:
-        dice: decides everything.
         options: of a call, as text.
     """
     changed = {"discount": dice.choice(DISCOUNTS), "window_weight": dice.choice(WEIGHTS)}

@@ -99,8 +99,6 @@ def fault_of_joint(call: PlanCall, claim: Proposal, result: Proved | None) -> st
     """The fault in a claim about the joint question, or None.
 
     Args:
-        call: what was asked.
-        claim: the answer.
         result: a proved answer of another judge, or None.
     """
     known = result.cost if result is not None and result.status == "optimal" else None

@@ -20,8 +20,6 @@ def fault(call: PlanCall, claim: Proposal, proved: Proved | None) -> str | None:
     """The fault in a claim, or None.
 
     Args:
-        call: what was asked.
-        claim: the answer.
         proved: a proved answer of another method, or None.
 
     Raises:

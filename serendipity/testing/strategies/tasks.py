@@ -221,7 +221,6 @@ def walks(draw: st.DrawFn, built: Task, most: int) -> frozenset[int]:
     """The state after a random walk of the human's, alone.
 
     Args:
-        built: the task.
         most: actions, at least one where any changes anything.
     """
     state, alone = built.init, Alone(built)

@@ -52,7 +52,6 @@ def scripts(draw: st.DrawFn, built: Task, *, most: int = 3) -> Script:
     """Facts of a task that become true or false in its first epochs.
 
     Args:
-        built: the task.
         most: how many at most.
     """
     moments = st.tuples(st.integers(1, _LAST_EPOCH), st.sampled_from(built.facts))
