@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from serendipity import InputError
-from serendipity.pddl.parsing.requirements import SUPPORTED, UNSUPPORTED
+from serendipity.pddl.parsing.sections import SUPPORTED, UNSUPPORTED
 from tests.pddl.texts import action, domain, one, problem
 
 TEXT = domain(action("go", "(or (q) (exists (?x) (a ?x)))", "(p) (when (q) (r)) (increase (total-cost) 1)"))

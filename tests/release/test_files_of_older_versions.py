@@ -14,7 +14,7 @@ import pytest
 
 import serendipity
 from serendipity import InputError, Result
-from serendipity.evaluation.reproduction.journal import Journal
+from serendipity.evaluation.reproduction.run import Journal
 from serendipity.execution.log import read_logs, replay
 from tests.cli.conftest import Runs, assert_one_line
 

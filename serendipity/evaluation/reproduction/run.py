@@ -1,5 +1,6 @@
 """A folder of tasks through modes x discounts: in parallel, and resumable."""
 
+import json
 from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import closing
 from dataclasses import dataclass
@@ -7,10 +8,10 @@ from fractions import Fraction
 from os import PathLike
 from pathlib import Path
 from time import time
-from typing import Final
+from typing import Any, Final
 
 from search.kernel.library import library
-from serendipity.evaluation.reproduction.journal import Journal
+from serendipity.evaluation.measuring.record import Lines
 from serendipity.evaluation.reproduction.pool import on_dask
 from serendipity.evaluation.reproduction.rows import KINDS, Row
 from serendipity.evaluation.reproduction.suite import TaskFolder, find_tasks
@@ -23,13 +24,48 @@ from serendipity.evaluation.reproduction.work import (
     solve,
     unknown,
 )
-from serendipity.model import Deadline, Options, UsageError
+from serendipity.model import Deadline, InputError, Options, UsageError
 from serendipity.model.arguments import DEADLINE, FUNCTION, LIST, PATH, TEXT, WHOLE, expect, expect_or_none
 from serendipity.model.keywords import Mode
-from serendipity.model.numbers import Number
+from serendipity.model.numbers import Number, unrounded
 from serendipity.model.resources.processes import in_processes
+from serendipity.model.schemas import schema_fault
 from serendipity.model.table import Table, Tabular
 from serendipity.model.task.task import several
+
+SCHEMA: Final = "serendipity.journal/1"
+"""Of each line; lines of the first versions have none."""
+
+_BEGINS: Final = (json.dumps({"schema": SCHEMA})[:-1].encode(), b'{"test": ')
+
+
+class Journal:
+    """Rows of finished tasks on disk; a task whose line was cut off is simply done again.
+
+    Args:
+        path: the file; made when the first task is finished.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._lines = Lines(path, "a journal of `serendipity reproduce`", _BEGINS)
+
+    def read(self) -> list[TaskRows]:
+        """The finished tasks that are there already; errors as of :meth:`Lines.read`."""
+        return self._lines.read(self._record)
+
+    def append(self, record: TaskRows) -> None:
+        """Add a finished task; errors as of :meth:`Lines.append`."""
+        rows = [row.to_dict() | {"discount": unrounded(row.discount)} for row in record.rows]
+        self._lines.append(
+            {"schema": SCHEMA, "test": record.test, "fingerprint": record.fingerprint, "rows": rows}
+        )
+
+    def _record(self, data: Any, number: int) -> TaskRows:
+        if fault := schema_fault(data.get("schema", SCHEMA), SCHEMA):
+            raise InputError(f"journal: {fault}", self.path, number)
+        return TaskRows(data["test"], data["fingerprint"], tuple(map(Row.from_dict, data["rows"])))
+
 
 MODES: Final[tuple[Mode, ...]] = ("individual", "serendipity", "communication", "composite")
 DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")

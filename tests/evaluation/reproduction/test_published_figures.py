@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from serendipity.evaluation.reproduction import Row, reproduce
-from serendipity.evaluation.reproduction.published import TABLE_1, TABLE_2
-from serendipity.evaluation.reproduction.tables import Entry, examples, table_1, table_2
+from serendipity.evaluation.reproduction.tables import TABLE_1, TABLE_2, Entry, examples, table_1, table_2
 
 EXACT = {"0": ("9.72", 13), "0.1": ("9.6525", 23), "0.3": ("9.4805", 33)} | {
     "0.5": ("9.2475", 40),
