@@ -132,10 +132,7 @@ class _PlannerItem(pytest.Item):
         for name in (*_LISTS, "actions"):
             value = getattr(self._scope, name)
             if value != getattr(type(self._scope)(), name):
-                words += [
-                    f"--serendipity-{name}",
-                    str(value) if name == "actions" else ",".join(value),
-                ]
+                words += [f"--serendipity-{name}", str(value) if name == "actions" else ",".join(value)]
         words += ["--serendipity-seed", str(outcome.seed), "--serendipity-count", "1", "-k", self.name]
         return shlex.join(words)
 

@@ -30,10 +30,7 @@ NEEDED: Final[dict[str, dict[str, tuple[str, ...]]]] = {
         status: tuple("realised" if claim == "window" else claim for claim in claims)
         for status, claims in _PLAN.items()
     },
-    "a mean over ties": {
-        "optimal": ("cost", BEST, "lower_bound"),
-        "feasible": ("cost", "lower_bound"),
-    },
+    "a mean over ties": {"optimal": ("cost", BEST, "lower_bound"), "feasible": ("cost", "lower_bound")},
     "a policy": {
         "optimal": ("replay", "cost", "optimal", "lower_bound"),
         "feasible": ("replay", "cost", "lower_bound"),

@@ -145,12 +145,4 @@ def _rounded(values: Sequence[float], integral: Sequence[bool], deadline: Deadli
     return tuple(rounded)
 
 
-__all__ = [
-    "SOLVERS",
-    "Model",
-    "ModelRow",
-    "SolverOutcome",
-    "Terms",
-    "optimise",
-    "solver_version",
-]
+__all__ = ["SOLVERS", "Model", "ModelRow", "SolverOutcome", "Terms", "optimise", "solver_version"]
