@@ -1,15 +1,14 @@
 """Certificates: true results are proved, doctored ones refuted, and a time limit is never a proof."""
 
 from dataclasses import replace
-from typing import Any
 
 import pytest
 from hypothesis import given
 
 import serendipity
-from serendipity.model import Certificate, Claim, InputError, LimitReachedError, Options, Task, UsageError
+from serendipity.model import Certificate, Claim, InputError, LimitReachedError, Options, UsageError
 from serendipity.testing.by_hand import result
-from serendipity.testing.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8, case_10
+from serendipity.testing.cases import CASE_3_PLAN, case_3, case_4, case_10
 from serendipity.testing.strategies import Call, calls
 from tests.verify.doctored import ANOTHER_TASK, DOCTORED
 from tests.verify.untrue import dearer, solved
@@ -40,40 +39,6 @@ def test_answers_are_proved(method: str) -> None:
         assert certificate.verdict == "proved", certificate.to_dict()
 
     law()
-
-
-@pytest.mark.parametrize("encoding", ["automata", "paper"])
-@pytest.mark.parametrize("solver", ["highs", "cbc"])
-def test_every_encoding_and_solver_proves(encoding: str, solver: str) -> None:
-    task = case_10()
-    answer = solved(task, discount="0.5", horizon=2)
-    certificate = certify(task, answer, encoding=encoding, solver=solver)
-    assert certificate.verdict == "proved"
-    assert certificate.encoding == encoding
-    assert {claim.claim for claim in certificate.claims} == {
-        "replay", "cost", "window", "optimal", "lower_bound",
-    }  # fmt: skip
-
-
-def test_no_opportunity_is_proved() -> None:
-    task = case_1()
-    certificate = certify(task, solved(task, discount="0.5"))
-    assert _claim(certificate, "no_opportunity").verdict == "proved"
-
-
-@pytest.mark.parametrize(
-    ("task", "options"),
-    [
-        (case_8(), {"mode": "serendipity"}),
-        (case_8(), {"mode": "individual"}),
-        (case_8(), {"mode": "composite", "horizon": 1}),
-        (case_8(), {"mode": "communication", "horizon": 1}),
-    ],
-)
-def test_infeasible_is_proved(task: Task, options: dict[str, Any]) -> None:
-    answer = solved(task, **options)
-    assert answer.status == "infeasible"
-    assert _claim(certify(task, answer), "infeasible").verdict == "proved"
 
 
 def test_pi_h_is_said_to_be_canonical_or_given() -> None:
@@ -168,33 +133,7 @@ def test_bounds_of_feasible_answers(bound: float, verdict: str) -> None:
     assert all(claim.claim != "optimal" for claim in certificate.claims)
 
 
-# -- limits
-
-
-@pytest.mark.parametrize("mode", ["serendipity", "communication", "composite"])
-@pytest.mark.parametrize("encoding", ["automata", "paper"])
-def test_a_time_limit_is_never_a_proof(mode: str, encoding: str) -> None:
-    task = case_4()
-    answer = solved(task, mode=mode, discount="0.9")
-    certificate = certify(task, answer, encoding=encoding, time_limit=0)
-    assert certificate.verdict == "undecided"
-    assert _claim(certificate, "optimal").verdict == "undecided"
-    assert "time limit" in _claim(certificate, "optimal").reason
-
-
-def test_solve_in_no_time_is_unknown() -> None:
-    answer = solved(case_4(), time_limit=0)
-    assert (answer.status, answer.plan, answer.cost) == ("unknown", None, None)
-    assert certify(case_4(), answer).verdict == "undecided"
-
-
 # -- bad input
-
-
-def test_a_result_for_another_task() -> None:
-    answer = solved(case_4())
-    with pytest.raises(InputError, match=r"another task|the options"):
-        certify(case_1(), answer)
 
 
 def test_unknown_encoding_solver_and_method() -> None:

@@ -8,7 +8,6 @@ import pytest
 import serendipity
 from serendipity.model import Claim, Options, Result, Task
 from serendipity.testing.cases import case_1, case_4, case_8, case_10
-from tests.verify.untrue import dearer
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
 from verify.programs import effort
@@ -76,11 +75,3 @@ def test_what_a_limit_leaves_is_no_counter_example(monkeypatch: pytest.MonkeyPat
     certificate = certify(task, answer, method="program")
     optimal = next(claim for claim in certificate.claims if claim.claim == "optimal")
     assert (optimal.verdict, optimal.counterexample) == ("undecided", None)
-
-
-def test_a_better_plan_refutes() -> None:
-    task, doctored = dearer()
-    certificate = certify(task, doctored, method="program")
-    assert certificate.refuted is not None
-    assert certificate.refuted.counterexample is not None
-    assert certificate.refuted.method == "program"

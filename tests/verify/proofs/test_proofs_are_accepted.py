@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.model import Deadline, Options, Result, Task, UsageError
 from serendipity.testing.builders import task as build
-from serendipity.testing.cases import case_1, case_4, case_8, case_10
+from serendipity.testing.cases import case_1, case_4, case_10
 from serendipity.testing.strategies import Call, calls
 from tests.verify.proofs.samples import covering, entry, optimum
 from tests.verify.test_ip_parts import DETOUR
@@ -87,12 +87,6 @@ def test_every_row_says_what_it_stands_for(tmp_path: Path) -> None:
     assert "" not in families
 
 
-def test_infeasible_means_that_nothing_satisfies_the_rows(tmp_path: Path) -> None:
-    answer = serendipity.plan(case_8(), mode="composite", horizon=1)
-    proof = _proof(case_8(), answer, tmp_path / "proof.json")
-    assert (proof["claim"], proof["programs"][0]["limit"]) == ("infeasible", None)
-
-
 @pytest.mark.parametrize("mode", ["individual", "serendipity"])
 def test_what_the_human_can_do_alone(mode: str, tmp_path: Path) -> None:
     can = build(goal="p", actions={"a h": "-> q", "b h": "q -> p", "help r": "-> q"})
@@ -121,15 +115,6 @@ def test_a_bound_and_no_epochs_at_all(tmp_path: Path) -> None:
     assert _proof(task, feasible, tmp_path / "bound.json")["claim"] == "lower_bound"
     done = build(init="p", goal="p", actions={"do h": "-> p", "help r": "-> p"})
     assert _proof(done, serendipity.plan(done), tmp_path / "done.json")["programs"][0]["columns"] == []
-
-
-def test_several_optimal_plans_of_the_human(tmp_path: Path) -> None:
-    task = build(
-        goal="p", actions={"one h": "-> p @ 3", "two h": "-> p @ 3", "less h": "q -> p", "help r": "-> q"}
-    )
-    answer = serendipity.plan(task, ties="robust", horizon=2, discount="0.9")
-    assert len(answer.ties or ()) == 2
-    assert len(_proof(task, answer, tmp_path / "proof.json")["programs"]) >= 2
 
 
 def test_equal_proofs_are_equal_files(tmp_path: Path) -> None:

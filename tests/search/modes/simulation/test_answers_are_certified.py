@@ -11,7 +11,7 @@ import serendipity
 from serendipity.model import Certificate, Options, PlanStep, Result, Task, surroundings
 from serendipity.testing.builders import task as build
 from serendipity.testing.by_hand import result
-from serendipity.testing.cases import case_1, case_2, case_4
+from serendipity.testing.cases import case_1, case_4
 from serendipity.testing.oracle.reactions import best_reaction
 from tests.search.exact_answers import proved
 from tests.search.modes.simulation.strategies import Reaction, reactions
@@ -66,9 +66,6 @@ def test_worked_cases() -> None:
     assert (result.cost, certificate.verdict) == (8.4, "proved")
     optimal = next(claim for claim in certificate.claims if claim.claim == "optimal")
     assert optimal.reason.startswith("no joint plan costs less than 8.4, whatever the human does")
-    for options in ({}, {"no_block": False}):
-        result, certificate = _certified(case_2(), discount="0.5", human_model="observant", **options)
-        assert (result.cost, certificate.verdict) == (7.0 if options else 9.0, "proved")
     for ties in ("robust", "expected", "optimistic"):
         _, certificate = _certified(case_4(), discount="0.9", human_model="local", ties=ties)
         assert certificate.verdict == "proved", certificate
@@ -131,13 +128,6 @@ def test_dearer_help_is_not_the_best() -> None:
         assert _verdicts(serendipity.verify(task, bold))["lower_bound"] == "refuted"
 
 
-def test_doctored_savings() -> None:
-    task = case_1()
-    result = serendipity.plan(task, discount="0.9", human_model="observant")
-    for doctored in (replace(result, saving=2.0), replace(result, saving_alone=0.5)):
-        assert serendipity.verify(task, doctored).verdict == "refuted"
-
-
 def test_infeasible_is_examined() -> None:
     task = build(goal="p", robot_goal="q", actions={"do h": "-> p", "x r": "-> q"})
     proved(task, human_model="observant")
@@ -157,7 +147,6 @@ def test_infeasible_is_examined() -> None:
 def test_limits_leave_it_undecided() -> None:
     task = case_1()
     result = serendipity.plan(task, discount="0.9", human_model="observant")
-    assert _verdicts(serendipity.verify(task, result, time_limit=0))["optimal"] == "undecided"
     with limited(moments=3):
         only_played = serendipity.verify(task, result, method="exhaustive")
     assert _verdicts(only_played)["optimal"] == "undecided"
