@@ -5,7 +5,7 @@ import pytest
 import serendipity
 from serendipity import UsageError, Window
 from serendipity.testing.builders import task as build
-from serendipity.testing.cases import WORKED, Worked, case_4, case_8
+from serendipity.testing.cases import WORKED, Worked, case_8
 from tests.search.exact_answers import proved
 
 EXAMPLES = [
@@ -35,12 +35,6 @@ def test_worked_case(worked: Worked) -> None:
     assert result.status == ("infeasible" if worked.cost is None else "optimal")
 
 
-def test_case_4_expected_is_the_mean_over_his_plans() -> None:
-    result = serendipity.plan(case_4(), discount=0.9, ties="expected")
-    assert result.cost == 7.1
-    assert sorted(answer.cost or 0 for answer in result.ties or ()) == [6.2, 8.0]
-
-
 def test_case_8_communication_needs_a_horizon() -> None:
     with pytest.raises(UsageError, match="horizon"):
         serendipity.plan(case_8(), mode="communication")
@@ -52,13 +46,6 @@ def test_paper_example(room: str, mode: str, discount: str, cost: float, start: 
     assert (result.cost, result.human_cost, result.opportunity) == (cost, 13.0, cost < 13)
     if start is not None:
         assert result.window == Window(start, start + 1)
-
-
-def test_paper_example_iii_c_hands_over_in_hall4_at_epoch_6() -> None:
-    result = serendipity.plan(serendipity.example("room2"), discount=0.6)
-    (joint,) = [step for step in result.plan if len(step.agents) == 2]
-    assert joint.epoch == 6
-    assert joint.action == "hand_over robot commx mk2 hall4"
 
 
 def test_what_is_announced_does_not_hide_what_costs_less() -> None:
