@@ -5,6 +5,7 @@ A mutant is made of its number alone, so whoever has the number has the mutant.
 
 import re
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from random import Random
 from typing import NamedTuple
@@ -12,26 +13,21 @@ from typing import NamedTuple
 from serendipity.scenarios.examples import DATA as SHIPPED
 from tests.pddl.texts import DATA, pair
 
+Piece = Callable[[str, Random], tuple[int, int]]
+"""Finds a piece of a text."""
+
+Change = Callable[[str, Random], str]
+
 TOKEN = re.compile(r"\(|\)|;[^\n]*|[^\s();]+|\s+")
 
 
-class Original(NamedTuple):
-    """Files that load, and who is who in them."""
+class Files(NamedTuple):
+    """A domain and a problem, and who is who in them."""
 
     domain: str
     problem: str
     human: str
     robots: tuple[str, ...]
-
-
-class Mutant(NamedTuple):
-    """Texts, and who is who; ``changes`` says what was done."""
-
-    domain: str
-    problem: str
-    human: str
-    robots: tuple[str, ...]
-    changes: tuple[str, ...]
 
     def write(self, folder: Path) -> tuple[Path, Path]:
         """Write both files."""
@@ -39,9 +35,9 @@ class Mutant(NamedTuple):
         return pair(folder, *texts)
 
 
-def _original(folder: Path, problem: str, human: str, *robots: str) -> Original:
+def _original(folder: Path, problem: str, human: str, *robots: str) -> Files:
     texts = [(folder / name).read_text() for name in ("domain.pddl", f"{problem}.pddl")]
-    return Original(texts[0], texts[1], human, robots)
+    return Files(*texts, human, robots)
 
 
 ORIGINALS = (
@@ -78,90 +74,67 @@ SECTION = re.compile(r":(precondition|goal)\b.*?(?=:effect|:metric|:precondition
 ATOM = re.compile(r"\((?!and\b|or\b|not\b|total-cost)[\w-]+(\s+[?\w-]+)*\)")
 
 
-def mutant(number: int, originals: Sequence[Original] = ORIGINALS) -> Mutant:
+def mutant(number: int, originals: Sequence[Files] = ORIGINALS) -> Files:
     """The mutant of a number: one to four changes, raw ones or such of whole tokens and groups."""
     random = Random(number)
     original = random.choice(originals)
     texts = [original.domain, original.problem]
-    changes = []
     for _ in range(random.choice((1, 1, 1, 2, 3, 4))):
         file = random.randrange(2)
         change = random.choice(RAW if random.random() < 0.25 else MEANT)
         texts[file] = change(texts[file], random)
-        changes.append(change.__name__.strip("_"))
-    return Mutant(texts[0], texts[1], original.human, original.robots, tuple(changes))
+    return Files(*texts, original.human, original.robots)
 
 
-def _cut(text: str, random: Random) -> str:
-    start, end = _piece(text, random)
-    return text[:start] + text[end:]
+def _stretch(text: str, random: Random) -> tuple[int, int]:
+    start = random.randint(0, len(text))
+    return start, min(len(text), start + random.choice((1, 1, 2, 5, 20, 200)))
 
 
-def _double(text: str, random: Random) -> str:
-    start, end = _piece(text, random)
-    return text[:end] + text[start:end] + text[end:]
+def _token(text: str, random: Random, but: str = "") -> tuple[int, int]:
+    """A token, neither blanks nor a comment."""
+    found = [
+        t.span() for t in TOKEN.finditer(text) if not t[0].isspace() and t[0][0] != ";" and t[0] not in but
+    ]
+    return random.choice(found or [(0, len(text))])
 
 
-def _move(text: str, random: Random) -> str:
-    start, end = _piece(text, random)
-    rest = text[:start] + text[end:]
-    place = random.randint(0, len(rest))
-    return rest[:place] + text[start:end] + rest[place:]
+_word = partial(_token, but="()")
+
+
+def _group(text: str, random: Random) -> tuple[int, int]:
+    return random.choice(_groups(text))
+
+
+def _without(piece: Piece) -> Change:
+    def change(text: str, random: Random) -> str:
+        start, end = piece(text, random)
+        return text[:start] + text[end:]
+
+    return change
+
+
+def _twice(piece: Piece) -> Change:
+    def change(text: str, random: Random) -> str:
+        start, end = piece(text, random)
+        return f"{text[:end]} {text[start:end]}{text[end:]}"
+
+    return change
+
+
+def _instead(piece: Piece) -> Change:
+    """A piece of the file in place of another."""
+
+    def change(text: str, random: Random) -> str:
+        (start, end), (other, stop) = piece(text, random), piece(text, random)
+        return text[:start] + text[other:stop] + text[end:]
+
+    return change
 
 
 def _noise(text: str, random: Random) -> str:
     place = random.randint(0, len(text))
     return text[:place] + random.choice(NOISE) + text[place:]
-
-
-def _piece(text: str, random: Random) -> tuple[int, int]:
-    start = random.randint(0, len(text))
-    return start, min(len(text), start + random.choice((1, 1, 2, 5, 20, 200)))
-
-
-def _without_token(text: str, random: Random) -> str:
-    tokens, places = _tokens(text)
-    del tokens[random.choice(places)]
-    return "".join(tokens)
-
-
-def _token_twice(text: str, random: Random) -> str:
-    tokens, places = _tokens(text)
-    place = random.choice(places)
-    tokens[place] = f"{tokens[place]} {tokens[place]}"
-    return "".join(tokens)
-
-
-def _other_word(text: str, random: Random) -> str:
-    """A word of the file in place of another."""
-    tokens, places = _tokens(text)
-    words = [i for i in places if tokens[i] not in "()"]
-    tokens[random.choice(words)] = tokens[random.choice(words)]
-    return "".join(tokens)
-
-
-def _swapped_words(text: str, random: Random) -> str:
-    tokens, places = _tokens(text)
-    words = [i for i in places if tokens[i] not in "()"]
-    a, b = random.choice(words), random.choice(words)
-    tokens[a], tokens[b] = tokens[b], tokens[a]
-    return "".join(tokens)
-
-
-def _without_group(text: str, random: Random) -> str:
-    start, end = random.choice(_groups(text))
-    return text[:start] + text[end:]
-
-
-def _group_twice(text: str, random: Random) -> str:
-    start, end = random.choice(_groups(text))
-    return text[:end] + " " + text[start:end] + text[end:]
-
-
-def _other_group(text: str, random: Random) -> str:
-    """A group of the file in place of another."""
-    (start, end), (other, stop) = random.choice(_groups(text)), random.choice(_groups(text))
-    return text[:start] + text[other:stop] + text[end:]
 
 
 def _odd_group(text: str, random: Random) -> str:
@@ -170,14 +143,11 @@ def _odd_group(text: str, random: Random) -> str:
     small = [group for group in groups if group[1] - group[0] < 80] or groups
     start, end = random.choice(small)
     other, stop = random.choice(small)
-    tokens, places = _tokens(text)
-    words = [tokens[i] for i in places if tokens[i] not in "()"]
+    words = [text[slice(*_word(text, random))] for _ in range(3)]
     parts = {
         "f": text[start:end],
         "g": text[other:stop],
-        "x": random.choice(words),
-        "y": random.choice(words),
-        "w": random.choice(words),
+        **dict(zip("xyw", words, strict=True)),
         "t": random.choice([*_types(text), "object"]),
         "n": random.choice(("0", "2", "-1", "0.5", "1e3")),
     }
@@ -201,7 +171,7 @@ def _conditions(text: str, random: Random) -> str:
 def _new_number(text: str, random: Random) -> str:
     numbers = [*re.finditer(r"(?<=[\s(])-?\d+\.?\d*(?=[\s)])", text)]
     if not numbers:
-        return _other_word(text, random)
+        return _instead(_word)(text, random)
     found = random.choice(numbers)
     number = random.choice(("0", "-1", "0.1", "1e5", "1e99", "1/3", "x", "7"))
     return text[: found.start()] + number + text[found.end() :]
@@ -211,17 +181,11 @@ def _many_objects(text: str, random: Random) -> str:
     """More of what there is: larger tasks."""
     typed = [*re.finditer(r"([\w-]+) - ([\w-]+)", text)]
     if not typed:
-        return _other_word(text, random)
+        return _instead(_word)(text, random)
     found = random.choice(typed)
     name, kind = found.groups()
     more = " ".join(f"{name}{i}" for i in range(random.choice((2, 5, 12))))
     return f"{text[: found.start()]}{name} {more} - {kind}{text[found.end() :]}"
-
-
-def _tokens(text: str) -> tuple[list[str], list[int]]:
-    """All of a text in pieces, and which of them are neither blanks nor comments."""
-    tokens = TOKEN.findall(text)
-    return tokens, [i for i, token in enumerate(tokens) if not token.isspace() and token[0] != ";"] or [0]
 
 
 def _groups(text: str) -> list[tuple[int, int]]:
@@ -242,11 +206,9 @@ def _types(text: str) -> list[str]:
     return re.findall(r"- ([\w-]+)", text)
 
 
-Change = Callable[[str, Random], str]
-
-RAW: tuple[Change, ...] = (_cut, _double, _move, _noise)
+RAW: tuple[Change, ...] = (_without(_stretch), _twice(_stretch), _instead(_stretch), _noise)
 
 MEANT: tuple[Change, ...] = (
-    *(_without_token, _token_twice, _other_word, _swapped_words, _without_group, _group_twice, _other_group),
+    *(_without(_token), _twice(_token), _instead(_word), _without(_group), _twice(_group), _instead(_group)),
     *(_odd_group, _odd_group, _new_number, _many_objects, *[_conditions] * 12),
 )

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity import Deadline, LimitReachedError, SerendipityError, Task, pddl
-from tests.pddl.mutants import ORIGINALS, Mutant, Original, mutant
+from tests.pddl.mutants import ORIGINALS, Files, mutant
 from tests.pddl.test_durative_actions import DOMAIN, PROBLEM
 from tests.pddl.test_timed_literals import DAY, SHOP
 from tests.pddl.texts import OFFICE
@@ -17,12 +17,12 @@ from tests.pddl.texts import OFFICE
 SECONDS = 2.0
 
 IN_TIME = (
-    Original(DOMAIN, PROBLEM.replace("(:init", "(:init (at 14 (path hall bed))"), "ann", ("bob",)),
-    Original(SHOP, DAY, "ann", ("bob",)),
+    Files(DOMAIN, PROBLEM.replace("(:init", "(:init (at 14 (path hall bed))"), "ann", ("bob",)),
+    Files(SHOP, DAY, "ann", ("bob",)),
 )
 
 
-def outcome(changed: Mutant, folder: Path) -> Task | SerendipityError:
+def outcome(changed: Files, folder: Path) -> Task | SerendipityError:
     """What loading gives; any other exception is a failure."""
     try:
         return pddl.read_pddl(
@@ -32,7 +32,7 @@ def outcome(changed: Mutant, folder: Path) -> Task | SerendipityError:
         return error
 
 
-def check(number: int, originals: Sequence[Original] = ORIGINALS) -> None:
+def check(number: int, originals: Sequence[Files] = ORIGINALS) -> None:
     changed = mutant(number, originals)
     with tempfile.TemporaryDirectory() as folder:
         result = outcome(changed, Path(folder))
