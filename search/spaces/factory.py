@@ -57,7 +57,7 @@ def window_space(
     successors = context.successors(idle=idle) if walks is None else context.folded(walks)
     private, steps = (context.bound, context.steps) if is_private else (NOTHING_KNOWN, NOTHING_KNOWN)
     touches = context.interactions if is_private else None
-    prefix: Prefix = InLayers(_layers(context, plan))
+    prefix: Prefix = prefix_rule(context, plan)
     on_the_way: PrefixBound = PrivateRest(len(plan), private, context.keys, horizon)
     untouched: Timed = no_bound
     if options.keep_prefix:
@@ -295,11 +295,12 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
     return Bounds(context.bound, context.steps, untouched, context.interactions)
 
 
-def _layers(context: SearchContext, plan: HumanPlan) -> list[list[tuple[Operator, JointAction]]]:
-    """Per epoch of ``pi_H`` what the human may do before the window; where waiting costs, wait or rest."""
+def prefix_rule(context: SearchContext, plan: HumanPlan) -> InLayers:
+    """Rule 1: what the human may do before the window; where waiting costs, wait or rest."""
     packed = context.packed
     idle = [*context.followed(packed.idling)] if packed.prices_waiting else []
-    return [idle if idle and step[0].action in packed.idling else [step] for step in context.followed(plan)]
+    steps = context.followed(plan)
+    return InLayers([idle if idle and step[0].action in packed.idling else [step] for step in steps])
 
 
 def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:

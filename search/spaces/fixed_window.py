@@ -8,10 +8,10 @@ from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
 from search.human.suffix_rules import Suffix
-from search.packed.joint_actions import NOTHING, JointAction
-from search.packed.operators import Operator, applicable
+from search.packed.joint_actions import JointAction
+from search.packed.operators import Operator
 from search.packed.successor_generator import Successors
-from search.spaces.factory import BoundsAlong, suffix_rule
+from search.spaces.factory import BoundsAlong, prefix_rule, suffix_rule
 from search.spaces.windowed import PREFIX, TOUCHED, WINDOW
 from serendipity.model.task.plans import Window
 from serendipity.model.task.task import HumanPlan
@@ -39,13 +39,14 @@ class Weighed:
     ) -> None:
         self.initial = context.packed.init
         self.horizon = horizon
-        self.steps = context.followed(plan)
+        self.prefix = prefix_rule(context, plan)
         self.successors = Successors(context.packed, weight, context.deadline, strict=context.options.strict)
         self.suffix: Suffix = suffix_rule(context, plan)
         opened = [0] * len(plan)
         along = BoundsAlong(context, plan, horizon, limit, opened, robots, idle=False)
         self.on_the_way: FirstInteractionOnTheWay = along.on_the_way
-        self._helped = along.off_plan
+        # It is not about what has been done, and in time only the last node of a window is its end.
+        self._helped = None if self.successors.in_time else along.off_plan
         self.bounds = Bounds(context.bound, context.steps, touches=context.interactions)
         self._choices: dict[int, list[Choice]] = {}
 
@@ -63,7 +64,7 @@ class FixedWindow:
     """The search space of plans that fit one window.
 
     Only the window's end is left open to waiting: a node inside it stands for everybody
-    waiting until the end, too.
+    waiting until the end, too, where nothing else happens by then.
 
     Args:
         weighed: what all windows share.
@@ -90,15 +91,16 @@ class FixedWindow:
     def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors; a node of the window is offered to ``best`` as the last in which anybody acts."""
         if node.phase == PREFIX:
-            op, option = self._weighed.steps[node.epoch]
-            if applicable(op, node.state):
-                yield from self._follow(node, option, best)
+            for part in self._weighed.prefix.options(node.epoch + 1, node.state):
+                yield from self._follow(node, part, best)
             return
-        self._end(node, best)
-        if node.epoch + 1 < self._window.end:
-            successors, state = self._weighed.successors, node.state
+        successors, state = self._weighed.successors, node.state
+        is_last = node.epoch + 1 == self._window.end
+        if is_last or not successors.in_time:
+            self._end(node, best)
+        if not is_last:
             going_on = successors.going_on(state)
-            free = (NOTHING, *successors.human(state), *successors.joint(state))
+            free = (*successors.idle, *successors.human(state), *successors.joint(state))
             for part in free if going_on is None else going_on:
                 yield from self._act(node, part, best)
 
@@ -143,8 +145,9 @@ class FixedWindow:
         return self._labels.add(self._place(epoch, state), epoch, key)
 
     def _place(self, epoch: int, state: int) -> int | tuple[int, int]:
-        """Before the window nobody waits: there epochs tell states apart."""
-        return state if epoch >= self._opens else (epoch, state)
+        """Where nobody waits for the end, before the window and in time, epochs tell states apart."""
+        early = epoch < self._opens or self._weighed.successors.in_time
+        return (epoch, state) if early else state
 
     def _end(self, node: Node, best: Incumbent) -> None:
         suffix, limit = self._weighed.suffix, best.key - node.key

@@ -36,7 +36,7 @@ def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
         return
     try:
         units = unit_steps(call.task, call.deadline, call.options.waiting_cost)
-        inner = _in_units(call, units)
+        inner = in_units(call, units)
         plans = [] if call.given is not None else _tied(call, units)
     except LIMITS as limit:
         yield Answer("unknown", reason=limit_reason(limit))
@@ -76,12 +76,16 @@ def _alone(call: Request, solver: Solver, whole: Task) -> Iterator[Answer]:
         yield answer._replace(human_plan=plan, steps=steps, horizon=horizon, realised={})
 
 
-def _in_units(call: Request, units: UnitSteps) -> Request:
-    """The call in single epochs.
+def in_units(call: Request, units: UnitSteps) -> Request:
+    """The call in single epochs; where it does not predict the human, they have no plan alone.
+
+    Args:
+        call: the call.
+        units: its task in single epochs.
 
     Raises:
         LimitReachedError: the deadline came.
-        PlanError: as :func:`answers_in_time`.
+        PlanError: the human's plan can't be executed after the head start, or misses the goal.
     """
     prepared, given = PreparedTask(units.task), None if call.given is None else units.plan(call.given)
     options, epochs = call.options.but(head_start=0, ties="fixed"), call.options.head_start

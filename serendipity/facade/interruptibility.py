@@ -3,16 +3,18 @@
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from typing import Any, Final, Unpack
 
 from search.modes.interruptions import Interruptions, WindowOutcome
 from search.modes.interruptions import interruptions as search_windows
-from serendipity.facade.call import options_from
+from serendipity.facade.call import Request, checked_call, options_from
+from serendipity.facade.in_time import in_units
 from serendipity.facade.prepared import HELD
-from serendipity.facade.results import named_steps
+from serendipity.facade.results import named_steps, plan_times
 from serendipity.model import Deadline, Options, PlanStep, Step, Table, Task, UsageError, Window
 from serendipity.model.answers.fields import written
-from serendipity.model.arguments import FUNCTION, TASK, expect, expect_or_none
+from serendipity.model.arguments import FUNCTION, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.errors import LIMITS, limit_reason, limit_words
 from serendipity.model.keywords import InterruptionOptions, listing
 from serendipity.model.numbers import plain
@@ -20,6 +22,10 @@ from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.table import Cell, Tabular
 from serendipity.model.task.execution import actions_of
+from serendipity.model.task.gate import needs_time
+from serendipity.model.task.horizon import horizon_of, require_few_epochs
+from serendipity.model.task.plans import PlanEntry, PlanTimes
+from serendipity.model.task.unit_steps import unit_steps
 from serendipity.model.telling import Grid, Line, Output
 
 SCHEMA: Final = "serendipity.interruptions/1"
@@ -121,6 +127,7 @@ class InterruptionReport(Tabular, Output):
         windows: ascending; where a limit came first, those that were examined.
         options: in force.
         limit: which limit that was (as ``Result.reason`` has it); None where the report is complete.
+        human_plan_times: of ``pi_H``, as in :class:`serendipity.model.Result`.
     """
 
     human: str
@@ -132,6 +139,7 @@ class InterruptionReport(Tabular, Output):
     windows: tuple[Interruption, ...]
     options: Options
     limit: str | None = None
+    human_plan_times: PlanTimes | None = None
 
     def table(self) -> Table:
         """The windows that were examined, one a row."""
@@ -145,14 +153,24 @@ class InterruptionReport(Tabular, Output):
     def to_dict(self) -> dict[str, Any]:
         """The JSON object (schema ``serendipity.interruptions/1``)."""
         options = self.options.to_dict()
-        names = ("limit", "human", "human_plan", "human_cost", "team_cost", "horizon", "interruptible")
+        timed = [] if self.human_plan_times is None else ["human_plan_times"]
+        names = (
+            "limit",
+            "human",
+            "human_plan",
+            *timed,
+            "human_cost",
+            "team_cost",
+            "horizon",
+            "interruptible",
+        )
         return {
             "schema": SCHEMA,
             "complete": self.complete,
             **written(self, names),
             "reason": "no-human-plan" if self.human_plan is None else None,
             **written(self, ("windows",)),
-            "options": {name: options[name] for name in _OPTIONS},
+            "options": {name: options[name] for name in _OPTIONS if name in options},
         }
 
     def told(self, *, every: bool = False) -> Iterator[Line | Grid]:
@@ -214,14 +232,16 @@ def drawn(report: InterruptionReport, suffix: str) -> str | bytes:
         f"{report.human} saves at most": {entry.window: entry.human_saving for entry in report.windows},
         "the team saves at most": {entry.window: entry.team_saving for entry in report.windows},
     }
-    return draw_windows(maps, len(report.human_plan or ()), report.horizon or 0, suffix)
+    times = report.human_plan_times
+    starts = len(report.human_plan or ()) if times is None else times.epochs
+    return draw_windows(maps, starts, report.horizon or 0, suffix)
 
 
 @listing
 def interruptions(
     task: Task,
     *,
-    human_plan: Iterable[str] | None = None,
+    human_plan: Iterable[PlanEntry] | None = None,
     on_progress: Callable[[int, int], None] | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
@@ -235,29 +255,56 @@ def interruptions(
 
     Args:
         task: the task.
-        human_plan: names of the actions that the human is going to do; None predicts them.
+        human_plan: the human's plan, as for :func:`serendipity.plan`; None predicts it.
         on_progress: called with the number of searches done, and of all (two for each window).
         time_limit: seconds, or None.
         memory_limit: what the process may have in memory, in MiB, or None.
         deadline: one that other work shares; it holds beside both limits.
-        **options: ``discount``, ``horizon``, ``suffix``, ``preservation``, ``interference``.
+        **options: ``discount``, ``horizon``, ``suffix``, ``preservation``, ``interference``,
+            ``waiting_cost``, ``head_start``.
 
     Raises:
         UsageError: an option is not one of these, or has no legal value.
         PlanError: ``human_plan`` can't be executed, or misses the goal.
         LimitReachedError: a limit came before it was known what the human is going to do.
     """
-    expect(TASK, task=task)
+    expect(TASK_IN_TIME, task=task)
     limits = limits_from(time_limit, memory_limit, deadline)
     expect_or_none(FUNCTION, on_progress=on_progress)
     for name in options:
         if name not in _OPTIONS:
             raise UsageError(f"interruptions: expected options among {', '.join(_OPTIONS)}, got '{name}'")
     chosen = options_from(options)
-    given = None if human_plan is None else task.plan_from_names(human_plan)
+    given = None if human_plan is None else partial(task.plan_from_names, human_plan)
     with HELD.taken(task) as prepared, no_collection():  # beside a large task a collection takes long
-        found = search_windows(prepared, chosen, human_plan=given, deadline=limits, on_progress=on_progress)
-        return _alone_impossible(task, chosen) if found is None else _reported(task, chosen, found)
+        call = checked_call(prepared, chosen, given, None, None, limits)
+        if needs_time(task, options=chosen, plan=call.given):
+            return _in_time(call, on_progress)
+        found = _searched(call, on_progress)
+        if found is None:
+            return _alone_impossible(task, chosen)
+        return _reported(task, chosen, found, task.cost_of(found.human_plan))
+
+
+def _searched(call: Request, on_progress: Callable[[int, int], None] | None) -> Interruptions | None:
+    asked: dict[str, Any] = {"human_plan": call.given, "deadline": call.limits, "on_progress": on_progress}
+    return search_windows(call.prepared, call.options, **asked) if call.predicts else None
+
+
+def _in_time(call: Request, on_progress: Callable[[int, int], None] | None) -> InterruptionReport:
+    """The report where epochs count: looked for in single ones, told in whole actions."""
+    require_few_epochs(call.task)
+    units = unit_steps(call.task, call.limits, call.options.waiting_cost)
+    found = _searched(in_units(call, units), on_progress)
+    if found is None:
+        return _alone_impossible(call.task, call.options)
+    plan = units.begun(found.human_plan)
+    horizon_of(call.task, call.options, plan)  # which says whether what it reaches lasts
+    windows = (
+        one if one.steps is None else replace(one, steps=units.steps(one.steps)) for one in found.windows
+    )
+    told = replace(found, human_plan=plan, windows=windows)
+    return _reported(call.task, call.options, told, units.task.cost_of(found.human_plan))
 
 
 def _alone_impossible(task: Task, options: Options) -> InterruptionReport:
@@ -265,10 +312,9 @@ def _alone_impossible(task: Task, options: Options) -> InterruptionReport:
     return InterruptionReport(human, None, None, None, None, interruptible=False, windows=(), options=options)
 
 
-def _reported(task: Task, options: Options, found: Interruptions) -> InterruptionReport:
+def _reported(task: Task, options: Options, found: Interruptions, alone: Fraction) -> InterruptionReport:
     """The windows examined before a limit comes, each put into words at once: that takes time, too."""
     windows: dict[Window, Interruption] = {}
-    alone = task.cost_of(found.human_plan)
     limit = None
     try:
         for outcome in found.windows:
@@ -289,6 +335,7 @@ def _reported(task: Task, options: Options, found: Interruptions) -> Interruptio
         windows=_marked([windows[window] for window in sorted(windows)]),
         options=options,
         limit=limit,
+        human_plan_times=plan_times(task, found.human_plan),
     )
 
 

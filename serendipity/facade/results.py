@@ -36,7 +36,7 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
         human=task.agents[task.human],
         options=options,
         human_plan=_names(task, answer.human_plan),
-        human_plan_times=_times(task, answer.human_plan),
+        human_plan_times=plan_times(task, answer.human_plan),
         bystanders=_bystanders(task),
         human_cost=rounded(human_cost),
         opportunity=answer.opportunity,
@@ -90,7 +90,7 @@ def _names(task: Task, plan: HumanPlan | None) -> tuple[str, ...] | None:
     return None if plan is None else tuple(task.actions[i].name for i in plan)
 
 
-def _times(task: Task, plan: HumanPlan | None) -> PlanTimes | None:
+def plan_times(task: Task, plan: HumanPlan | None) -> PlanTimes | None:
     """The times of a human plan; None where its actions follow one another, an epoch each."""
     if plan is None or not (task.needs_time or isinstance(plan, TimedPlan)):
         return None
@@ -138,7 +138,7 @@ def _tried(row: Tried) -> dict[str, Any]:
 def _tied(task: Task, discount: Fraction, answer: Answer, status: str) -> TiedAnswer:
     """One of the answers over ties; with its plan where not all is proved, as evidence."""
     names = _names(task, answer.human_plan) or ()
-    verdicts, times = dict(answer.realised or {}), _times(task, answer.human_plan)
+    verdicts, times = dict(answer.realised or {}), plan_times(task, answer.human_plan)
     found = TiedAnswer(names, rounded(answer.cost), answer.opportunity, verdicts, human_plan_times=times)
     if status != "feasible":
         return found
@@ -153,5 +153,5 @@ def _goal(task: Task, discount: Fraction, goal: ServedGoal) -> GoalAnswer:
         rounded(goal.cost),
         goal.window,
         _plan(task, discount, goal.steps),
-        _times(task, goal.human_plan),
+        plan_times(task, goal.human_plan),
     )

@@ -40,6 +40,8 @@ class InterruptionOptions(TypedDict, total=False):
     suffix: Suffix
     preservation: Preservation
     interference: Interference
+    waiting_cost: Number
+    head_start: int
 
 
 class AnswerOptions(InterruptionOptions, total=False):
@@ -55,8 +57,6 @@ class AnswerOptions(InterruptionOptions, total=False):
     ties: Ties
     max_ties: int
     no_block: bool | None
-    waiting_cost: Number
-    head_start: int
     policy: PolicyRule
     risk: Risk
 

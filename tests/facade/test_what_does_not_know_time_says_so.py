@@ -22,7 +22,6 @@ def plain() -> Task:
 
 
 CALLS: dict[str, Callable[[Task], Any]] = {
-    "interruptions": serendipity.interruptions,
     "explain": serendipity.explain,
     "Session": serendipity.Session,
     "execute": lambda one: serendipity.execute(one),

@@ -1,4 +1,4 @@
-"""The refusal of time where nothing knows it yet, all but plan: every such call comes by here."""
+"""The refusal of time where nothing knows it yet: every such call comes by here."""
 
 from typing import TYPE_CHECKING
 
