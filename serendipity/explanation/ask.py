@@ -15,6 +15,8 @@ from typing import Any, Final, NamedTuple
 from serendipity.facade.interruptibility import InterruptionReport
 from serendipity.facade.planning import plan
 from serendipity.model import Deadline, LimitReachedError, Options, Result, Task
+from serendipity.model.task.plans import PlanEntry
+from serendipity.model.task.plans_in_time import waited
 from serendipity.model.task.task import canonical_name
 
 PROVED: Final = ("optimal", "infeasible")
@@ -29,7 +31,7 @@ class Ask:
     """
 
     def __init__(
-        self, task: Task, options: Options, human_plan: Sequence[str] | None, deadline: Deadline
+        self, task: Task, options: Options, human_plan: Sequence[PlanEntry] | None, deadline: Deadline
     ) -> None:
         self.task = task
         self.options = options
@@ -72,7 +74,7 @@ class Parts:
     """What a composite plan costs, as a function of the discount.
 
     Attributes:
-        human: undiscounted cost of what the human takes part in.
+        human: undiscounted cost of what the human takes part in, waiting included.
         robots: undiscounted cost of everything else.
         announced: communication cost.
         length: epochs of the window, 0 without one.
@@ -95,7 +97,9 @@ class Parts:
 def parts_of(task: Task, result: Result) -> Parts:
     """The parts of an answer's plan, exact whatever its discount."""
     former = set(result.human_plan or ())
-    human = robots = announced = Fraction(0)
+    robots = announced = Fraction(0)
+    begun = [(step.epoch, step.duration) for step in result.plan or () if result.human in step.agents]
+    human = result.options.waiting_cost * waited(begun)
     for step in result.plan or ():
         cost = cost_of(task, step.action)
         if result.human not in step.agents:
@@ -105,6 +109,14 @@ def parts_of(task: Task, result: Result) -> Parts:
         if step.action not in former and result.options.mode == "communication":
             announced += cost * result.options.communication_weight
     return Parts(human, robots, announced, 0 if result.window is None else len(result.window))
+
+
+def _alone(task: Task, result: Result) -> Fraction:
+    """What the human pays alone."""
+    names, times = result.human_plan or (), result.human_plan_times
+    begun = () if times is None else zip(times.starts, times.durations, strict=True)
+    waiting = result.options.waiting_cost * waited(begun)
+    return sum((cost_of(task, name) for name in names), waiting)
 
 
 def cost_of(task: Task, name: str) -> Fraction:
@@ -156,7 +168,7 @@ def discount_threshold(ask: Ask) -> Threshold:
     value, answer = Fraction(1), ask(discount=1)
     if not answer.opportunity:
         return Threshold("discount", None, False, (_confirm(ask, "discount", value),))
-    alone = sum((cost_of(ask.task, name) for name in ask().human_plan or ()), Fraction(0))
+    alone = _alone(ask.task, ask())
     nothing = alone + (
         ask.options.window_weight if ask.options.windowed else 0
     )  # ``pi_H`` in its best window

@@ -6,15 +6,17 @@ from typing import Final, TypeVar, Unpack
 
 from serendipity.explanation.ask import PROVED, Ask, discount_threshold, parts_of, window_weight_threshold
 from serendipity.explanation.explanation import Explanation, misses, moments, removal_of
+from serendipity.explanation.waiting import waits
 from serendipity.explanation.wording import sentences
 from serendipity.facade.call import options_from
 from serendipity.facade.interruptibility import InterruptionReport, interruptions
-from serendipity.model import Deadline, LimitReachedError, Result, Task, UsageError
-from serendipity.model.arguments import FUNCTION, RESULT, TASK, expect, expect_or_none
+from serendipity.model import Deadline, LimitReachedError, PlanError, Result, Task, UsageError
+from serendipity.model.arguments import FUNCTION, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.keywords import AnswerOptions, InterruptionOptions, listing
 from serendipity.model.resources.limits import limits_from
-from serendipity.model.task.gate import refuse_time
+from serendipity.model.task.plans import PlanEntry
+from serendipity.model.task.plans_in_time import times_of
 
 _MODES: Final = ("serendipity", "communication", "composite")
 _REPORTED: Final = tuple(InterruptionOptions.__annotations__)
@@ -29,7 +31,7 @@ def explain(
     task: Task,
     result: Result | None = None,
     *,
-    human_plan: Iterable[str] | None = None,
+    human_plan: Iterable[PlanEntry] | None = None,
     on_progress: OnProgress = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
@@ -43,7 +45,7 @@ def explain(
     Args:
         task: the task.
         result: an answer to explain; its options and human plan hold.  None plans first.
-        human_plan: without ``result``: what the human is going to do; None predicts it.
+        human_plan: without ``result``: the human's plan, as for :func:`serendipity.plan`; None predicts it.
         on_progress: called while windows are examined: how many searches are done, and of how many.
         time_limit: seconds for the whole explanation, or None.
         memory_limit: what the process may have in memory, in MiB, or None.
@@ -57,27 +59,46 @@ def explain(
         LimitReachedError: a limit came before there was any answer to explain.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
-    expect(TASK, task=task)
-    expect_or_none(RESULT, result=result)
+    expect(TASK_IN_TIME, task=task)
+    expect_or_none(RESULT_IN_TIME, result=result)
     expect_or_none(FUNCTION, on_progress=on_progress)
     if result is not None and (options or human_plan is not None):
         raise UsageError("explain: expected a result or options, got both")
     asked = result.options if result else options_from(options)
-    refuse_time(options=asked)
     chosen = asked.but(ties="fixed", time_limit=None, memory_limit=None)
     if chosen.mode not in _MODES or chosen.human_model != "omniscient":
         raise UsageError(
             f"explain: expected mode {', '.join(_MODES)} and human model 'omniscient', "
             f"got '{chosen.mode}' and '{chosen.human_model}'"
         )
-    names = result.human_plan if result is not None else human_plan
-    given = None if names is None else tuple(task.actions[i].name for i in task.plan_from_names(names))
-    ask = Ask(task, chosen, given, limits)
+    ask = Ask(task, chosen, _entries(task, human_plan if result is None else _before(task, result)), limits)
     proved = result is not None and result.plan is not None and result.status == "optimal"
     answer = result if result is not None and proved else ask.attempt()
     if answer.status == "unknown":
         raise LimitReachedError(ask.limit_of(answer), "planning")
     return _explained(ask, answer, on_progress)
+
+
+def _entries(task: Task, given: Iterable[PlanEntry] | None) -> tuple[PlanEntry, ...] | None:
+    """A plan of the human's as it is given again: with epochs, where these say more than the order."""
+    if given is None:
+        return None
+    plan = task.plan_from_names(given)
+    names, times = tuple(task.actions[i].name for i in plan), times_of(task, plan)
+    return names if times.plain else times.entries(names)
+
+
+def _before(task: Task, result: Result) -> tuple[PlanEntry, ...] | None:
+    """The human's plan of a result without its head start; None where only prediction knows one that fits."""
+    entries, early = result.human_entries, result.options.head_start
+    if entries is None or not early:
+        return entries
+    sooner = tuple((entry[0] - early, entry[1]) for entry in entries if not isinstance(entry, str))
+    try:
+        task.plan_from_names(sooner)
+    except PlanError:
+        return None
+    return sooner
 
 
 class _Findings:
@@ -107,10 +128,12 @@ def _explained(ask: Ask, answer: Result, on_progress: OnProgress) -> Explanation
     windows = has_plan and options.mode == "serendipity"
     priced = has_plan and _has_thresholds(ask, answer)
     helpless = has_plan and not answer.opportunity
+    early = answer.opportunity and bool(options.head_start)
     findings = _Findings(None if answer.status in PROVED else ask.limit_of(answer))
     told = findings.about(
         "announcement", lambda: ask(mode="communication", keep_prefix=False), wanted=windows
     )
+    at_once = findings.about("head_start", lambda: ask(head_start=0), wanted=early)
     discount = findings.about("discount", lambda: discount_threshold(ask), wanted=priced)
     missed = findings.about("miss", lambda: misses(ask, None), wanted=helpless)
     report = findings.about("moment", lambda: _report(ask, on_progress), wanted=windows)
@@ -127,6 +150,9 @@ def _explained(ask: Ask, answer: Result, on_progress: OnProgress) -> Explanation
         window_weight=weight,
         announcement=told,
         misses=missed or (),
+        waits=waits(ask.task, answer),
+        at_once=at_once,
+        epoch=ask.task.epoch if ask.task.needs_time or answer.in_time else None,
         limit=findings.limit,
         left_out=tuple(findings.left_out),
     )

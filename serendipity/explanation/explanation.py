@@ -7,6 +7,7 @@ from itertools import groupby
 from typing import Any, Final
 
 from serendipity.explanation.ask import Ask, Parts, Threshold
+from serendipity.explanation.waiting import Wait
 from serendipity.facade.interruptibility import Interruption, InterruptionReport, Removal, removal
 from serendipity.model import Result, Window
 from serendipity.model.answers.fields import Written, written
@@ -192,10 +193,13 @@ class Explanation(Output):
         window_weight: the greatest ``K`` at which longer interruptions help; None where not computed.
         announcement: the answer in communication mode, or None.
         misses: what would help if a rule were relaxed; empty where a robot helps anyway.
+        waits: actions that begin no sooner, and why, as far as script, head start or the human's plan say.
+        at_once: the answer without the head start; None where there is none, or no help.
+        epoch: how long an epoch is, in the unit of the input; None where nothing takes time.
         sentences: all of it in words, topic by topic.
         limit: which limit came before everything was found out (as ``Result.reason`` has it), or None.
         left_out: what is missing for it: ``moment``, ``discount``, ``window_weight``,
-            ``announcement``, ``miss``.
+            ``announcement``, ``head_start``, ``miss``.
     """
 
     answer: Result
@@ -206,6 +210,9 @@ class Explanation(Output):
     window_weight: Threshold | None
     announcement: Result | None
     misses: tuple[Miss, ...]
+    waits: tuple[Wait, ...] = ()
+    at_once: Result | None = None
+    epoch: Fraction | None = None
     sentences: tuple[tuple[str, str], ...] = ()
     limit: str | None = None
     left_out: tuple[str, ...] = ()
@@ -228,7 +235,7 @@ class Explanation(Output):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object (schema ``serendipity.explanation/1``)."""
-        answer, gone, told = self.answer, self.removal, self.announcement
+        answer, gone, told, early = self.answer, self.removal, self.announcement, self.at_once
         return {
             "schema": SCHEMA,
             "complete": self.complete,
@@ -244,7 +251,8 @@ class Explanation(Output):
             "break_even_discount": None if self.discount is None else self.discount.to_dict(),
             "break_even_window_weight": None if self.window_weight is None else self.window_weight.to_dict(),
             "announcement": None if told is None else {"cost": told.cost, "opportunity": told.opportunity},
-            **written(self, ("misses",)),
+            **written(self, ("misses", *(() if self.epoch is None else ("epoch", "waits")))),
+            **({} if early is None else {"at_once": {"cost": early.cost, "opportunity": early.opportunity}}),
             "sentences": [{"topic": topic, "text": text} for topic, text in self.sentences],
             "options": answer.options.to_dict(),
         }

@@ -7,6 +7,7 @@ from typing import Final
 
 from serendipity.explanation.ask import Threshold
 from serendipity.explanation.explanation import RULES, WHY, Explanation, Miss, Moment
+from serendipity.explanation.waiting import Wait
 from serendipity.model import Result, Window
 from serendipity.model.errors import limit_words
 from serendipity.model.numbers import as_written, plain
@@ -16,6 +17,7 @@ _MISSING: Final = {
     "discount": "from which discount on help pays",
     "window_weight": "up to which window weight a longer interruption would help",
     "announcement": "what a word in advance would gain",
+    "head_start": "what help is worth without the head start",
     "miss": "what would help if a rule were relaxed",
 }
 """What would have been told of what is left out."""
@@ -36,6 +38,7 @@ def sentences(found: Explanation) -> Iterator[Sentence]:
     if answer.saving_alone:
         yield "help", f"{answer.human} could save {plain(answer.saving_alone)} without any robot."
     for topic, part in (
+        ("waiting", _waiting(found)),
         ("moment", _moments(found)),
         ("discount", _discount(found)),
         ("announcement", _announcement(found)),
@@ -63,7 +66,7 @@ def _help(found: Explanation) -> Iterator[str]:
         yield "Nothing has to take their place."
     theirs = [step for step in answer.plan or () if answer.human not in step.agents]
     if theirs:
-        yield f"Robots do: {'; '.join(f'{step.action} (epoch {step.epoch})' for step in theirs)}."
+        yield f"Robots do: {'; '.join(f'{step.action} ({_begin(found, step.epoch)})' for step in theirs)}."
     yield (
         f"{answer.human} pays {plain(parts.human)} instead of {plain(answer.human_cost or 0)}; "
         f"the robots' work costs {plain(parts.discounted(answer.options))}; "
@@ -88,6 +91,36 @@ def _no_help(answer: Result) -> Iterator[str]:
             f"No help: nothing that follows the rules of mode {answer.mode} costs less than the "
             f"{plain(answer.human_cost or 0)} that {answer.human} pays alone."
         )
+
+
+def _begin(found: Explanation, epoch: int) -> str:
+    """An epoch; where there is a clock, with the time at its beginning."""
+    return f"epoch {epoch}" if found.epoch is None else f"epoch {epoch}, at {_end(found, epoch - 1)}"
+
+
+def _end(found: Explanation, epoch: int) -> str:
+    """The time at the end of an epoch."""
+    return plain((found.epoch or 1) * epoch)
+
+
+def _waiting(found: Explanation) -> Iterator[str]:
+    for wait in found.waits:
+        begins = f"'{wait.action}' begins in {_begin(found, wait.epoch)}, and no sooner"
+        yield f"{' and '.join(wait.agents)}: {begins}: {_until(found, wait)}."
+    if found.at_once is not None:
+        now, then = found.answer.saving, found.at_once.saving if found.at_once.opportunity else 0
+        instead = "as much" if now == then else f"{plain(then)} instead of {plain(now)}"
+        yield f"Without the head start help would save {instead}."
+
+
+def _until(found: Explanation, wait: Wait) -> str:
+    until = _end(found, wait.until or 0)
+    if wait.why == "fact":
+        fact = (wait.cause or "").removeprefix("!")
+        return f"{fact} becomes {'true' if fact == wait.cause else 'false'} at {until}"
+    if wait.why == "bystander":
+        return f"'{wait.cause}' is over at {until}"
+    return f"the head start is over at {until}" if wait.why == "head-start" else "the plan has it so"
 
 
 def _moments(found: Explanation) -> Iterator[str]:

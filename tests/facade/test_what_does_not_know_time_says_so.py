@@ -22,7 +22,6 @@ def plain() -> Task:
 
 
 CALLS: dict[str, Callable[[Task], Any]] = {
-    "explain": serendipity.explain,
     "Session": serendipity.Session,
     "execute": lambda one: serendipity.execute(one),
     "recognise": lambda one: serendipity.recognise(one, [{"name": "g", "goal": ["done"]}]),
@@ -45,7 +44,7 @@ def test_waiting_is_refused_elsewhere() -> None:
     assert (waiting.status, waiting.horizon) == ("optimal", 3)
     assert serendipity.verify(plain(), waiting).verdict == "proved"
     with pytest.raises(UsageError, match="time: the human waits in their plan"):
-        serendipity.explain(plain(), waiting)
+        serendipity.simulate(plain(), waiting)
 
 
 def test_waiting_is_kept_and_paid_for_where_a_plan_is_given() -> None:
@@ -59,7 +58,7 @@ def test_what_has_a_head_start_is_refused_elsewhere() -> None:
     begun = serendipity.plan(plain(), head_start=2)
     assert (begun.status, begun.horizon) == ("optimal", 3)
     with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
-        serendipity.explain(plain(), begun)
+        serendipity.simulate(plain(), begun)
     with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
         serendipity.Session(plain(), head_start=2).plan()
 

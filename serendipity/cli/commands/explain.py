@@ -5,7 +5,7 @@ from typing import Annotated, Final
 
 import serendipity
 from serendipity.cli.exit_codes import OF_STATUS
-from serendipity.cli.files.plans import checked_plan
+from serendipity.cli.files.plans import timed_plan
 from serendipity.cli.files.reading import about, read_json
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
@@ -31,7 +31,7 @@ def explain(
     named = list(task.files or ())
     answer = named.pop() if named and named[-1].suffix == ".json" else None
     loaded = task.but(files=named).load(deadline)
-    given = checked_plan(options.human_plan, loaded)
+    given = None if options.human_plan is None else timed_plan(options.human_plan, loaded)
     result = None if answer is None else _read(loaded, answer, deadline)
     with progress.counting("searches") as on_progress, limits.during("planning"):
         found = serendipity.explain(

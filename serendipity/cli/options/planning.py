@@ -73,7 +73,7 @@ _ALL: Final = (
 
 WINDOWS: Final = tuple(name for name in _ALL if name in (*InterruptionOptions.__annotations__, "human_plan"))
 """What makes a difference to windows."""
-EXPLAINED: Final = _ALL[: _ALL.index("keep_prefix")]
+EXPLAINED: Final = (*_ALL[: _ALL.index("keep_prefix")], "waiting_cost", "head_start")
 """What can be explained."""
 _UNKNOWN: Final = ("human_model", "no_block", "waiting_cost", "head_start", "policy", "risk", "strategies")
 PROGRAMS: Final = tuple(name for name in _ALL if name not in _UNKNOWN)
