@@ -1,17 +1,18 @@
 """What carries out what robots do in a run, by name, and how unreliable they are."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from random import Random
 from typing import Final
 
 from serendipity.model import Task, UsageError, exact
 from serendipity.model.arguments import Kind, expect_or_none, shown
+from serendipity.model.rates import Rates
 from serendipity.robot import Adapter, Durations, Simulated
 
 
 @dataclass(frozen=True, slots=True)
-class Faults:
+class Faults(Rates):
     """How unreliable robots are; each is a probability.
 
     Attributes:
@@ -27,41 +28,9 @@ class Faults:
     slow: float = 0.0
     drop: float = 0.0
 
-    def __post_init__(self) -> None:
-        for field in fields(self):
-            object.__setattr__(self, field.name, probability(getattr(self, field.name), field.name))
-
-    @classmethod
-    def parse(cls, text: str) -> "Faults":
-        """Faults as a command line names them: ``fail=0.1,slow=0.1,drop=0.01``.
-
-        Raises:
-            UsageError: it is of another form.
-        """
-        names = [field.name for field in fields(cls)]
-        found: dict[str, float] = {}
-        for part in text.replace(" ", "").split(","):
-            name, equals, value = part.partition("=")
-            if not equals or name not in names or name in found:
-                raise UsageError(f"faults: expected some of fail=P,slow=P,drop=P, got '{text}'")
-            found[name] = probability(value, name)
-        return cls(**found)
-
     def dropped(self, robots: Sequence[str], dice: Random) -> list[str]:
         """Those of some robots that drop out now."""
         return [robot for robot in robots if dice.random() < self.drop] if self.drop else []
-
-
-def probability(value: float | str, what: str) -> float:
-    """A probability.
-
-    Raises:
-        UsageError: it is no number from 0 to 1.
-    """
-    found = exact(value, what)
-    if not 0 <= found <= 1:
-        raise UsageError(f"{what}: expected a probability from 0 to 1, got {float(found):g}")
-    return float(found)
 
 
 ADAPTERS: Final = ("simulated", "pybullet")

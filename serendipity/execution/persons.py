@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 from search import PreparedTask
 from search.modes.simulation.human import Human
 from search.packed.operators import applicable
-from serendipity.execution.adapters import probability
 from serendipity.model import Deadline, HumanPlan, InputError, Options, PlanStep, Task, UsageError
+from serendipity.model.rates import probability
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import canonical_name

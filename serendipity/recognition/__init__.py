@@ -2,7 +2,7 @@
 
 from serendipity.model.answers.recognition import GoalPosterior, Recognition
 from serendipity.recognition.library import LibraryGiven, LibraryPlan, plan_library
-from serendipity.recognition.recognise import CandidateGoal, GoalsGiven, ObservedGiven, recognise
+from serendipity.recognition.recognise import CandidateGoal, GoalsGiven, Noise, ObservedGiven, recognise
 
 __all__ = [
     "CandidateGoal",
@@ -10,6 +10,7 @@ __all__ = [
     "GoalsGiven",
     "LibraryGiven",
     "LibraryPlan",
+    "Noise",
     "ObservedGiven",
     "Recognition",
     "plan_library",

@@ -7,16 +7,17 @@ Files of goals: a JSON list of ``{"name": ..., "goal": [literals], "prior": ...}
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
 from os import PathLike
 from typing import Any
 
-from search.modes.goals import Likelihood, explanations
+from search.modes.goals import Explainer, Likelihood, Prices, Reading
 from serendipity.model import Condition, Deadline, InputError, Task, UsageError, exact
-from serendipity.model.answers.recognition import GoalPosterior, Recognition
-from serendipity.model.arguments import LIST, TASK, Kind, expect
+from serendipity.model.answers.recognition import Errors, GoalPosterior, Recognition
+from serendipity.model.arguments import LIST, TASK, Kind, expect, expect_or_none
 from serendipity.model.numbers import Number, as_written
+from serendipity.model.rates import Rates
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.task.names import no_fact
@@ -29,6 +30,27 @@ GoalsGiven = str | PathLike[str] | Iterable[Mapping[str, Any]]
 
 ObservedGiven = str | PathLike[str] | Iterable[str]
 """A file of actions, or their names."""
+
+
+@dataclass(frozen=True, slots=True)
+class Noise(Rates):
+    """How far what was seen can be trusted; each is a probability (semantics 8).
+
+    Attributes:
+        miss: that an action that was done is not seen; 0 if that is not known, and gaps weigh nothing.
+        wrong: that something that was seen was not done.
+
+    Raises:
+        UsageError: one of them is no probability.
+    """
+
+    miss: float = 0.0
+    wrong: float = 0.0
+
+    def prices(self, beta: float) -> Prices:
+        """What plans and errors weigh."""
+        wrong = -math.log(self.wrong) if self.wrong else math.inf
+        return Prices(beta, wrong, -math.log(self.miss) if self.miss else 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,6 +222,7 @@ def recognise(
     observed: ObservedGiven = (),
     beta: Number = 1,
     *,
+    noise: Noise | str | None = None,
     time_limit: float | None = None,
     memory_limit: float | None = None,
     deadline: Deadline | None = None,
@@ -216,6 +239,7 @@ def recognise(
             are ``"fact"``, ``"!fact"`` or ``"(not (fact))"``.
         observed: a file with an action a line, or a list of names.
         beta: at least 0; 0 learns only from what is impossible.
+        noise: how often actions are missed and observations are wrong; also ``"miss=0.1,wrong=0.05"``.
         time_limit: seconds, or None.
         memory_limit: what the process may have in memory, in MiB, or None.
         deadline: one that other work shares; it holds beside both limits.
@@ -230,9 +254,15 @@ def recognise(
     expect(TASK, task=task)
     candidates = candidate_goals(task, goals)
     names = observed_actions(task, observed)
+    rates = Noise.parse(noise) if isinstance(noise, str) else noise
+    expect_or_none(Kind("Noise, or a text", lambda value: isinstance(value, Noise)), noise=rates)
+    strict = strictness(beta)
+    explainer = Explainer(task, [candidate.goal for candidate in candidates])
     with no_collection():  # beside a large task a collection takes longer than a short deadline
-        found = explanations(task, [candidate.goal for candidate in candidates], names, limits)
-    return posterior(task, candidates, names, found, strictness(beta))
+        found = explainer.explain(names, limits)
+        noisy = rates if rates and (rates.miss or rates.wrong) else None
+        read = explainer.readings(names, noisy.prices(strict), limits) if noisy else None
+    return posterior(task, candidates, names, found, strict, noisy, read)
 
 
 def strictness(beta: Number) -> float:
@@ -253,6 +283,8 @@ def posterior(
     observed: tuple[str, ...],
     found: Sequence[Likelihood],
     beta: float,
+    noise: Noise | None = None,
+    readings: Sequence[Reading | None] | None = None,
 ) -> Recognition:
     """Bayes' rule over the candidates; their priors, if none explains the observations.
 
@@ -262,8 +294,14 @@ def posterior(
         observed: names of the observed actions, in order.
         found: ``cost(G, O)`` and ``cost(G, not O)`` of each candidate, in the same order.
         beta: how strictly the human is taken to minimise cost, per unit of cost.
+        noise: of the observations, if there is any.
+        readings: with noise, each candidate's likeliest one.
     """
-    logs = [_log_likelihood(explanation, beta) for explanation in found]
+    read = readings or [None] * len(found)
+    logs = [
+        _log_likelihood(explanation, beta) if noise is None else _log_of(one, explanation, noise.prices(beta))
+        for explanation, one in zip(found, read, strict=True)
+    ]
     known = [log for log, candidate in zip(logs, candidates, strict=True) if candidate.prior]
     most = max(known)
     explained = most > -math.inf
@@ -288,13 +326,20 @@ def posterior(
                 weight=share / total,
                 with_observed=explanation.with_observed,
                 without_observed=explanation.without_observed,
-                plan=None
-                if explanation.plan is None
-                else tuple(task.actions[i].name for i in explanation.plan),
+                plan=_names(task, explanation if one is None else one),
+                errors=None if one is None else Errors(one.cost, one.wrong, one.missed),
             )
-            for candidate, explanation, log, share in zip(candidates, found, logs, shares, strict=True)
+            for candidate, explanation, one, log, share in zip(
+                candidates, found, read, logs, shares, strict=True
+            )
         ),
+        noise=None if noise is None else asdict(noise),
     )
+
+
+def _names(task: Task, known: Likelihood | Reading) -> tuple[str, ...] | None:
+    """The actions of the plan that is considered, if there is one."""
+    return None if known.plan is None else tuple(task.actions[i].name for i in known.plan)
 
 
 def _log_likelihood(explanation: Likelihood, beta: float) -> float:
@@ -305,6 +350,18 @@ def _log_likelihood(explanation: Likelihood, beta: float) -> float:
         return 0.0
     gain = beta * float(explanation.without_observed - explanation.with_observed)
     return -math.log1p(math.exp(-gain)) if gain >= 0 else gain - math.log1p(math.exp(gain))
+
+
+def _log_of(reading: Reading | None, explanation: Likelihood, prices: Prices) -> float:
+    """The same of noisy observations."""
+    if reading is None:
+        return -math.inf
+    costs = (explanation.with_observed, explanation.without_observed)
+    weights = [-prices.cost * float(cost) for cost in costs if cost is not None]
+    best = max(weights)
+    errors = (reading.wrong, prices.wrong), (reading.missed, prices.missed)
+    said = -prices.cost * float(reading.cost) - sum(count * price for count, price in errors if count)
+    return said - best - math.log(sum(math.exp(weight - best) for weight in weights))
 
 
 def _likelihood(explanation: Likelihood, log: float) -> float | None:

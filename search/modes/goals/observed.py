@@ -5,10 +5,12 @@ observation as early as possible decides that, so a search over (state, number o
 matched) is exact; a plan that does not embed them never matches the last one.
 """
 
+import math
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Final, NamedTuple
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
@@ -23,6 +25,9 @@ from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
 from serendipity.model.task.task import HumanPlan, Task
+
+_EXACT: Final = 1 << 20
+"""Logarithms are whole numbers of such parts in a search."""
 
 _At = tuple[int, int]
 """A packed state, and how many observations have been matched."""
@@ -41,6 +46,36 @@ class Likelihood:
     with_observed: Fraction | None
     without_observed: Fraction | None
     plan: HumanPlan | None
+
+
+class Reading(NamedTuple):
+    """A plan for a goal, and how what was seen is read in it (semantics 8).
+
+    Attributes:
+        cost: of the plan.
+        wrong: observations that are none of its actions.
+        missed: its actions before the last one that was seen which were not.
+        plan: action ids.
+    """
+
+    cost: Fraction
+    wrong: int
+    missed: int
+    plan: HumanPlan
+
+
+class Prices(NamedTuple):
+    """What a reading weighs: the logarithm of how much less likely each makes it.
+
+    Attributes:
+        cost: a unit of the plan's cost (``beta``).
+        wrong: an observation that is wrong.
+        missed: an action that was missed.
+    """
+
+    cost: float
+    wrong: float
+    missed: float
 
 
 class Explainer:
@@ -74,6 +109,13 @@ class Explainer:
             self._last[i] = names, likelihood
             found.append(likelihood)
         return found
+
+    def readings(
+        self, observed: Sequence[str], prices: Prices, deadline: Deadline | None = None
+    ) -> list[Reading | None]:
+        """For each goal the likeliest of all plans and readings, as :func:`explain` otherwise."""
+        deadline, names = deadline or Deadline(), tuple(observed)
+        return [_ObservedSearch(one, names, deadline).reading(prices) for one in self._prepared]
 
     def at(self, state: frozenset[int]) -> "Explainer":
         """The same from another state."""
@@ -149,6 +191,7 @@ class _ObservedSearch:
         self._keys = context.keys
         self._names = {i: task.actions[i].name for i in own}
         self._goal = packed.goal
+        self._task = task
         self._bound = context.bound
         self._observed = observed
         self._deadline = deadline
@@ -208,6 +251,49 @@ class _ObservedSearch:
             action, at = edges[at][0]
             plan.append(action)
         return search.spent[ends[0]], tuple(plan)
+
+    def reading(self, prices: Prices) -> Reading | None:
+        """The likeliest reading of the observations, where some may be wrong and actions may be missed.
+
+        A step without action takes the next observation for wrong, or all that are left.  It is no use to
+        leave one unread that an action fits: what fits it later is as good as missed.
+        """
+        rate, unit = round(prices.cost * _EXACT), self._keys.of_cost(Fraction(1))
+        all_seen, skips = len(self._observed), not math.isinf(prices.wrong)
+        wrong, missed = (
+            round(price * _EXACT) * unit for price in (prices.wrong if skips else 0, prices.missed)
+        )
+
+        def estimate(at: _At) -> int:
+            bound = self._bound(at[0])
+            return bound if bound >= INFINITE_KEY else bound * rate
+
+        search = AStar(self._start, estimate, self._deadline, limit=INFINITE_KEY, deep_first=True)
+        for at, spent in search:
+            state, seen = at
+            if seen == all_seen and self._goal.holds(state):
+                return self._read(at, search)
+            if skips and seen < all_seen:
+                search.reach((state, seen + 1), spent + wrong, at)
+                search.reach((state, all_seen), spent + wrong * (all_seen - seen), at)
+            for option in self._lookup.options(state):
+                after = (state & option.keep | option.put, self._matched(seen, option.actions[0]))
+                price = missed if after[1] == seen < all_seen else 0
+                search.reach(after, spent + option.weight * rate + price, at, option.actions[0])
+        return None
+
+    def _read(self, at: _At, search: AStar[_At]) -> Reading:
+        """The reading with which a search has come to a place."""
+        plan, wrong, missed, seen = [], 0, 0, at[1]
+        for before, action in search.way_back(at):
+            if action is None:
+                wrong += seen - before[1]
+            else:
+                plan.append(action)
+                missed += before[1] == seen < len(self._observed)
+            seen = before[1]
+        cost = self._task.cost_of(tuple(plan))
+        return Reading(cost, wrong, missed, tuple(reversed(plan)))
 
     def _missing(self, at: _At) -> int:
         """Lower bound of the key that is missing, whatever has been observed."""

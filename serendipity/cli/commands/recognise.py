@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Annotated
 
 import serendipity
+from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
@@ -16,6 +17,10 @@ def recognise(
     goals: Annotated[Path, planning.GOALS],
     observed: planning.Observed = None,
     beta: planning.Beta = None,
+    noise: Annotated[
+        str | None,
+        option("--noise miss=P,wrong=Q", "How often what is done is missed, and what is seen is wrong."),
+    ] = None,
     limited: limits.Limits,
     to: Annotated[output.Destination, output.ROWS_TOO],
 ) -> int:
@@ -23,7 +28,7 @@ def recognise(
     form = to.prepare(output.DATA)
     deadline = limited.begin("serendipity.recognition")
     loaded = task.load(deadline)
-    given = planning.given(observed=observed, beta=beta)
+    given = planning.given(observed=observed, beta=beta, noise=noise)
     with progress.working("recognising"), limits.during("weighing the goals"):
         found = serendipity.recognise(loaded, goals, **given, deadline=deadline)
     output.write_answer(shown(found, form), to.output_file)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from serendipity.model.answers.fields import Form, MalformedError, form, list_of, mapping, read, written
 from serendipity.model.numbers import plain, rounded
@@ -30,6 +30,21 @@ _IN_JSON: Final = {
 }
 """Names of fields in JSON, where they are others."""
 
+
+class Errors(NamedTuple):
+    """What was wrong and missed in the likeliest reading of noisy observations.
+
+    Attributes:
+        cost: of the plan that it reads them in.
+        wrong: observations that are none of the plan's actions.
+        missed: actions of it, before the last one that was seen, which were not seen.
+    """
+
+    cost: Fraction
+    wrong: int
+    missed: int
+
+
 UNEXPLAINED: Final = "no goal explains what was observed: the posterior is the prior"
 
 
@@ -46,7 +61,9 @@ class GoalPosterior:
         weight: the rational that the posterior is rounded from; planning adds up these.
         with_observed: ``cost(G, O)``; None if no plan of theirs embeds the observations.
         without_observed: ``cost(G, not O)``; None if all of their plans embed them.
-        plan: the canonical optimal plan that embeds the observations, or None.
+        plan: the canonical optimal plan that embeds the observations, or None; where observations are
+            noisy, that of the likeliest reading.
+        errors: of that reading; None without noise, or where there is none.
     """
 
     name: str
@@ -58,10 +75,12 @@ class GoalPosterior:
     with_observed: Fraction | None
     without_observed: Fraction | None
     plan: tuple[str, ...] | None
+    errors: Errors | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
-        return {_IN_JSON.get(name, name): value for name, value in written(self).items() if name != "weight"}
+        left_out = {"weight"} if self.errors else {"weight", "errors"}
+        return {_IN_JSON.get(n, n): value for n, value in written(self).items() if n not in left_out}
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -75,6 +94,7 @@ class Recognition(Tabular, Output):
         explained: whether some candidate explains the observations; if none does, the
             posterior is the prior.
         goals: in the order in which they were given; posteriors add up to 1.
+        noise: how often actions were missed and observations wrong, by name; None if neither is.
     """
 
     human: str
@@ -82,6 +102,7 @@ class Recognition(Tabular, Output):
     beta: float
     explained: bool
     goals: tuple[GoalPosterior, ...]
+    noise: dict[str, float] | None = None
 
     def table(self) -> Table:
         """The goals, one a row."""
@@ -107,7 +128,8 @@ class Recognition(Tabular, Output):
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object; plain values only."""
-        return {"schema": SCHEMA, **written(self)}
+        found = {"schema": SCHEMA, **written(self)}
+        return found if self.noise else {name: value for name, value in found.items() if name != "noise"}
 
     def told(self) -> Iterator[Line | Grid]:
         """The lines that ``recognise`` prints: the posterior, and whether it is only the prior."""
@@ -116,13 +138,15 @@ class Recognition(Tabular, Output):
         best = self.most_likely
         yield Line(f"the most likely goal of {self.human} is {best.name} ({best.posterior:.4g})")
         yield Line()
-        header = ("posterior", "prior", "with observed", "without", "goal")
+        noisy = ("wrong", "missed") if self.noise else ()
+        header = ("posterior", "prior", "with observed", "without", *noisy, "goal")
         rows = [
             (
                 f"{goal.posterior:.4f}",
                 f"{float(goal.prior):.4f}",
                 plain(goal.with_observed),
                 plain(goal.without_observed),
+                *("-" if goal.errors is None else str(getattr(goal.errors, name)) for name in noisy),
                 goal.name,
             )
             for goal in self.goals

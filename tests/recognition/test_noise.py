@@ -1,0 +1,151 @@
+"""Observations that may be wrong, of actions that may be missed: by hand, and against every reading."""
+
+import heapq
+import itertools
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import serendipity
+from serendipity.model import Condition, Task, UsageError
+from serendipity.recognition import Noise
+from serendipity.testing.builders import task as build
+from serendipity.testing.oracle import Alone
+from serendipity.testing.strategies import tasks
+from tests.cli.conftest import Runs, assert_one_line
+
+LINE = build(
+    init="a",
+    goal="c",
+    actions={
+        "go h a b": "a -> b !a",
+        "go h b c": "b -> c !b",
+        "go h a d": "a -> d !a",
+        "go h d e": "d -> e !d",
+        "go h a c": "a -> c !a @ 4",
+    },
+)
+"""To c by b (2) or directly (4), to e by d."""
+C, E = {"goal": ["c"], "name": "c"}, {"goal": ["e"], "name": "e"}
+
+
+def test_a_wrong_observation_by_hand() -> None:
+    """What speaks for c twice and once for e can't be a way to e, unless two of three are wrong."""
+    seen = ["go h a b", "go h d e", "go h b c"]
+    assert not serendipity.recognise(LINE, [C, E], seen).explained
+    known = serendipity.recognise(LINE, [C, E], seen, noise="wrong=0.1")
+    c, e = known.goals
+    assert c.errors is not None and e.errors is not None
+    assert (c.errors.wrong, c.errors.missed, c.errors.cost, c.plan) == (1, 0, 2, ("go h a b", "go h b c"))
+    assert (e.errors.wrong, e.errors.missed) == (2, 1)
+    assert (c.likelihood, e.likelihood) == pytest.approx((0.1, 0.01))
+    assert known.to_dict()["goals"][0]["errors"] == {"cost": 2.0, "wrong": 1, "missed": 0}
+    assert known.to_dict()["noise"] == {"miss": 0.0, "wrong": 0.1}
+
+
+def test_a_missed_action_by_hand() -> None:
+    """Gaps weigh nothing, unless it is said how often actions are missed."""
+    (free,) = serendipity.recognise(LINE, [C], ["go h b c"]).goals
+    (noisy,) = serendipity.recognise(LINE, [C], ["go h b c"], noise=Noise(miss=0.2)).goals
+    assert free.likelihood == pytest.approx(1 / (1 + math.exp(-2)))
+    assert noisy.likelihood == pytest.approx((free.likelihood or 0) * 0.2)
+    assert noisy.errors is not None and noisy.errors.missed == 1
+    (ahead,) = serendipity.recognise(LINE, [C], ["go h a b"], noise="miss=0.2").goals
+    assert ahead.likelihood == pytest.approx(free.likelihood)  # what comes later is not missed
+
+
+def test_dear_plans_lose_to_readings_with_errors() -> None:
+    """The direct way costs 2 more: e^-2 is less likely than that a glance was wrong."""
+    (known,) = serendipity.recognise(LINE, [C], ["go h a c"], noise="wrong=0.5").goals
+    assert known.plan == ("go h a b", "go h b c")
+    (strict,) = serendipity.recognise(LINE, [C], ["go h a c"], noise="wrong=0.01").goals
+    assert strict.plan == ("go h a c",)
+
+
+@st.composite
+def watched(draw: st.DrawFn) -> tuple[Task, list[str]]:
+    """Some of what the human did, and some of what they did not."""
+    task = replace(draw(tasks()), robot_goal=Condition())
+    alone, state, names = Alone(task), task.init, []
+    for _ in range(draw(st.integers(0, 3))):
+        ways = list(alone.successors(state))
+        if not ways:
+            break
+        action, state = draw(st.sampled_from(ways))
+        names += [task.actions[action].name] * draw(st.integers(0, 1))
+        if draw(st.integers(0, 2)) == 0:
+            names.append(task.actions[draw(st.sampled_from(task.human_actions))].name)
+    return task, names
+
+
+@given(watched(), st.sampled_from([0.0, 0.1, 0.6, 1.0]), st.sampled_from([0.0, 0.02, 0.5]))
+def test_likelihoods_equal_those_of_every_reading(
+    case: tuple[Task, list[str]], miss: float, wrong: float
+) -> None:
+    task, names = case
+    goals = [{"goal": [*(task.facts[i] for i in task.goal.positive)]}]
+    goals[0]["goal"] += [f"!{task.facts[i]}" for i in task.goal.negative]
+    plain = serendipity.recognise(task, goals, names)
+    noisy = serendipity.recognise(task, goals, names, noise=Noise(miss, wrong))
+    if not miss and not wrong:
+        assert noisy.to_json() == plain.to_json()
+        return
+    costs = [plain.goals[0].with_observed, plain.goals[0].without_observed]
+    whole = math.fsum(math.exp(-cost) for cost in costs if cost is not None)
+    best = max((_likeliest(task, read, len(names), wrong, miss) for read in _choices(names)), default=0)
+    if not whole:
+        assert noisy.goals[0].likelihood is None
+    else:
+        assert noisy.goals[0].likelihood == pytest.approx(best / whole, rel=1e-4)
+        assert best / whole <= 1 + 1e-9
+
+
+def _choices(names: list[str]) -> list[tuple[str, ...]]:
+    every = range(len(names) + 1)
+    return [kept for count in every for kept in itertools.combinations(names, count)]
+
+
+def _likeliest(task: Task, right: tuple[str, ...], seen: int, wrong: float, miss: float) -> float:
+    """The greatest weight of a plan in which exactly some observations are actions, by Dijkstra."""
+    alone = Alone(task)
+    price = -math.log(miss) if miss else 0.0
+    queue = [(0.0, 0, 0, task.init)]
+    closed, number = set(), 1
+    while queue:
+        spent, read, _, state = heapq.heappop(queue)
+        if (read, state) in closed:
+            continue
+        closed.add((read, state))
+        if read == len(right) and task.goal.holds(state):
+            return math.exp(-spent) * wrong ** (seen - len(right))
+        for action, after in alone.successors(state):
+            cost = spent + float(task.actions[action].cost)
+            ways = [(read, cost + (price if read < len(right) else 0))]
+            if read < len(right) and task.actions[action].name == right[read]:
+                ways.append((read + 1, cost))
+            for now, paid in ways:
+                heapq.heappush(queue, (paid, now, number, after))
+                number += 1
+    return 0.0
+
+
+@pytest.mark.parametrize(
+    ("noise", "words"),
+    [
+        ("miss", ["noise: expected some of miss=P,wrong=P, got 'miss'"]),
+        ("wrong=2", ["wrong: expected a probability from 0 to 1, got 2"]),
+        ("odd=0.1", ["noise: expected some of miss=P,wrong=P"]),
+    ],
+)
+def test_bad_noise_is_said_in_one_line(noise: str, words: list[str], run: Runs) -> None:
+    Path("goals.txt").write_text("1: conducted_triage commx room1")
+    assert_one_line(run(f"recognise --example room2 --goals goals.txt --noise {noise}"), *words)
+
+
+def test_noise_is_a_text_or_noise() -> None:
+    with pytest.raises(UsageError, match="noise: expected Noise, or a text"):
+        serendipity.recognise(LINE, [C], noise=0.1)  # type: ignore[arg-type]
