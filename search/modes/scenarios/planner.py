@@ -261,6 +261,9 @@ class _ScenarioCall:
         number = next(i for i, c in enumerate(self._candidates) if _same(c, candidate))
         found = happens.get(number) or Played(plan_steps(candidate.plan), None)
         discount = self._options.discount
+        own = tuple(s for s in found.steps if task.human in task.actions[s.action].participants)
+        if own == plan_steps(candidate.plan):
+            found = Played(found.steps, None)  # a window in which they do as planned is none
         cost = sum((task.team_cost(task.actions[s.action], discount) for s in found.steps), Fraction(0))
         return ServedGoal(candidate.name, candidate.weight, candidate.plan, found.steps, found.window, cost)
 
