@@ -56,7 +56,7 @@ class VerifierLimits:
         robot_states: of one robot beside the human's timetable, after an epoch.
         left_behind: what robots may leave behind together.
         left_pairs: the same, before what is equal is put together.
-        policies: epochs of scenarios that are not told apart, and what may be done in them.
+        policies: groups of scenarios that are not told apart, and of what may be done in them.
         moments: states and minds of people who replan.
         several_plans: the human's optimal plans for which one search beside all of them pays.
         solved_here: coefficients of a program up to which HiGHS overruns its limit by some 20 ms at most.

@@ -10,9 +10,10 @@ from dataclasses import replace
 from fractions import Fraction
 
 from serendipity.model import Condition, Deadline, GroundAction, Task
+from serendipity.model.answers.recognition import GoalPosterior, Recognition
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
-from verify.scenarios.reading import Believed, Recognised
+from verify.scenarios.reading import condition
 
 Fault = str
 """One line: what is wrong."""
@@ -77,7 +78,7 @@ def considered_plans(
         yield tuple(own.actions[i].name for i in plan)
 
 
-def faults(task: Task, recognised: Recognised, deadline: Deadline) -> Iterator[Fault]:
+def faults(task: Task, recognised: Recognition, deadline: Deadline) -> Iterator[Fault]:
     """Everything that is wrong with a recognition, in order.
 
     Args:
@@ -89,7 +90,7 @@ def faults(task: Task, recognised: Recognised, deadline: Deadline) -> Iterator[F
         if all(task.actions[i].participants != (task.human,) for i in task.named.get(name, ())):
             yield f"observed: '{name}' is not an action that the human does alone"
             return
-    if not recognised.goals or not _close(sum(goal.prior for goal in recognised.goals), 1.0):
+    if not recognised.goals or not _close(float(sum(goal.prior for goal in recognised.goals)), 1.0):
         yield "the priors do not add up to 1"
     if len({goal.name for goal in recognised.goals}) < len(recognised.goals):
         yield "two goals have one name"
@@ -105,27 +106,28 @@ def faults(task: Task, recognised: Recognised, deadline: Deadline) -> Iterator[F
             yield f"goal '{goal.name}': the posterior is {right:.12g}, the answer says {goal.posterior:.12g}"
 
 
-def _costs(task: Task, recognised: Recognised, goal: Believed, deadline: Deadline) -> Costs:
+def _costs(task: Task, recognised: Recognition, goal: GoalPosterior, deadline: Deadline) -> Costs:
     """What a goal costs with the observations and without, exactly: their difference may be a small one."""
     found = []
     for embed in (True, False):
-        own = compiled(task, goal.goal, recognised.observed, deadline, embed=embed)
+        own = compiled(task, condition(task, goal.goal), recognised.observed, deadline, embed=embed)
         worth = IndividualOptimum(own, deadline).optimum(own.init)
         found.append(None if worth is None else worth[0])
     return found[0], found[1]
 
 
 def _own_faults(
-    task: Task, recognised: Recognised, goal: Believed, costs: Costs, deadline: Deadline
+    task: Task, recognised: Recognition, goal: GoalPosterior, costs: Costs, deadline: Deadline
 ) -> Iterator[Fault]:
     for what, said, cost in zip(
         ("with", "without"), (goal.with_observed, goal.without_observed), costs, strict=True
     ):
         least = None if cost is None else float(cost)
-        if said != least:
+        if (None if said is None else float(said)) != least:
             yield f"goal '{goal.name}': its cost {what} the observations is {least}, the answer says {said}"
             return
-    if goal.plan != next(considered_plans(task, goal.goal, recognised.observed, deadline), None):
+    wanted = condition(task, goal.goal)
+    if goal.plan != next(considered_plans(task, wanted, recognised.observed, deadline), None):
         yield f"goal '{goal.name}': the plan is not the canonical one that explains the observations"
     likelihood = _likelihood(recognised.beta, costs)
     if (likelihood is None) != (goal.likelihood is None) or not _close(goal.likelihood or 0, likelihood or 0):
@@ -143,18 +145,19 @@ def _likelihood(beta: float, costs: Costs) -> float | None:
     return 1 / (1 + math.exp(loss)) if loss < 700 else 0.0
 
 
-def _posteriors(recognised: Recognised, costs: Sequence[Costs]) -> list[float]:
+def _posteriors(recognised: Recognition, costs: Sequence[Costs]) -> list[float]:
     """Bayes' rule, by logarithms of likelihoods, since a dear detour's would be rounded to 0.
 
     They are compared before priors count: beside a large one the logarithm of a prior loses its digits.
     """
     if not recognised.explained:
-        return [goal.prior for goal in recognised.goals]
+        return [float(goal.prior) for goal in recognised.goals]
     logs = [_log_likelihood(recognised.beta, least) for least in costs]
     most = max(log for log, goal in zip(logs, recognised.goals, strict=True) if goal.prior)
     # A goal without a prior has no share, however likely what was observed is for it.
     shares = [
-        goal.prior * math.exp(min(log - most, 0.0)) for log, goal in zip(logs, recognised.goals, strict=True)
+        float(goal.prior) * math.exp(min(log - most, 0.0))
+        for log, goal in zip(logs, recognised.goals, strict=True)
     ]
     return [share / sum(shares) for share in shares]
 

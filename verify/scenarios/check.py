@@ -13,7 +13,6 @@ from serendipity.model.answers.result_parts import GoalAnswer
 from verify.base import wording
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import BY_RULES, needed
-from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
 from verify.rules.case import Case
 from verify.rules.header import mode_and_human, reason, status_and_fields
@@ -36,13 +35,13 @@ class Scenario:
     """What an answer has to consider.
 
     Attributes:
-        name: as the answer should call it; None: as it likes.
+        name: as the answer should call it; empty: as it likes.
         goal: what the human wants.
         plan: names of what they mean to do.
         probability: its share.
     """
 
-    name: str | None
+    name: str
     goal: Condition
     plan: tuple[str, ...]
     probability: Fraction
@@ -159,32 +158,26 @@ def _expected(
     task: Task, result: Result, served: Sequence[GoalAnswer], deadline: Deadline
 ) -> tuple[list[Scenario], str, str | None]:
     """The scenarios to consider, where they come from, and what is wrong with that."""
-    known, watched = recognised(task, result), result.options.ties == "watched"
+    known, watched = recognised(result), result.options.ties == "watched"
     if known is None and not watched:
         return _given(task, served)
-    most = result.options.max_ties if watched else 1
-    if known is None:
-        alone = OptimalPlans(task, IndividualOptimum(task, deadline))
-        names = [tuple(task.actions[i].name for i in plan) for plan in islice(alone.plans(), most + 1)]
-        found = [Scenario(None, task.goal, plan, Fraction(1, len(names))) for plan in names]
-        return found, wording.ALL_OPTIMAL, _too_many(found, most)
-    fault = next(faults(task, known, deadline), None)
+    fault = None if known is None else next(faults(task, known, deadline), None)
     if fault is not None:
         return [], "", fault
-    seen, found = known.observed if known.explained else (), []
-    for goal in known.goals:
-        plans = considered_plans(task, goal.goal, seen, deadline) if goal.posterior else iter(())
-        tied = list(islice(plans, most + 1 if watched else 1))
-        fault = fault or _too_many(tied, most)
-        name = goal.name if len(tied) == 1 else None
-        found += [Scenario(name, goal.goal, plan, Fraction(goal.posterior) / len(tied)) for plan in tied]
+    seen = known.observed if known is not None and known.explained else ()
+    goals = [("", task.goal, 1.0)]
+    if known is not None:
+        goals = [(one.name, condition(task, one.goal), one.posterior) for one in known.goals if one.posterior]
+    found, most = list[Scenario](), result.options.max_ties if watched else 1
+    for name, goal, share in goals:
+        plans = list(islice(considered_plans(task, goal, seen, deadline), most + watched))
+        if len(plans) > most:
+            fault = f"max_ties: the human has more than {most} optimal plans"
+        own = name if len(plans) == 1 else ""
+        found += [Scenario(own, goal, plan, Fraction(share) / len(plans)) for plan in plans]
     total = sum((scenario.probability for scenario in found), Fraction(0))
     shares = [replace(scenario, probability=scenario.probability / total) for scenario in found]
-    return shares, wording.POSTERIOR, fault
-
-
-def _too_many(found: Sequence[object], most: int) -> str | None:
-    return f"max_ties: the human has more than {most} optimal plans" if len(found) > most else None
+    return shares, wording.ALL_OPTIMAL if known is None else wording.POSTERIOR, fault
 
 
 def _given(task: Task, served: Sequence[GoalAnswer]) -> tuple[list[Scenario], str, str | None]:
@@ -195,12 +188,8 @@ def _given(task: Task, served: Sequence[GoalAnswer]) -> tuple[list[Scenario], st
             return [], "", f"scenario '{entry.name}': expected a plan and a probability above 0"
         goal = task.goal if entry.goal is None else condition(task, entry.goal)
         found.append(Scenario(entry.name, goal, entry.human_plan, Fraction(entry.probability)))
-    fault = (
-        None
-        if close(1.0, sum((s.probability for s in found), Fraction(0)))
-        else "the probabilities do not add up to 1"
-    )
-    return found, wording.GIVEN_PLANS, fault
+    whole = close(1.0, sum((scenario.probability for scenario in found), Fraction(0)))
+    return found, wording.GIVEN_PLANS, None if whole else "the probabilities do not add up to 1"
 
 
 def _selection_fault(
@@ -214,13 +203,11 @@ def _selection_fault(
     if len(set(names)) < len(names):
         return "two scenarios have one name"
     if not chosen:
-        return (
-            None if result.status == "infeasible" and result.plan is None else "no goal can be reached alone"
-        )
+        rightly = result.status == "infeasible" and result.plan is None
+        return None if rightly else "no goal can be reached alone"
     for scenario, entry in zip(chosen, served, strict=True):
         if not close(entry.probability, scenario.probability):
-            share = float(scenario.probability)
-            return f"scenario '{entry.name}': the probability is {share:.12g}"
+            return f"scenario '{entry.name}': the probability is {float(scenario.probability):.12g}"
         if entry.goal is not None and condition(task, entry.goal) != scenario.goal:
             return f"scenario '{entry.name}': its goal is another one"
         if len(chosen) > 1 and entry.human_plan != scenario.plan:
@@ -267,9 +254,8 @@ def _certain(task: Task, result: Result, scenario: Scenario, entry: GoalAnswer) 
     """One scenario is left: the answer is one of section 3."""
     same = (entry.human_plan, entry.cost, entry.window, entry.plan)
     if same != (result.human_plan, result.cost, result.window, result.plan):
-        return Examined(
-            (Claim("replay", "refuted", f"scenario '{entry.name}': the entry is not the answer"),)
-        )
+        fault = f"scenario '{entry.name}': the entry is not the answer"
+        return Examined((Claim("replay", "refuted", fault),))
     ties = "fixed" if result.options.ties == "watched" else result.options.ties
     known = replace(result, goals=None, recognition=None, options=result.options.but(ties=ties))
     return Examined(single=(task.with_goal(scenario.goal), known))

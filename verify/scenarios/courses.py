@@ -1,11 +1,12 @@
 """What may happen in an epoch of one scenario: rules 1 to 3 of semantics 3.1, beside what robots do."""
 
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from functools import cache
 from typing import Final, NamedTuple
 
-from verify.base.execution import State, conflicting, sets_beside
-from verify.base.fact_bits import BitCondition, BitOperator, BitOperators, FactBits, each_bit
+from verify.base.execution import State, fits, sets_beside
+from verify.base.fact_bits import BitOperator, BitOperators, FactBits, each_bit
 from verify.base.optimal_plans import Worth
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE
@@ -48,16 +49,8 @@ class Way(NamedTuple):
     after: Member
 
 
-class RobotSet(NamedTuple):
-    """What robots do by themselves in an epoch."""
-
-    actions: tuple[int, ...]
-    add: int
-    delete: int
-    paid: int
-
-
 _WAITS: Final = BitOperator(0, 0, 0, 0, 0)
+_DONE: Final = (Fraction(0), 0)
 
 
 class Moves:
@@ -79,34 +72,30 @@ class Moves:
         theirs = {i for i, a in enumerate(call.task.actions) if call.task.human not in a.participants}
         self._own = BitOperators((op for op in self.operators if op.label in theirs), deadline)
         self._parts = BitOperators((op for op in self.operators if op.label not in theirs), deadline)
-        self.robots, self.human = cache(self._robots), cache(self._human)
-        self._apart = cache(self._are_apart)
+        self.robots, self.human, self.fits = cache(self._robots), cache(self._human), cache(self._fits)
 
-    def _robots(self, state: int) -> tuple[RobotSet, ...]:
-        """All that robots can do by themselves, nothing first."""
+    def _robots(self, state: int) -> tuple[BitOperator, ...]:
+        """All that robots can do by themselves, as operators labelled by all actions, nothing first."""
         candidates = sorted(op.label for op in self._own.applicable(state))
         strict = self._call.options.strict
         sets = sets_beside(self._task, (), candidates, self._call.effort.deadline, strict=strict)
         return tuple(self._as_one(chosen) for chosen in sets)
 
-    def _as_one(self, chosen: tuple[int, ...]) -> RobotSet:
+    def _as_one(self, chosen: tuple[int, ...]) -> BitOperator:
         add = delete = paid = 0
         for i in chosen:
             operator = self.operators[i]
             add, delete, paid = add | operator.add, delete | operator.delete, paid + operator.weight
-        return RobotSet(chosen, add, delete, paid)
+        return BitOperator(0, 0, add, delete, paid, chosen)
 
     def _human(self, state: int) -> tuple[BitOperator, ...]:
         """All that the human can do, joint actions included, waiting first."""
         return _WAITS, *self._parts.applicable(state)
 
-    def fits(self, part: BitOperator, robots: RobotSet) -> bool:
+    def _fits(self, part: int | None, robots: tuple[int, ...]) -> bool:
         """Whether the human's part can share an epoch with what robots do."""
-        return part.label is None or not any(self._apart(part.label, i) for i in robots.actions)
-
-    def _are_apart(self, one: int, other: int) -> bool:
-        actions = self._task.actions
-        return conflicting(actions[one], actions[other], strict=self._call.options.strict)
+        actions, strict = self._task.actions, self._call.options.strict
+        return part is None or fits(actions[part], (actions[i] for i in robots), strict=strict)
 
     def seen(self, part: BitOperator) -> Seen:
         """What robots see of the human's part."""
@@ -121,26 +110,20 @@ class Course:
 
     Args:
         call: the scenario as a call of its own.
-        number: its number.
         moves: what everybody can do.
         pay: units of cost as the search counts them.
         epoch: an epoch of window likewise.
     """
 
-    def __init__(
-        self, call: ExaminedCall, number: int, moves: Moves, pay: Callable[[int], int], epoch: int
-    ) -> None:
-        self._call, self._number, self._moves = call, number, moves
-        self._pay, self._epoch = pay, epoch
+    def __init__(self, call: ExaminedCall, moves: Moves, pay: Callable[[int], int], epoch: int) -> None:
+        self._call, self._moves, self._pay, self._epoch = call, moves, pay, epoch
         self._plan = [moves.operators[i] for i in call.human_plan or ()]
         self._horizon = int(call.horizon)
         self._most = call.options.max_window
-        goal, of = call.task.goal, moves.bits.of
-        self._goal = BitCondition(of(goal.positive), of(goal.negative))
         question = call.question.but(rule=FREE)
         part = relevant_part(question)
         assert part is not None, "only goals that the human reaches are considered"
-        self._left = LeastLeft(question, part)
+        self._left, of = LeastLeft(question, part), moves.bits.of
         self._asked, self._matters = of(call.plans.alone.own.facts), of(self._left.facts)
         self._worth, self._step = cache(self._worth_of), cache(self._step_of)
         self._bound = cache(self._bound_of)
@@ -152,10 +135,10 @@ class Course:
             return INFINITE if worth is None else self._pay(self._call.prices.units(worth[0]))
         wait = self._epoch if at.phase == FOLLOWS else 0
         if epoch == self._horizon:
-            return wait if at.phase == FOLLOWS and self._goal.holds(at.state) else INFINITE
+            return wait if at.phase == FOLLOWS and self._worth(at.state & self._asked) == _DONE else INFINITE
         return self._bound(at.state & self._matters) + wait
 
-    def ways(self, at: Member, epoch: int, robots: RobotSet) -> Iterator[Way]:
+    def ways(self, at: Member, epoch: int, robots: BitOperator) -> Iterator[Way]:
         """What may happen in an epoch in which robots do so much by themselves."""
         moves = self._moves
         if at.phase == OVER:
@@ -163,15 +146,15 @@ class Course:
             return
         if at.phase == FOLLOWS:
             planned = self._plan[epoch - 1] if epoch <= len(self._plan) else _WAITS
-            if planned.applicable(at.state) and moves.fits(planned, robots):
+            if planned.applicable(at.state) and moves.fits(planned.label, robots.label):
                 yield self._way(at, planned, robots)
             if epoch > len(self._plan):
                 return
         for part in moves.human(at.state):
-            if moves.fits(part, robots):
+            if moves.fits(part.label, robots.label):
                 yield from self._inside(at, part, robots, epoch)
 
-    def _inside(self, at: Member, part: BitOperator, robots: RobotSet, epoch: int) -> Iterator[Way]:
+    def _inside(self, at: Member, part: BitOperator, robots: BitOperator, epoch: int) -> Iterator[Way]:
         """Rules 2 and 3: the window ends with the epoch, or goes on."""
         way = self._way(at, part, robots)
         way = way._replace(paid=way.paid + self._epoch)
@@ -182,9 +165,9 @@ class Course:
         if epoch < self._horizon and (self._most is None or epochs < self._most):
             yield way._replace(after=way.after._replace(phase=INSIDE, epochs=epochs))
 
-    def _way(self, at: Member, part: BitOperator, robots: RobotSet) -> Way:
+    def _way(self, at: Member, part: BitOperator, robots: BitOperator) -> Way:
         state = at.state & ~(part.delete | robots.delete) | part.add | robots.add
-        paid = part.weight + robots.paid
+        paid = part.weight + robots.weight
         return Way(self._moves.seen(part), paid, at._replace(state=state))
 
     def _worth_of(self, state: int) -> Worth | None:

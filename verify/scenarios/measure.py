@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import lcm
 
-from verify.calls.call import ExaminedCall, Score
+from verify.calls.call import ExaminedCall
 from verify.scenarios.timelines import Figures
 
 
@@ -20,11 +20,12 @@ class Measure:
         is_mean: whether what scenarios pay adds up; else the greatest counts.
         shares: by scenario, by how much what it pays is multiplied.
         ahead: by scenario, what it has paid at first, so to say.
+        floors: by scenario, what it contributes at least.
         epoch: what an epoch of window adds.
     """
 
     def __init__(
-        self, calls: Sequence[ExaminedCall], weights: Sequence[Fraction], floors: Sequence[Score]
+        self, calls: Sequence[ExaminedCall], weights: Sequence[Fraction], floors: Sequence[Figures]
     ) -> None:
         options, prices = calls[0].options, calls[0].prices
         self.is_mean = options.risk == "mean"
@@ -34,18 +35,14 @@ class Measure:
         dearest = max(prices.team, default=0) * len(calls[0].task.agents)
         self._unit = 8 * parts * (dearest * (int(calls[0].horizon) + 1) + 1)
         self.epoch = prices.epoch * self._unit
-        self.ahead = [0] * len(floors)
-        if options.risk == "regret":
-            self.ahead = [-self._one(floor) for floor in floors]
+        each = [self._number(floor, prices.scale) for floor in floors]
+        self.ahead = [-floor if options.risk == "regret" else 0 for floor in each]
+        shares = zip(self.shares, self.ahead, each, strict=True)
+        self.floors = [share * (ahead + floor) for share, ahead, floor in shares]
 
     def pay(self, units: int) -> int:
         """Units of cost, which count for the objective, too."""
-        return self._one((units, units))
-
-    def parts(self, scores: Sequence[Score]) -> list[int]:
-        """What each scenario contributes if it comes to so many units."""
-        each = zip(self.shares, self.ahead, map(self._one, scores), strict=True)
-        return [share * (ahead + one) for share, ahead, one in each]
+        return units * (self._unit + 1)
 
     def joined(self, parts: Iterable[int]) -> int:
         """Contributions together."""
@@ -57,7 +54,7 @@ class Measure:
 
     def number(self, figures: Figures) -> int:
         """Objective and cost as one number."""
-        return self._one((int(figures[0] * self._scale), int(figures[1] * self._scale)))
+        return self._number(figures, self._scale)
 
     def bound(self, objective: Fraction) -> int:
         """Whatever has a lower objective is below this, and nothing else."""
@@ -68,5 +65,5 @@ class Measure:
         objective = (value + self._unit // 2) // self._unit
         return Fraction(objective, self._scale), Fraction(value - objective * self._unit, self._scale)
 
-    def _one(self, score: Score) -> int:
-        return score[0] * self._unit + score[1]
+    def _number(self, figures: Figures, scale: int) -> int:
+        return int(figures[0] * scale) * self._unit + int(figures[1] * scale)

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from serendipity.model import Step
+from verify.base.fact_bits import BitOperator
 from verify.base.undecided import UndecidedError
-from verify.calls.call import ExaminedCall, Score
+from verify.calls.call import ExaminedCall
 from verify.limits import limits
 from verify.programs.effort import Attempt
-from verify.scenarios.courses import INFINITE, OVER, Course, Member, Moves, RobotSet, Seen
+from verify.scenarios.courses import INFINITE, OVER, Course, Member, Moves, Seen
 from verify.scenarios.measure import Measure
 
 Group = tuple[int, tuple[Member, ...]]
@@ -46,26 +47,22 @@ class PolicySearch:
     Args:
         calls: one for each scenario, with the human's plan in it, and the same horizon.
         measure: what is minimised.
-        floors: objective and cost that each scenario allows by itself.
 
     Raises:
         UndecidedError: a rule of the options is not covered.
     """
 
-    def __init__(self, calls: Sequence[ExaminedCall], measure: Measure, floors: Sequence[Score]) -> None:
+    def __init__(self, calls: Sequence[ExaminedCall], measure: Measure) -> None:
         if not all(call.question.replans for call in calls):
             raise UndecidedError("scenarios are examined under suffix replan and preservation kernel only")
-        self._measure, self._floors = measure, measure.parts(floors)
-        self._watching = calls[0].options.policy == "watching"
+        self._measure, self._watching = measure, calls[0].options.policy == "watching"
         self._effort, self._horizon = calls[0].effort, int(calls[0].horizon)
         self._moves = Moves(calls[0], measure.pay)
-        self._courses = [
-            Course(call, k, self._moves, measure.pay, measure.epoch) for k, call in enumerate(calls)
-        ]
+        self._courses = [Course(call, self._moves, measure.pay, measure.epoch) for call in calls]
         init = self._moves.bits.of(calls[0].task.init)
         self._first = [Member(k, init, ahead=ahead) for k, ahead in enumerate(measure.ahead)]
         self._known: dict[Group, tuple[int, bool]] = {}
-        self._chosen: dict[Group, tuple[RobotSet, list[Group]]] = {}
+        self._chosen: dict[Group, tuple[BitOperator, list[Group]]] = {}
         self._most: list[int] = []
         self._looked_at = 0
 
@@ -75,11 +72,8 @@ class PolicySearch:
         Raises:
             UndecidedError: it takes too long.
         """
-        floors, measure = self._floors, self._measure
-        others = ([*floors[:k], *floors[k + 1 :]] for k in range(len(floors)))
-        self._most = [
-            measure.room(than, rest) - at.ahead for at, rest in zip(self._first, others, strict=True)
-        ]
+        floors = self._measure.floors
+        self._most = [self._room(than, floors, k) - at.ahead for k, at in enumerate(self._first)]
         shift, root = _levelled(0, self._first)
         try:
             value = self._value(root, than - shift)
@@ -92,7 +86,7 @@ class PolicySearch:
         following = [group]
         while len(following) == 1 and following[0] in self._chosen:
             robots, after = self._chosen[following[0]]
-            yield from (Step(following[0][0] + 1, i) for i in robots.actions)
+            yield from (Step(following[0][0] + 1, i) for i in robots.label)
             following = after
 
     # -- groups
@@ -150,7 +144,7 @@ class PolicySearch:
     def _room(self, below: int, rests: Sequence[int], k: int) -> int:
         return self._measure.room(below, [*rests[:k], *rests[k + 1 :]])
 
-    def _robots(self, members: Sequence[Member]) -> Sequence[RobotSet]:
+    def _robots(self, members: Sequence[Member]) -> Sequence[BitOperator]:
         """What robots may do by themselves in the whole group."""
         first, *others = dict.fromkeys(at.state for at in members)
         sets = self._moves.robots(first)
@@ -159,7 +153,7 @@ class PolicySearch:
         possible = [set(self._moves.robots(state)) for state in others]
         return [robots for robots in sets if all(robots in sets for sets in possible)]
 
-    def _choices(self, epoch: int, at: Member, robots: RobotSet, below: int) -> Iterator[_Choice]:
+    def _choices(self, epoch: int, at: Member, robots: BitOperator, below: int) -> Iterator[_Choice]:
         """What a scenario may do in an epoch and still contribute less than so much."""
         share = self._measure.shares[at.scenario]
         for seen, spent, after in dict.fromkeys(self._courses[at.scenario].ways(at, epoch, robots)):
@@ -173,7 +167,7 @@ class PolicySearch:
     # -- what all do together
 
     def _combined(
-        self, group: Group, robots: RobotSet, choices: Sequence[Sequence[_Choice]], below: int
+        self, group: Group, robots: BitOperator, choices: Sequence[Sequence[_Choice]], below: int
     ) -> int:
         """The least value by any choice for each scenario, or ``below`` if none is less."""
         measure, best = self._measure, below
@@ -194,7 +188,7 @@ class PolicySearch:
         extended([])
         return best
 
-    def _divided(self, group: Group, robots: RobotSet, chosen: Sequence[_Choice], below: int) -> int:
+    def _divided(self, group: Group, robots: BitOperator, chosen: Sequence[_Choice], below: int) -> int:
         """The value of a choice for each scenario, or ``below`` if that is no less."""
         self._look()
         measure, epoch = self._measure, group[0] + 1
@@ -224,9 +218,7 @@ class PolicySearch:
         self._looked_at += 1
         self._effort.deadline.check()
         if self._looked_at > limits().policies:
-            raise UndecidedError(
-                f"more than {limits().policies:,} states of scenarios that are not told apart"
-            )
+            raise UndecidedError(f"more than {limits().policies:,} groups of scenarios and what they do")
 
 
 def _levelled(epoch: int, members: Sequence[Member]) -> tuple[int, Group]:

@@ -10,9 +10,10 @@ from serendipity.model.answers.certificate import ClaimVerdict
 from verify.base import wording
 from verify.base.execution import plan_step
 from verify.base.optimal_plans import OptimalPlans
+from verify.base.subproblem import PricedPlan
 from verify.base.undecided import UNDECIDED, why
 from verify.calls.answer import best_plan
-from verify.calls.call import ExaminedCall, Score
+from verify.calls.call import ExaminedCall
 from verify.programs.effort import Effort, NoProgramError
 from verify.scenarios.check import beyond_rules
 from verify.scenarios.measure import Measure
@@ -66,29 +67,20 @@ class ScenariosProof:
     # -- figures
 
     @cached_property
-    def _floors(self) -> list[Score]:
-        """What each scenario allows by itself, in units."""
+    def _floors(self) -> list[Figures]:
+        """What each scenario allows by itself."""
         return [floor_of(call) for call in self._calls]
 
     @cached_property
     def _idle(self) -> Figures:
         """The best with idle robots; it differs from the human's plans only if they are not optimal."""
-        return self._measured([_idle(call) for call in self._calls])
-
-    def _measured(self, scores: Sequence[Score]) -> Figures:
-        return measured(self.result.options.risk, self.lines, self._in_units(scores), self._known_floors())
-
-    def _known_floors(self) -> list[Figures]:
-        return self._in_units(self._floors) if self.result.options.risk == "regret" else []
-
-    def _in_units(self, scores: Sequence[Score]) -> list[Figures]:
-        cost = self._calls[0].prices.cost
-        return [(cost(objective), cost(units)) for objective, units in scores]
+        each = [_idle(call) for call in self._calls]
+        return measured(self.result.options.risk, self.lines, each, self._floors)
 
     def _figures_fault(self) -> str | None:
         """What regret compares with, and what the human gains alone if their plans are not optimal."""
         result, lines = self.result, self.lines
-        expected = figures(result, lines, self._known_floors())
+        expected = figures(result, lines, self._floors)
         at_most = result.options.risk == "regret" and result.status == "feasible"
         fault = differing(result, expected, at_most=at_most)
         if fault is not None:
@@ -107,11 +99,11 @@ class ScenariosProof:
         """Whether a policy is better than the answer says."""
         measure = Measure(self._calls, [line.weight for line in self.lines], self._floors)
         limit = self._limit(measure)
-        if measure.joined(measure.parts(self._floors)) >= limit:
+        if measure.joined(measure.floors) >= limit:
             return "proved", wording.EACH_ADDS_UP, None
         if self.effort.proof is not None:
             raise NoProgramError("scenarios whose best answers by themselves don't come to the answer")
-        better = PolicySearch(self._calls, measure, self._floors).better(limit)
+        better = PolicySearch(self._calls, measure).better(limit)
         if better is None:
             return "proved", wording.ALL_POLICIES, None
         objective, cost = measure.figures(better.value)
@@ -130,23 +122,23 @@ class ScenariosProof:
             return measure.bound(bound)
         if not result.opportunity:
             return measure.number(self._idle)
-        return measure.number(answered(result, self.lines, self._known_floors()))
+        return measure.number(answered(result, self.lines, self._floors))
 
 
-def _left_alone(call: ExaminedCall) -> Score:
-    """The human's plan and idle robots; that counts as one epoch of window, whatever the plan's length."""
-    assert call.baseline is not None, "only goals with a plan are considered"
-    return call.baseline + call.prices.epoch, call.baseline
-
-
-def floor_of(call: ExaminedCall) -> Score:
+def floor_of(call: ExaminedCall) -> Figures:
     """What the scenario by itself allows."""
-    best = best_plan(call) if call.human_plan else None
-    return _left_alone(call) if best is None else (best.objective, best.cost)
+    return _figures(call, best_plan(call) if call.human_plan else None)
 
 
-def _idle(call: ExaminedCall) -> Score:
-    if call.is_optimal:
-        return _left_alone(call)
-    best = call.best(call.question.but(robots=False), _left_alone(call))
-    return _left_alone(call) if best is None else (best.objective, best.cost)
+def _idle(call: ExaminedCall) -> Figures:
+    question = call.question.but(robots=False)
+    return _figures(call, None if call.is_optimal else call.best(question, call.do_nothing))
+
+
+def _figures(call: ExaminedCall, best: PricedPlan | None) -> Figures:
+    """Of a plan, or of leaving the human alone, which counts as an epoch, whatever their plan's length."""
+    assert call.baseline is not None, "only goals with a plan are considered"
+    units = (
+        (call.baseline + call.prices.epoch, call.baseline) if best is None else (best.objective, best.cost)
+    )
+    return call.prices.cost(units[0]), call.prices.cost(units[1])

@@ -1,13 +1,13 @@
 """Each scenario's timeline against the rules of section 3.1, and all of them together (semantics 11)."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
 from typing import Final
 
-from serendipity.model import Condition, Deadline, PlanStep, Result, Task
+from serendipity.model import Condition, Deadline, Result, Task
 from serendipity.model.answers.result_parts import GoalAnswer
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
@@ -20,25 +20,13 @@ Figures = tuple[Fraction, Fraction]
 
 _BY_CLAIM: Final = {
     "replay": (
-        "human-plan",
-        "epoch-range",
-        "unknown-action",
-        "wrong-agents",
-        "precondition",
-        "agent-busy-twice",
-        "conflict",
-        "human-goal",
+        *("human-plan", "epoch-range", "unknown-action", "wrong-agents"),
+        *("precondition", "agent-busy-twice", "conflict", "human-goal"),
     ),
     "cost": ("step-cost", "cost"),
     "window": (
-        "window-range",
-        "window-length",
-        "joint-in-prefix",
-        "prefix",
-        "robot-in-suffix",
-        "suffix-replan",
-        "suffix-subplan",
-        "preserved-state",
+        *("window-range", "window-length", "joint-in-prefix", "prefix"),
+        *("robot-in-suffix", "suffix-replan", "suffix-subplan", "preserved-state"),
     ),
 }
 """Rules of section 3.1 that every timeline has to keep; figures of a whole answer are not its own."""
@@ -68,19 +56,6 @@ class Timeline:
         """Epochs of window that count: a plan that is left alone counts as one."""
         window = self.case.result.window
         return 1 if window is None else len(window)
-
-    def theirs(self, last: int) -> dict[int, tuple[str, ...]]:
-        """What robots do by themselves up to an epoch, by epoch."""
-        done: dict[int, list[str]] = {}
-        for epoch, i in self.case.steps():
-            if epoch <= last and not self.case.his(i):
-                done.setdefault(epoch, []).append(self.case.name(i))
-        return {epoch: tuple(sorted(names)) for epoch, names in done.items()}
-
-    def seen(self) -> dict[int, tuple[str, tuple[int, ...]]]:
-        """What robots see of the human, by epoch; where they wait there is none."""
-        actions = self.task.actions
-        return {t: (actions[i].name, actions[i].participants) for t, i in self.case.human_does().items()}
 
 
 def timelines(
@@ -133,10 +108,8 @@ def rule_fault(claim: str, lines: Sequence[Timeline]) -> str | None:
 def suffix_fault(lines: Sequence[Timeline]) -> str | None:
     """Where the suffix is replanned it is the canonical plan from the state that the window leaves."""
     for line in lines:
-        case, window = line.case, line.case.result.window
-        if window is None or case.result.options.suffix != "replan":
-            continue
-        if case.result.options.preservation != "kernel":
+        case, window, options = line.case, line.case.result.window, line.case.result.options
+        if window is None or (options.suffix, options.preservation) != ("replan", "kernel"):
             continue
         plans = OptimalPlans(case.task, case.alone).plans(case.replay.state_after(window.end - 1))
         expected = [case.name(i) for i in next(plans, ())]
@@ -148,46 +121,36 @@ def suffix_fault(lines: Sequence[Timeline]) -> str | None:
 
 def together_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
     """Robots act by what they have seen, and no plan that is left alone is broken (semantics 11)."""
-    horizon = int(result.horizon or 0)
-    common = horizon
-    for one, other in combinations(lines, 2):
-        last = horizon if result.options.policy == "fixed" else _alike_until(one, other, horizon)
-        common = min(common, last)
-        mine, yours = one.theirs(last), other.theirs(last)
-        epoch = next((t for t in range(1, last + 1) if mine.get(t) != yours.get(t)), None)
+    common = horizon = int(result.horizon or 0)
+    watching = result.options.policy == "watching"
+    seen = [_done(line.case.result, by_human=True) for line in lines]
+    own = [_done(line.case.result, by_human=False) for line in lines]
+    for i, k in combinations(range(len(lines)), 2):
+        differ = (t for t in range(1, horizon) if watching and seen[i].get(t) != seen[k].get(t))
+        last = next(differ, horizon)
+        epoch = next((t for t in range(1, last + 1) if own[i].get(t) != own[k].get(t)), None)
         if epoch is not None:
-            names = f"'{one.name}' and '{other.name}'"
+            names = f"'{lines[i].name}' and '{lines[k].name}'"
             return f"epoch {epoch}: robots do not do the same in {names}, which are not told apart"
-    return _first_part_fault(result, lines[0], common) or next(_deviations(lines), None)
-
-
-def _alike_until(one: Timeline, other: Timeline, horizon: int) -> int:
-    """The last epoch in which two scenarios are not told apart: the human does something different in it."""
-    mine, yours = one.seen(), other.seen()
-    return next((t for t in range(1, horizon) if mine.get(t) != yours.get(t)), horizon)
-
-
-def _first_part_fault(result: Result, line: Timeline, last: int) -> str | None:
-    """The plan of the whole is what robots do by themselves until they see a difference."""
-    for step in result.plan or ():
-        if result.human in step.agents:
-            return f"epoch {step.epoch}: '{step.action}': the plan is what robots do without the human"
-    common = [s for s in line.case.result.plan or () if s.epoch <= last and result.human not in s.agents]
-    if sorted(map(_as_key, common)) != sorted(map(_as_key, result.plan or ())):
-        return f"the plan is not what robots do by themselves up to epoch {last}, seeing no difference"
-    return None
-
-
-def _as_key(step: PlanStep) -> tuple[int, str, tuple[str, ...], float]:
-    return step.epoch, step.action, tuple(sorted(step.agents)), step.cost
-
-
-def _deviations(lines: Sequence[Timeline]) -> Iterator[str]:
-    """Where a plan is said to be left alone, the human executes it."""
+        common = min(common, last)
+    if _done(result, by_human=True):
+        return "the plan is what robots do without the human"
+    if _done(result, by_human=False) != {t: steps for t, steps in own[0].items() if t <= common}:
+        return f"the plan is not what robots do by themselves up to epoch {common}, seeing no difference"
     for line in lines:
         case = line.case
         if case.result.window is None and case.human_does() != dict(enumerate(case.pi_h, start=1)):
-            yield f"scenario '{line.name}': the plan is left alone, but the human does something else"
+            return f"scenario '{line.name}': the plan is left alone, but the human does something else"
+    return None
+
+
+def _done(result: Result, *, by_human: bool) -> dict[int, list[tuple[str, list[str], float]]]:
+    """What the human takes part in, which robots see, or what robots do by themselves, by epoch."""
+    done: dict[int, list[tuple[str, list[str], float]]] = {}
+    for step in result.plan or ():
+        if (result.human in step.agents) is by_human:
+            done.setdefault(step.epoch, []).append((step.action, sorted(step.agents), step.cost))
+    return {epoch: sorted(steps) for epoch, steps in done.items()}
 
 
 # -- figures
@@ -211,10 +174,14 @@ def measured(
     return mean(lines, [objective for objective, _ in each]), mean(lines, [cost for _, cost in each])
 
 
-def answered(result: Result, lines: Sequence[Timeline], floors: Sequence[Figures] = ()) -> Figures:
-    """Objective and cost of the answer; a plan that is left alone counts as one epoch of window."""
-    window = result.options.window_weight
-    each = [(line.case.cost + window * line.epochs, line.case.cost) for line in lines]
+def answered(
+    result: Result, lines: Sequence[Timeline], floors: Sequence[Figures] = (), *, alone: bool = False
+) -> Figures:
+    """Objective and cost of the answer, or of leaving the human alone, which counts as one epoch."""
+    window, each = result.options.window_weight, []
+    for line in lines:
+        cost, epochs = (line.alone, 1) if alone else (line.case.cost, line.epochs)
+        each.append((cost + window * epochs, cost))
     return measured(result.options.risk, lines, each, floors)
 
 
@@ -222,24 +189,21 @@ def figures_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
     """Whether a figure is wrong; those of regret need an optimiser, but for what follows from the others."""
     if not result.opportunity and (result.plan or any(line.case.result.window for line in lines)):
         return "no opportunity, but robots act"
-    expected = _saving(result) if result.options.risk == "regret" else figures(result, lines)
-    return differing(result, expected) or _shares_fault(result, lines)
+    if result.options.risk != "regret":
+        fault = differing(result, figures(result, lines))
+    else:
+        saved = Fraction(result.human_cost or 0) - Fraction(result.cost or 0)
+        fault = differing(result, {"saving": saved if result.opportunity else Fraction(0)})
+    return fault or _shares_fault(result, lines)
 
 
-def figures(
-    result: Result, lines: Sequence[Timeline], floors: Sequence[Figures] = ()
-) -> Mapping[str, Fraction]:
+def figures(result: Result, lines: Sequence[Timeline], floors: Sequence[Figures] = ()) -> dict[str, Fraction]:
     """The figures of an answer by its risk (semantics 11)."""
-    window = result.options.window_weight
     objective, cost = answered(result, lines, floors)
-    left = [(line.alone + window, line.alone) for line in lines]
-    alone = measured(result.options.risk, lines, left, floors)[1]
-    return {
-        "cost": cost,
-        "human_cost": alone,
-        "objective": objective if result.opportunity else cost,
-        "saving": alone - cost if result.opportunity else Fraction(0),
-    }
+    alone = answered(result, lines, floors, alone=True)[1]
+    if not result.opportunity:
+        return {"cost": cost, "human_cost": alone, "objective": cost, "saving": Fraction(0)}
+    return {"cost": cost, "human_cost": alone, "objective": objective, "saving": alone - cost}
 
 
 def differing(result: Result, expected: Mapping[str, Fraction], *, at_most: bool = False) -> str | None:
@@ -251,11 +215,6 @@ def differing(result: Result, expected: Mapping[str, Fraction], *, at_most: bool
         if said is None or not (more or close(said, value)):
             return f"the {kind} {name} is {float(value):.12g}, the answer says {said}"
     return None
-
-
-def _saving(result: Result) -> Mapping[str, Fraction]:
-    known = result.human_cost is not None and result.cost is not None and result.opportunity
-    return {"saving": Fraction(result.human_cost or 0) - Fraction(result.cost or 0) if known else Fraction(0)}
 
 
 def _shares_fault(result: Result, lines: Sequence[Timeline]) -> str | None:

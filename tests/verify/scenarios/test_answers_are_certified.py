@@ -238,7 +238,7 @@ def test_limits_leave_it_undecided() -> None:
         certificate = serendipity.verify(task, Result.from_dict(doctored))
     assert _verdicts(certificate)["no_opportunity"] == (
         "undecided",
-        "more than 0 states of scenarios that are not told apart",
+        "more than 0 groups of scenarios and what they do",
     )
 
 

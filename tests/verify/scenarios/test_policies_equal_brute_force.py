@@ -59,7 +59,7 @@ def test_the_least_value_is_that_of_brute_force(
     measure = Measure(calls, [scenario.weight for scenario in scenarios], floors)
 
     def better(than: int) -> Better | None:
-        return PolicySearch(calls, measure, floors).better(than)
+        return PolicySearch(calls, measure).better(than)
 
     found = better(_FAR)
     assert found is not None
@@ -67,7 +67,7 @@ def test_the_least_value_is_that_of_brute_force(
     assert better(found.value) is None
     tight = better(found.value + 1)
     assert tight is not None and tight.value == found.value
-    assert measure.joined(measure.parts(floors)) <= found.value
+    assert measure.joined(measure.floors) <= found.value
 
 
 def _call(task: Task, options: Options, goal: Condition, plan: HumanPlan) -> ExaminedCall:
