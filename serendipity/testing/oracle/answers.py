@@ -58,7 +58,7 @@ class Solver:
         self.length = self._length()
         self.robots_goal = bool(task.robot_goal) and options.mode != "individual"
         self.horizon = self._horizon()
-        self.unit = _smallest_unit(task, options)
+        self.unit = smallest_unit(task, options)
         self._memo: dict[tuple[object, State], list[tuple[State, Label]]] = {}
 
     def solve(self) -> Optimum:
@@ -329,7 +329,7 @@ def _advanced(layer: Layer[State], moves: Moves[State], epochs: int | None) -> L
     return layer
 
 
-def _smallest_unit(task: Task, options: Options) -> int:
+def smallest_unit(task: Task, options: Options) -> int:
     """The number of units in a cost of 1, so that all that is added up is whole."""
     amounts = [options.window_weight]
     if isinstance(options.max_cost, Fraction):

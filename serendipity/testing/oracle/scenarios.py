@@ -5,24 +5,28 @@ and so their state.  The recursion is over (epoch, group); what comes of it are 
 of each scenario, since ``risk`` decides only at the end which vector is the least.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
-from itertools import product
+from itertools import chain, product
 from typing import NamedTuple, Protocol
 
 from serendipity.model import Condition, GroundAction, HumanPlan, Options, Task, UsageError
+from serendipity.testing.oracle.answers import smallest_unit
 from serendipity.testing.oracle.epochs import State, action_sets, after, compatible, holds, usable
 from serendipity.testing.oracle.suffixes import CanonicalSuffix
 
 Worth = tuple[Fraction, Fraction]
 """Objective and cost; the lower objective is better, then the lower cost."""
 
-Vector = tuple[Worth, ...]
+Units = tuple[int, int]
+"""The same in the call's smallest unit of cost."""
+
+Vector = tuple[Units, ...]
 """One worth for each scenario."""
 
-_FREE: Worth = (Fraction(0), Fraction(0))
+Vectors = tuple[Vector, ...]
 
 
 class PossibleGoal(Protocol):
@@ -80,43 +84,24 @@ def best_policy(
     last = longest if horizon is None else horizon
     if last < longest:
         raise UsageError("horizon: shorter than the human's plan")
-    policies = _Policies(task, options, scenarios, last)
-    without_robots = _Policies(task, options, scenarios, last, robots=False)
-    weight = options.window_weight
-    costs = [task.cost_of(scenario.plan) for scenario in scenarios]
-    over = _Risk(options.risk, [scenario.weight for scenario in scenarios], policies.singles())
-    least, idle = over.least(policies.vectors()), over.least(without_robots.vectors())
-    baseline = over.worth([(cost + weight, cost) for cost in costs])[1]
+    kept = [(task.cost_of(one.plan) + options.window_weight, task.cost_of(one.plan)) for one in scenarios]
+    singles = [min(_Policies(task, options, [one], last).vectors())[0] for one in scenarios]
+
+    def worth(vector: Sequence[Worth]) -> Worth:
+        """What is minimised, and the cost that goes with it."""
+        if options.risk == "worst":
+            return max(vector)
+        if options.risk == "regret":
+            return max((a[0] - b[0], a[1] - b[1]) for a, b in zip(vector, singles, strict=True))
+        weighed = [(p.weight * a, p.weight * b) for p, (a, b) in zip(scenarios, vector, strict=True)]
+        return sum((a for a, _ in weighed), Fraction(0)), sum((b for _, b in weighed), Fraction(0))
+
+    least = min(map(worth, _Policies(task, options, scenarios, last).vectors()))
+    idle = min(map(worth, _Policies(task, options, scenarios, last, robots=False).vectors()))
+    baseline = worth(kept)[1]
     if least[1] < idle[1]:
         return PolicyOptimum(*least, True, baseline, idle, least)
     return PolicyOptimum(baseline, baseline, False, baseline, idle, least)
-
-
-@dataclass(frozen=True, slots=True)
-class _Risk:
-    """What is minimised.
-
-    Attributes:
-        kind: option ``risk``.
-        weights: the probabilities.
-        singles: the least worth of each scenario, were it the only one.
-    """
-
-    kind: str
-    weights: Sequence[Fraction]
-    singles: Vector
-
-    def least(self, vectors: Iterable[Vector]) -> Worth:
-        """The least worth there is."""
-        return min(self.worth(vector) for vector in vectors)
-
-    def worth(self, vector: Sequence[Worth]) -> Worth:
-        """What is minimised, and the cost that goes with it."""
-        if self.kind == "worst":
-            return max(vector)
-        if self.kind == "regret":
-            return max((a[0] - b[0], a[1] - b[1]) for a, b in zip(vector, self.singles, strict=True))
-        return _total((p * a, p * b) for p, (a, b) in zip(self.weights, vector, strict=True))
 
 
 class _Situation(NamedTuple):
@@ -138,7 +123,7 @@ class _Way(NamedTuple):
 
     seen: str | None
     """Name of the human's action; None where they wait."""
-    worth: Worth
+    worth: Units
     now: _Situation
 
 
@@ -156,7 +141,8 @@ class _Policies:
     ) -> None:
         self.task, self.options, self.horizon = task, options, horizon
         self.scenarios = scenarios
-        self.weight = options.window_weight
+        self.unit = smallest_unit(task, options)
+        self.weight = int(options.window_weight * self.unit)
         self.suffixes = [
             CanonicalSuffix(replace(task, goal=scenario.goal), options, scenario.plan)
             for scenario in scenarios
@@ -164,55 +150,64 @@ class _Policies:
         self.own = [i for i, a in enumerate(task.actions) if robots and task.human not in a.participants]
         human = [a for a in task.actions if task.human in a.participants and (robots or not a.joint)]
         self.parts: list[GroundAction | None] = [None, *human]
-        self.front = cache(self._front)
+        self.front, self.part, self.ways = cache(self._front), cache(self._part), cache(self._ways)
 
-    def vectors(self) -> tuple[Vector, ...]:
+    def vectors(self) -> Iterator[tuple[Worth, ...]]:
         """What policies are worth; those that are no better in any scenario than others may be missing."""
-        return self.front(1, tuple(_Situation(k, self.task.init) for k in range(len(self.scenarios))))
+        everything = tuple(_Situation(k, self.task.init) for k in range(len(self.scenarios)))
+        for vector in self.front(1, everything):
+            yield tuple((Fraction(a, self.unit), Fraction(b, self.unit)) for a, b in vector)
 
-    def singles(self) -> Vector:
-        """The least for each scenario by itself."""
-        return tuple(
-            self.front(1, (_Situation(k, self.task.init),))[0][0] for k in range(len(self.scenarios))
-        )
-
-    def _front(self, epoch: int, group: _Group) -> tuple[Vector, ...]:
+    def _front(self, epoch: int, group: _Group) -> Vectors:
         """What the rest can be worth to a group, from the beginning of an epoch on."""
         if epoch > self.horizon:
             ends = [self._end(now) for now in group]
             return (tuple(end for end in ends if end is not None),) if None not in ends else ()
         found: set[Vector] = set()
         for robots in self._robots(group):
-            for ways in product(*(self._ways(epoch, now, robots) for now in group)):
-                found.update(self._onward(epoch, ways))
-        return tuple(v for v in found if not any(w != v and _no_worse(w, v) for w in found))
+            for told in product(*(self.ways(epoch, now, robots) for now in group)):
+                parts: dict[str | None, list[int]] = {}
+                for k, seen in enumerate(told):
+                    parts.setdefault(seen, []).append(k)
+                fronts = [
+                    self.part(epoch, tuple(group[k] for k in part), robots, seen)
+                    for seen, part in parts.items()
+                ]
+                order = [k for part in parts.values() for k in part]
+                for chosen in product(*fronts):
+                    worths = zip(order, chain.from_iterable(chosen), strict=True)
+                    found.add(tuple(worth for _, worth in sorted(worths)))
+        return _undominated(found)
 
-    def _onward(self, epoch: int, ways: Sequence[_Way]) -> Iterator[Vector]:
-        """The epoch and all that follows, once it is settled what happens in it."""
-        parts: dict[str | None, list[int]] = {}
-        for k, way in enumerate(ways):
-            parts.setdefault(way.seen if self.options.policy == "watching" else None, []).append(k)
-        rests = [self.front(epoch + 1, tuple(ways[k].now for k in part)) for part in parts.values()]
-        for chosen in product(*rests):
-            rest = {
-                k: worth
-                for part, vector in zip(parts.values(), chosen, strict=True)
-                for k, worth in zip(part, vector, strict=True)
-            }
-            yield tuple(_total((way.worth, rest[k])) for k, way in enumerate(ways))
+    def _part(self, epoch: int, group: _Group, robots: tuple[int, ...], seen: str | None) -> Vectors:
+        """The same, once it is settled what robots do by themselves and what they see."""
+        found: set[Vector] = set()
+        for ways in product(*(self.ways(epoch, now, robots)[seen] for now in group)):
+            for rest in self.front(epoch + 1, tuple(way.now for way in ways)):
+                worths = zip((way.worth for way in ways), rest, strict=True)
+                found.add(tuple((a + more, b + spent) for (a, b), (more, spent) in worths))
+        return _undominated(found)
 
-    def _robots(self, group: _Group) -> Iterator[tuple[GroundAction, ...]]:
+    def _robots(self, group: _Group) -> Iterator[tuple[int, ...]]:
         """What robots may do by themselves, the same in the whole group."""
         if any(now.rest is not None for now in group):
             yield ()
             return
         for chosen in action_sets(self.task, group[0].state, self.own, strict=self.options.strict):
-            actions = tuple(self.task.actions[i] for i in chosen)
-            if all(usable(action, now.state) for now in group for action in actions):
-                yield actions
+            if all(usable(self.task.actions[i], now.state) for now in group for i in chosen):
+                yield chosen
 
-    def _ways(self, epoch: int, now: _Situation, robots: Sequence[GroundAction]) -> Iterator[_Way]:
-        """Everything that the human may do beside the robots, by rules 1 to 3 of semantics 3.1."""
+    def _ways(
+        self, epoch: int, now: _Situation, robots: tuple[int, ...]
+    ) -> Mapping[str | None, Sequence[_Way]]:
+        """Everything that the human may do beside the robots, by what these see of it."""
+        found: dict[str | None, list[_Way]] = {}
+        for way in self._human(epoch, now, [self.task.actions[i] for i in robots]):
+            found.setdefault(way.seen if self.options.policy == "watching" else None, []).append(way)
+        return found
+
+    def _human(self, epoch: int, now: _Situation, robots: Sequence[GroundAction]) -> Iterator[_Way]:
+        """Rules 1 to 3 of semantics 3.1."""
         if now.rest is not None:
             yield from self._way(now, robots, self._action(now.rest, 0), rest=now.rest[1:])
             return
@@ -224,7 +219,7 @@ class _Policies:
         if since <= len(plan) and epoch - since < most:
             for his in self.parts:
                 for way in self._way(now, robots, his, since=since):
-                    inside = way._replace(worth=_total((way.worth, (self.weight, Fraction(0)))))
+                    inside = way._replace(worth=(way.worth[0] + self.weight, way.worth[1]))
                     yield inside
                     yield from self._closed(epoch, inside)
 
@@ -245,7 +240,7 @@ class _Policies:
             actions.append(his)
         if all(usable(action, now.state) for action in actions):
             costs = (self.task.team_cost(action, self.options.discount) for action in actions)
-            cost = sum(costs, Fraction(0))
+            cost = int(sum(costs, Fraction(0)) * self.unit)
             state = after(now.state, actions)
             seen = None if his is None else his.name
             yield _Way(seen, (cost, cost), _Situation(now.scenario, state, since, rest))
@@ -258,24 +253,22 @@ class _Policies:
         if rest is not None:
             yield inside._replace(now=_Situation(scenario, state, None, rest))
 
-    def _end(self, now: _Situation) -> Worth | None:
+    def _end(self, now: _Situation) -> Units | None:
         """What comes on top after ``T``; None where it can't end like this."""
         if now.rest is not None:
-            return _FREE
+            return (0, 0)
         if now.since is not None or not holds(self.scenarios[now.scenario].goal, now.state):
             return None
-        return (self.weight, Fraction(0))
+        return (self.weight, 0)
 
     def _action(self, plan: HumanPlan, index: int) -> GroundAction | None:
         return self.task.actions[plan[index]] if index < len(plan) else None
 
 
-def _no_worse(a: Vector, b: Vector) -> bool:
-    return all(one <= other for one, other in zip(a, b, strict=True))
+def _undominated(vectors: set[Vector]) -> Vectors:
+    """Without those that another one is no worse than in any scenario."""
 
+    def beats(a: Vector, b: Vector) -> bool:
+        return a != b and all(one <= other for one, other in zip(a, b, strict=True))
 
-def _total(worths: Iterable[Worth]) -> Worth:
-    objective, cost = _FREE
-    for more in worths:
-        objective, cost = objective + more[0], cost + more[1]
-    return objective, cost
+    return tuple(v for v in vectors if not any(beats(other, v) for other in vectors))
