@@ -82,7 +82,7 @@ def _asked(call: PlanCall, dice: Random) -> _Asked:
     if share < _GAMES:
         options = {
             "mode": "assistance",
-            "ties": dice.choice(CHOICES["ties"]),
+            "ties": dice.choice([ties for ties in CHOICES["ties"] if ties != "watched"]),
             "no_block": dice.choice(("true", "false")),
         }
         actions = tuple(action for action in task.actions if max(action.participants) < 2)
@@ -90,7 +90,7 @@ def _asked(call: PlanCall, dice: Random) -> _Asked:
     if share < _GAMES + _GOALS:
         options = {
             name: value for name, value in call.options.items() if name in ("discount", "window_weight")
-        }
+        } | {name: dice.choice(CHOICES[name]) for name in ("policy", "risk")}
         fact = dice.randrange(len(task.facts))
         prior = dice.choice((Fraction(1, 2), Fraction(1, 3), Fraction(9, 10)))
         own = [task.facts[f] for f in task.goal.positive] + [f"!{task.facts[f]}" for f in task.goal.negative]
