@@ -163,6 +163,8 @@ class Truth:
         horizon = int(options.horizon or max(len(belief.plan) for belief in self.beliefs))
         if horizon > _LONGEST_PLAN:
             raise UnknownTruthError
+        if len(self.beliefs) == 1:  # a call like any other: nothing is regretted
+            options = options.but(risk="mean")
         found = best_policy(self.task, options, self.beliefs, horizon)
         return Optimum("optimal", found.cost, found.objective, opportunity=found.opportunity)
 
