@@ -119,9 +119,6 @@ class PreparedTask:
         Args:
             state: ids of the facts that are true in it.
             deadline: polled where variables have to be found anew.
-
-        Raises:
-            LimitReachedError: the deadline came first.
         """
         moved = PreparedTask(self.task.at(state, deadline))
         if moved.task.variables is self.task.variables:
@@ -189,9 +186,6 @@ def prepare(task: Task, deadline: Deadline | None = None) -> PreparedTask:
 
     Args:
         deadline: polled for time, and asked for memory.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     deadline = deadline or Deadline()
     prepared = PreparedTask(task)

@@ -21,9 +21,6 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
     Args:
         planner: the kernel on the problem.
         state: the packed state to begin in.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     operators = planner.problem.operators
     left = planner.cheapest(state, deadline)
@@ -58,9 +55,6 @@ def in_order(operators: Sequence[Operator], plan: Sequence[int], deadline: Deadl
 
     Args:
         plan: some of them, by their numbers, as they can be done one after another.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     waits = [0] * len(plan)
     after: list[list[int]] = [[] for _ in plan]

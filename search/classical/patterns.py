@@ -30,9 +30,6 @@ def patterns(
     Args:
         operators: the human's own.
         most_states: of a projection.
-
-    Raises:
-        LimitReachedError: the deadline came.
     """
     asked = _neighbours(fields, operators, deadline)
     goals = [i for i, (mask, _) in enumerate(fields) if mask & goal.mask]

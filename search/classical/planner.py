@@ -128,9 +128,6 @@ class ClassicalPlanner:
             limit: what is dearer does not matter.
             on_bound: told now and then what no plan is cheaper than.
             before: an operator that leads to the state: only such plans matter as go on from it optimally.
-
-        Raises:
-            LimitReachedError: the deadline came first.
         """
         kernel, planner = self._kernel, self._planner
         row, most = self.told.row(state), self.problem.limit(limit)
@@ -146,9 +143,6 @@ class ClassicalPlanner:
 
         Args:
             on_bound: as for :meth:`cheapest`.
-
-        Raises:
-            LimitReachedError: the deadline came first.
         """
         kernel, planner = self._kernel, self._planner
         assert self._is_open, "it was interrupted"
@@ -205,11 +199,7 @@ class ClassicalPlanner:
         return self.problem.amount(found)
 
     def first_plan(self, state: int, deadline: Deadline) -> list[int] | None:
-        """Some plan from a packed state, by numbers of operators, or None where there is none.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
+        """Some plan from a packed state, by numbers of operators, or None where there is none."""
         kernel, planner, row = self._kernel, self._planner, self.told.row(state)
         self._allowed(lambda room: kernel.planner_begin_greedy(planner, row, room), deadline)
         outcome = RUNNING
@@ -234,9 +224,6 @@ class ClassicalPlanner:
         Args:
             limit: as for :meth:`cheapest`.
             on_bound: as for :meth:`cheapest`.
-
-        Raises:
-            LimitReachedError: the deadline came first.
         """
         if self._asked is not None:
             self._start()
@@ -249,11 +236,7 @@ class ClassicalPlanner:
         return sum(self.problem.amount(weights[number]) for number in numbers)
 
     def known_plan(self, state: int, deadline: Deadline | None = None) -> list[int] | None:
-        """A cheapest plan, by numbers, from a packed state of which the cost was found and is finite.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
+        """A cheapest plan, by numbers, from a packed state of which the cost was found and is finite."""
         if state & self._mask in self._plans:
             return self._plans[state & self._mask]
         kernel, planner, row = self._kernel, self._planner, self.told.row(state)
@@ -310,11 +293,7 @@ class ClassicalPlanner:
     # -- tables
 
     def prepare(self, deadline: Deadline) -> None:
-        """Make tables, if they are worth their time by now.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
+        """Make tables, if they are worth their time by now."""
         if not self._tables and self.counts()[2] >= _MANY:
             self._tables = True
             self._make_tables(deadline)

@@ -49,9 +49,6 @@ class AndOrGraph(Generic[State]):
         Returns:
             The value of each state that can be had, and, but for those that are given, the index of the
             rule by which it was; of several that cost the same the one that was complete first.
-
-        Raises:
-            LimitReachedError: the deadline ran out.
         """
         values: dict[State, int] = {}
         offered: dict[State, int] = dict.fromkeys(given, 0)

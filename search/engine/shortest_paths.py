@@ -97,9 +97,6 @@ def backward(
 
     Returns:
         The least distance from each state from which a source can be reached, ascending.
-
-    Raises:
-        LimitReachedError: the deadline ran out.
     """
     queue = LevelQueue(sources)
     levels = queue.levels

@@ -25,11 +25,7 @@ class KeptTable(Generic[T]):
         self.known: tuple[T] | None = None
 
     def __call__(self, deadline: Deadline) -> T:
-        """What is built.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
+        """What is built."""
         if self.known is None:
             self.known = (self._build(deadline),)
         return self.known[0]

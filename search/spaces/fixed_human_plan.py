@@ -76,9 +76,6 @@ def follow_plan(context: SearchContext, plan: HumanPlan, horizon: int | None, be
         plan: ``pi_H``, which fits ``T``.
         horizon: ``T``, or None where it is infinite.
         best: the incumbent, of an infinite key.
-
-    Raises:
-        LimitReachedError: the deadline came.
     """
     steps = context.followed(plan)
     if not context.task.robot_goal:

@@ -34,11 +34,7 @@ class Suggestions:
         self._suffix = suffix_rule(context, plan)
 
     def of(self, steps: Sequence[Step]) -> Iterator[Incumbent]:
-        """What a composite plan suggests.
-
-        Raises:
-            LimitReachedError: the context's deadline came.
-        """
+        """What a composite plan suggests."""
         epochs = self._epochs(steps)
         if not self._context.options.windowed:
             yield from self._whole(epochs)
@@ -78,9 +74,6 @@ class Suggestions:
 
         Args:
             ops: in their order; the human's are left out.
-
-        Raises:
-            LimitReachedError: the context's deadline came.
         """
         human, node = self._context.packed.human_bit, self._root()
         left = [op for op in ops if not op.agents & human]
@@ -99,9 +92,6 @@ class Suggestions:
 
         Args:
             epochs: per epoch what robots do in it.
-
-        Raises:
-            LimitReachedError: the context's deadline came.
         """
         node = self._root()
         for number, ops in enumerate(epochs[:-1]):
@@ -116,11 +106,7 @@ class Suggestions:
                 yield from self._ended(self._context.after(node, together)._replace(start=len(epochs)))
 
     def exactly(self, epochs: Sequence[Sequence[Operator]]) -> Iterator[Incumbent]:
-        """What all agents do in each epoch; the last one is the window.
-
-        Raises:
-            LimitReachedError: the context's deadline came.
-        """
+        """What all agents do in each epoch; the last one is the window."""
         node = self._root()
         for ops in epochs:
             node = self._context.after(node, ops)
@@ -151,9 +137,6 @@ class Suggestions:
             epoch: which it is.
             left: what robots have not done yet.
             keeps: whether the rest of ``pi_H`` stays applicable.
-
-        Raises:
-            LimitReachedError: the context's deadline came.
         """
         context, chosen = self._context, [self._plan[epoch - 1]]
         busy = chosen[0].agents

@@ -23,11 +23,7 @@ _FIRST_BOUND: Final = 0.1
 
 
 def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None) -> PlanGraph | None:
-    """All optimal plans of the human alone, or None where they have none.
-
-    Raises:
-        LimitReachedError: the deadline ran out.
-    """
+    """All optimal plans of the human alone, or None where they have none."""
     return SearchContext(prepared, Options(), deadline or Deadline()).optimal_plans()
 
 
@@ -38,9 +34,6 @@ def optimal_plans_in_time(
 
     Args:
         prepared: a task in single epochs.
-
-    Raises:
-        LimitReachedError: the deadline ran out.
     """
     context = SearchContext(prepared, options, deadline)
     graph, packed = context.optimal_plans(), context.packed
@@ -52,11 +45,7 @@ def optimal_plans_in_time(
 
 
 def canonical_human_plan(prepared: PreparedTask, deadline: Deadline, options: Options) -> HumanPlan | None:
-    """The canonical plan of the human alone (semantics 1), or None where they have none.
-
-    Raises:
-        LimitReachedError: the deadline ran out.
-    """
+    """The canonical plan of the human alone (semantics 1), or None where they have none."""
     optimal = SearchContext(prepared, options, deadline).canonical_plan()
     return None if optimal is None else optimal.actions
 

@@ -64,9 +64,6 @@ def replayed(
         plan: ``pi_H``; empty where there is none.
         horizon: ``T``, or None where it is infinite.
         most_cost: largest scaled cost of an acceptable plan, or None.
-
-    Raises:
-        LimitReachedError: the deadline of the call came.
     """
     if not warm.steps or (warm.window is None) == context.options.windowed:
         return None  # without a window there, it is what the call begins with anyway

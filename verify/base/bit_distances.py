@@ -75,9 +75,6 @@ def reaches_below(
         limit: what must be undercut.
         least: a consistent lower bound on what a state still takes.
         most: states looked at before giving up.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     for looked_at, (state, _) in enumerate(PathSearch(start, moves, least, deadline, limit)):
         if goal.holds(state):

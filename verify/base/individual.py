@@ -101,9 +101,6 @@ class IndividualOptimum:
 
         Args:
             plan: by ids of own actions; it can be executed from the initial state on, and reaches the goal.
-
-        Raises:
-            LimitReachedError: the deadline came first.
         """
         self._enough[self.own.bits.of(self._task.init)] = sum(self.own.weight(i) for i in plan)
 

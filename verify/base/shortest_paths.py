@@ -21,9 +21,6 @@ def dijkstra(
     Args:
         sources: different nodes, each with the distance that it starts with.
         edges: the nodes that follow a node, each with the edge's weight.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     best = dict(sources)
     queue = [(distance, number, node) for number, (node, distance) in enumerate(best.items())]
@@ -76,11 +73,7 @@ class PathSearch(Generic[N, L]):
         self.distance: dict[N, int] = {start: 0}
 
     def __iter__(self) -> Iterator[tuple[N, int]]:
-        """Nodes, each with its distance and estimate; a node's edges are looked at after it was taken.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
+        """Nodes, each with its distance and estimate; a node's edges are looked at after it was taken."""
         edges, estimate, below = self._edges, self._estimate, self._below
         best, came_from = self.distance, self._came_from
         left = estimate(self._start)

@@ -177,9 +177,6 @@ def prices(task: Task, options: Options, human_plan: HumanPlan, deadline: Deadli
 
     Args:
         human_plan: ``pi_H`` by ids.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     deadline, planned = deadline or Deadline(), in_plan(task, human_plan) | idling(task)
     weight = options.communication_weight if options.mode == "communication" else Fraction(0)

@@ -76,9 +76,6 @@ class SingleEpochs:
     Attributes:
         units: the task in single epochs, and what it has to do with the one in time.
         fault: what is wrong with the plan as the text has it, or None.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
 
     def __init__(self, task: Task, result: Result, deadline: Deadline) -> None:

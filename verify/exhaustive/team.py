@@ -94,9 +94,6 @@ class TeamEpochs:
             wait: whether the human may do nothing.
             robots: whether robots may act without the human; bystanders do in any case.
             free: whether the human may do nothing even where waiting costs.
-
-        Raises:
-            LimitReachedError: the deadline came first.
         """
         at_once = limits().states_at_once
         for first in range(0, len(states), at_once):

@@ -100,11 +100,7 @@ class PatternBounds:
         return sum(pattern.size for way in self._ways for pattern, _ in way)
 
     def __call__(self, states: Words) -> Ints:
-        """A bound for each state; ``FAR`` where no goal can be reached.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
+        """A bound for each state; ``FAR`` where no goal can be reached."""
         best: Ints = self._best(states).max(axis=0, initial=0)
         return best
 

@@ -47,9 +47,6 @@ def replay(task: Task, steps: Sequence[PlanStep], deadline: Deadline, *, strict:
     Args:
         steps: the plan, in any order.
         strict: interference as in semantics 2.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     by_epoch: dict[int, list[PlanStep]] = {}
     for step in deadline.each(steps):

@@ -24,11 +24,7 @@ _OPTIONS: Final = ("-timeMode", "elapsed", "-ratio", "0", "-allow", "0.5", "-thr
 
 
 def minimise(model: Model, deadline: Deadline) -> SolverAnswer:
-    """Minimise with one thread.
-
-    Raises:
-        LimitReachedError: the deadline came first.
-    """
+    """Minimise with one thread."""
     with TemporaryDirectory() as folder:
         program, solution = Path(folder, "program.mps"), Path(folder, "solution.txt")
         with program.open("w", encoding="ascii") as file:

@@ -86,9 +86,6 @@ class Landmarks:
 
         Args:
             given: the values that other states may have instead of its own.
-
-        Raises:
-            LimitReachedError: the deadline came.
         """
         true = [number for (field, value), number in self._number.items() if state & field == value]
         gifts = {number for value in given if (number := self._number.get(value)) is not None}

@@ -58,9 +58,6 @@ def cheapest(
         rows: the columns.
         amounts: of each.
         last: decides among equal amounts, the least first.
-
-    Raises:
-        LimitReachedError: the deadline came.
     """
     order = _sorted((amounts, *rows) if last is None else (last, amounts, *rows), deadline)
     first = np.ones(len(order), dtype=np.bool_)

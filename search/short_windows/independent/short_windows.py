@@ -156,11 +156,7 @@ class _Pass:
 
 
 def short_windows(question: ShortWindowQuestion) -> ShortWindows | None:
-    """Plans with a window of one epoch, robots one by one; None where they can't be looked at so.
-
-    Raises:
-        LimitReachedError: the deadline came.
-    """
+    """Plans with a window of one epoch, robots one by one; None where they can't be looked at so."""
     context, packed = question.context, question.context.packed
     if not packed.others or not are_apart(packed, context.deadline, strict=context.options.strict):
         return None

@@ -135,11 +135,7 @@ class Window:
         return len(self._remaining) > 0
 
     def look(self, limit: int) -> int | None:
-        """Look at an outcome: its place if it is below a limit.
-
-        Raises:
-            LimitReachedError: the deadline came.
-        """
+        """Look at an outcome: its place if it is below a limit."""
         context, alone = self._context, self._context.alone
         assert self._remaining is not None, "it is open"
         context.deadline.check()

@@ -67,9 +67,6 @@ class AllTogether:
 
         Args:
             most: so many states, and it ends.
-
-        Raises:
-            LimitReachedError: the deadline came.
         """
         if self._is_over:
             return

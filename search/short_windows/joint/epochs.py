@@ -120,9 +120,6 @@ class Epochs:
 
         None: there are more states; the same call goes on.  What an earlier epoch could leave behind
         for less is not told again.  Arguments as above.
-
-        Raises:
-            LimitReachedError: the deadline came.
         """
         if not self._run(_NONE, limit, most, deadline):
             return None

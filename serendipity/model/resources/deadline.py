@@ -31,6 +31,9 @@ _MEMORY_EVERY: Final = 0.005
 class Deadline:
     """A time limit, a memory limit and a cancel flag; whoever works for long polls it.
 
+    Inside the planner and the verifier, whoever is given one raises ``LimitReachedError`` when it
+    comes; docstrings there say so only where there is more to say, as what stays known.
+
     Args:
         time_limit: seconds from now, or None for no limit.
         memory_limit: what the whole process may have in memory, in MiB, or None for no limit.

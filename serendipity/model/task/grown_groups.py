@@ -23,9 +23,6 @@ def grown_groups(balance: Balance, deadline: Deadline, apart: Iterable[Group] = 
     Args:
         balance: of the task.
         apart: groups that are known; these share no fact with them, either.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     return _Grower(balance, deadline, apart).groups()
 

@@ -86,9 +86,6 @@ def groups_by_form(facts: Sequence[str], balance: Balance, deadline: Deadline) -
     Args:
         facts: their names.
         balance: of the task.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     atoms = [_atom(name) for name in deadline.each(facts)]
     changes = _by_part(_changes(_examples(deadline.each(balance.actions)), atoms))

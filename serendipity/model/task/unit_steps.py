@@ -248,11 +248,7 @@ class _Steps:
         return tuple(sorted((*kept, *single, *time), key=lambda one: one.facts))
 
     def finished(self, deadline: Deadline) -> UnitSteps:
-        """The new task.
-
-        Raises:
-            LimitReachedError: the deadline came.
-        """
+        """The new task."""
         task = self._task
         idle = self._idle()
         # By key, as those of every task; equal ones (variants) stay in their order.

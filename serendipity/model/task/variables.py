@@ -55,9 +55,6 @@ def find_variables(
         facts: their names; ids are indices.
         init: ids of those that hold in ``I``.
         actions: every ground action.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     deadline = deadline or Deadline()
     balance = Balance(len(facts), init, actions, deadline)

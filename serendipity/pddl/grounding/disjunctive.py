@@ -64,11 +64,7 @@ def with_disjunctions(
 def variables_behind(
     facts: Sequence[str], init: frozenset[int], actions: Sequence[GroundAction], work: Work
 ) -> tuple[Variable, ...]:
-    """The finite-domain variables of a task: part of reading it, so that no planning call pays for it.
-
-    Raises:
-        LimitReachedError: a limit came first.
-    """
+    """The finite-domain variables of a task: part of reading it, so that no planning call pays for it."""
     work.stage(f"finding variables of {len(facts):,} facts")
     return find_variables(facts, init, actions, work.deadline)
 

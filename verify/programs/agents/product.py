@@ -75,9 +75,6 @@ def automata(
         part: what of it matters.
         units: groups of facts that go into an automaton, or stay out, together.
         owner: whose facts are whose; None: as :func:`private_facts` has it.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
     owner = private_facts(task, part, deadline) if owner is None else owner
     result = []

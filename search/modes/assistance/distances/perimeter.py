@@ -69,9 +69,6 @@ class PackedPlaces:
         fields: masks of the fields that a state consists of.
         values: all values of each field.
         start: a state; only combinations that may come up from there have a place.
-
-    Raises:
-        LimitReachedError: the deadline came first.
     """
 
     def __init__(
