@@ -73,6 +73,8 @@ def object_of(result: Any) -> dict[str, Any]:
     timed = (name for name in _IN_TIME if getattr(result, name))
     data = {"schema": SCHEMA, **written(result, (*_IN_JSON, *timed))}
     data["statistics"] = {**result.statistics, **parts}
+    if len(result.goals or ()) > 1:  # before robots could watch there was but one policy, and no word for it
+        data["options"]["policy"] = result.options.policy
     texts = exact_texts(data)
     return data if texts is None else {**data, "exact": texts}
 
@@ -88,6 +90,8 @@ def fields_of(kind: type, data: Any) -> dict[str, Any]:
     if fault := schema_fault(data.get("schema"), SCHEMA):
         raise MalformedError(fault)
     given = _LATER | with_exact(data, data.get("exact", {}), "exact")
+    if _is_committed(given):
+        given["options"] = {**given["options"], "policy": "fixed"}
     found = read_fields(kind, given, (*_IN_JSON, *_IN_TIME))
     if found["mode"] != found["options"].mode:
         raise MalformedError(f"mode: is {found['mode']!r:.50}, but '{found['options'].mode}' in the options")
@@ -105,6 +109,15 @@ def fields_of(kind: type, data: Any) -> dict[str, Any]:
                 malformed[name] = str(error)
     left = {name: value for name, value in statistics.items() if name not in parts}
     return {**found, **parts, "statistics": left, "malformed": malformed}
+
+
+def _is_committed(data: dict[str, Any]) -> bool:
+    """Whether an answer for several goals is of a time when robots committed themselves."""
+    options, statistics = data.get("options"), data.get("statistics")
+    if not isinstance(options, dict) or not isinstance(statistics, dict) or "policy" in options:
+        return False
+    goals = statistics.get("goals")
+    return isinstance(goals, list) and len(goals) > 1
 
 
 def _read_options(value: Any, where: str) -> Options:
