@@ -73,7 +73,7 @@ def object_of(result: Any) -> dict[str, Any]:
     timed = (name for name in _IN_TIME if getattr(result, name))
     data = {"schema": SCHEMA, **written(result, (*_IN_JSON, *timed))}
     data["statistics"] = {**result.statistics, **parts}
-    if len(result.goals or ()) > 1:  # before robots could watch there was but one policy, and no word for it
+    if result.says("goals") and (result.goals is None or len(result.goals) > 1):
         data["options"]["policy"] = result.options.policy
     texts = exact_texts(data)
     return data if texts is None else {**data, "exact": texts}
