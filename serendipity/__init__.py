@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from serendipity.evaluation.reproduction import Progress, Reproduction, Row, reproduce
     from serendipity.execution import Execution, Run, Runs, execute
-    from serendipity.explanation import Explanation, explain
+    from serendipity.explanation import Explanation, PolicyExplanation, explain, explain_policy
     from serendipity.facade.bystanders import with_bystanders
     from serendipity.facade.certify import check, verify
     from serendipity.facade.interruptibility import Interruption, InterruptionReport, Removal, interruptions
@@ -96,6 +96,7 @@ __all__ = [
     "PlanStep",
     "PlanTimes",
     "Policy",
+    "PolicyExplanation",
     "Progress",
     "ProofCheck",
     "Recognition",
@@ -130,6 +131,7 @@ __all__ = [
     "example",
     "execute",
     "explain",
+    "explain_policy",
     "generate_usar",
     "interruptions",
     "load",
@@ -148,7 +150,7 @@ __all__ = [
 _HOMES = {
     "evaluation.reproduction": "Progress Reproduction Row reproduce",
     "execution": "Execution Run Runs execute",
-    "explanation": "Explanation explain",
+    "explanation": "Explanation PolicyExplanation explain explain_policy",
     "facade.bystanders": "with_bystanders",
     "facade.certify": "check verify",
     "facade.interruptibility": "Interruption InterruptionReport Removal interruptions",

@@ -2,5 +2,6 @@
 
 from serendipity.explanation.explain import explain
 from serendipity.explanation.explanation import Explanation
+from serendipity.explanation.policies import PolicyExplanation, explain_policy
 
-__all__ = ["Explanation", "explain"]
+__all__ = ["Explanation", "PolicyExplanation", "explain", "explain_policy"]

@@ -33,6 +33,11 @@ def explain(
     loaded = task.but(files=named).load(deadline)
     given = None if options.human_plan is None else timed_plan(options.human_plan, loaded)
     result = None if answer is None else _read(loaded, answer, deadline)
+    if result is not None and len(result.goals or ()) > 1 and not options.given:
+        with limits.during("planning"):
+            told = serendipity.explain_policy(loaded, result, deadline=deadline)
+        output.write_answer(shown(told, form), to.output_file)
+        return OF_STATUS[result.status]
     with progress.counting("searches") as on_progress, limits.during("planning"):
         found = serendipity.explain(
             loaded, result, human_plan=given, on_progress=on_progress, deadline=deadline, **options.given

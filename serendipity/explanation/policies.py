@@ -1,0 +1,158 @@
+"""What robots wait to see, and what seeing it is worth, in an answer over scenarios (semantics 11)."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Final
+
+from serendipity.facade.planning import plan
+from serendipity.model import Deadline, Result, Task, UsageError
+from serendipity.model.answers.answer import Status
+from serendipity.model.answers.fields import Written, written
+from serendipity.model.answers.histories import History, histories
+from serendipity.model.answers.result_parts import GoalAnswer
+from serendipity.model.arguments import RESULT, TASK, expect
+from serendipity.model.numbers import as_written, plain
+from serendipity.model.resources.limits import limits_from
+from serendipity.model.telling import Grid, Line, Output
+
+_FIELDS: Final = ("answer", "committed", "knowing", "signs")
+
+
+@dataclass(frozen=True, slots=True)
+class Sign(Written):
+    """Something that robots see, and what they know by it.
+
+    Attributes:
+        epoch: in which they see it.
+        action: what the human does; None where they wait.
+        before: scenarios that were possible, by their places in the answer.
+        after: those that still are.
+        waited_for: whether robots did nothing by themselves as long as they did not know it.
+    """
+
+    epoch: int
+    action: str | None
+    before: tuple[int, ...]
+    after: tuple[int, ...]
+    waited_for: bool
+
+
+@dataclass(frozen=True, slots=True)
+class PolicyExplanation(Output):
+    """Why robots do what they do while several scenarios are possible.
+
+    Attributes:
+        answer: what is explained.
+        committed: what robots come to that see nothing; None where a limit came first.
+        knowing: what they would come to if they knew the scenario from the start; None likewise.
+        signs: what they see, in order.
+    """
+
+    answer: Result
+    committed: Fraction | None
+    knowing: Fraction | None
+    signs: tuple[Sign, ...]
+
+    @property
+    def status(self) -> Status:
+        """That of the answer."""
+        return self.answer.status
+
+    def _in_short(self) -> Iterator[str]:
+        yield from self.answer._in_short()
+        yield f"{len(self.signs)} signs"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON object (schema ``serendipity.policy-explanation/1``)."""
+        return {"schema": "serendipity.policy-explanation/1", **written(self, _FIELDS)}
+
+    def told(self) -> Iterator[Line | Grid]:
+        """The lines that ``explain`` prints."""
+        yield from self.answer.told()
+        yield Line()
+        cost = as_written(self.answer.cost or 0)
+        if self.committed is not None:
+            worth, committed = plain(self.committed - cost), plain(self.committed)
+            yield Line(f"watching is worth {worth}: committed robots cost {committed}")
+        if self.knowing is not None:
+            yield Line(f"knowing it from the start would be worth {plain(cost - self.knowing)} more")
+        if not self.signs:
+            return
+        yield Line()
+        rows = [
+            (
+                str(sign.epoch),
+                sign.action or "(waits)",
+                ", ".join(str(i + 1) for i in sign.after),
+                "yes" if sign.waited_for else "",
+            )
+            for sign in self.signs
+        ]
+        yield Grid(
+            ("epoch", f"{self.answer.human} does", "so it is", "robots waited for it"), rows, numbered=True
+        )
+
+
+def explain_policy(
+    task: Task,
+    result: Result,
+    *,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+    deadline: Deadline | None = None,
+) -> PolicyExplanation:
+    """What robots wait to see in an answer over scenarios, and what watching is worth (semantics 11).
+
+    Args:
+        task: the task.
+        result: the answer; its options hold.
+        time_limit: seconds for all calls together; what they leave no time for is left out.
+        memory_limit: what the process may have in memory, in MiB, or None.
+        deadline: one that other work shares; it holds beside both limits.
+
+    Raises:
+        UsageError: the answer is about no scenarios, or none that has a mean cost.
+    """
+    limits = limits_from(time_limit, memory_limit, deadline)
+    expect(TASK, task=task)
+    expect(RESULT, result=result)
+    entries = result.goals or ()
+    if len(entries) < 2 or result.cost is None or result.options.risk != "mean":
+        raise UsageError("explain: expected an answer over several goals or plans, with risk 'mean'")
+    library = _library(result, entries)
+    asked: dict[str, Any] = {**result.options.but(ties="fixed", time_limit=None, memory_limit=None).to_dict()}
+    committed = plan(task, plans=library, deadline=limits, **asked | {"policy": "fixed"})
+    known = [plan(task, plans=[one], deadline=limits, **asked) for one in library]
+    costs = [
+        Fraction(one["probability"]) * as_written(found.cost or 0)
+        for one, found in zip(library, known, strict=True)
+    ]
+    tree = histories(entries, result.human, int(result.horizon or 0))
+    return PolicyExplanation(
+        result,
+        as_written(committed.cost or 0) if committed.status == "optimal" else None,
+        sum(costs, Fraction(0)) if all(found.status == "optimal" for found in known) else None,
+        tuple(_signs(tree, entries, result.human)) if result.options.policy == "watching" else (),
+    )
+
+
+def _library(result: Result, entries: tuple[GoalAnswer, ...]) -> list[dict[str, Any]]:
+    """The scenarios as a library of plans."""
+    named = {} if result.recognition is None else {g.name: list(g.goal) for g in result.recognition.goals}
+    found = []
+    for number, entry in enumerate(entries, start=1):
+        one: dict[str, Any] = {"name": entry.name or str(number), "plan": list(entry.human_plan or ())}
+        one["probability"] = str(as_written(entry.probability))
+        found.append(one | ({"goal": named[entry.name]} if entry.name in named else {}))
+    return found
+
+
+def _signs(history: History, entries: tuple[GoalAnswer, ...], human: str) -> Iterator[Sign]:
+    own = {(s.epoch, s.action) for s in history.robots if human not in s.agents}
+    for branch in history.branches:
+        seen = history.end - 1
+        steps = entries[branch.scenarios[0]].plan or ()
+        action = next((s.action for s in steps if s.epoch == seen and human in s.agents), None)
+        yield Sign(seen, action, history.scenarios, branch.scenarios, not own)
+        yield from _signs(branch, entries, human)

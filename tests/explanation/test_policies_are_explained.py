@@ -1,0 +1,32 @@
+"""What robots wait to see, and what watching is worth, in an answer over scenarios."""
+
+import pytest
+
+import serendipity
+from serendipity.model import UsageError
+
+GOALS = [
+    {"name": room, "goal": [f"conducted_triage commx {room}"], "prior": prior}
+    for room, prior in (("room1", 2), ("room3", 1), ("room9", 1))
+]
+
+
+def test_what_watching_is_worth() -> None:
+    task = serendipity.example("room2")
+    answer = serendipity.plan(task, discount="0.9", goals=GOALS)
+    found = serendipity.explain_policy(task, answer)
+    fixed = serendipity.plan(task, discount="0.9", goals=GOALS, policy="fixed")
+    singles = [serendipity.plan(task, discount="0.9", goals=[goal]).cost for goal in GOALS]
+    assert float(found.committed) == fixed.cost > answer.cost
+    assert float(found.knowing) == pytest.approx(
+        sum(g.probability * cost for g, cost in zip(answer.goals, singles, strict=True))
+    )
+    first = [sign for sign in found.signs if sign.epoch == 1]
+    assert {sign.after for sign in first} == {(0, 2), (1,)}
+    assert all(sign.waited_for for sign in first)
+
+
+def test_it_is_about_several_scenarios() -> None:
+    task = serendipity.example("room2")
+    with pytest.raises(UsageError, match="several goals or plans"):
+        serendipity.explain_policy(task, serendipity.plan(task))
