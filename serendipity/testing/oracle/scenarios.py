@@ -2,7 +2,8 @@
 
 Where robots can't tell scenarios apart, these are a group: they share what robots do by themselves,
 and so their state.  The recursion is over (epoch, group); what comes of it are vectors with the worth
-of each scenario, since ``risk`` decides only at the end which vector is the least.
+of each scenario, since ``risk`` decides only at the end which vector is the least.  Robots that commit
+themselves see nothing, so each scenario has a worth for each sequence of what they do.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -151,12 +152,34 @@ class _Policies:
         human = [a for a in task.actions if task.human in a.participants and (robots or not a.joint)]
         self.parts: list[GroundAction | None] = [None, *human]
         self.front, self.part, self.ways = cache(self._front), cache(self._part), cache(self._ways)
+        self.committed = cache(self._committed)
 
     def vectors(self) -> Iterator[tuple[Worth, ...]]:
         """What policies are worth; those that are no better in any scenario than others may be missing."""
-        everything = tuple(_Situation(k, self.task.init) for k in range(len(self.scenarios)))
-        for vector in self.front(1, everything):
+        start = tuple(_Situation(k, self.task.init) for k in range(len(self.scenarios)))
+        vectors = self.front(1, start) if self.options.policy == "watching" else self._in_common(start)
+        for vector in vectors:
             yield tuple((Fraction(a, self.unit), Fraction(b, self.unit)) for a, b in vector)
+
+    def _in_common(self, start: _Group) -> Iterator[Vector]:
+        """What each sequence is worth that robots can commit themselves to."""
+        first, *others = (self.committed(1, now) for now in start)
+        for sequence, worth in first.items():
+            if all(sequence in other for other in others):
+                yield (worth, *(other[sequence] for other in others))
+
+    def _committed(self, epoch: int, now: _Situation) -> Mapping[tuple[tuple[int, ...], ...], Units]:
+        """The least worth of one scenario from an epoch on, by what robots do by themselves in each epoch."""
+        if epoch > self.horizon:
+            end = self._end(now)
+            return {} if end is None else {(): end}
+        found: dict[tuple[tuple[int, ...], ...], Units] = {}
+        for robots in self._robots((now,)):
+            for way in chain.from_iterable(self.ways(epoch, now, robots).values()):
+                for rest, more in self.committed(epoch + 1, way.now).items():
+                    worth = (way.worth[0] + more[0], way.worth[1] + more[1])
+                    found[robots, *rest] = min(worth, found.get((robots, *rest), worth))
+        return found
 
     def _front(self, epoch: int, group: _Group) -> Vectors:
         """What the rest can be worth to a group, from the beginning of an epoch on."""
@@ -193,9 +216,7 @@ class _Policies:
         if any(now.rest is not None for now in group):
             yield ()
             return
-        for chosen in action_sets(self.task, group[0].state, self.own, strict=self.options.strict):
-            if all(usable(self.task.actions[i], now.state) for now in group for i in chosen):
-                yield chosen
+        yield from action_sets(self.task, group[0].state, self.own, strict=self.options.strict)
 
     def _ways(
         self, epoch: int, now: _Situation, robots: tuple[int, ...]
@@ -203,7 +224,7 @@ class _Policies:
         """Everything that the human may do beside the robots, by what these see of it."""
         found: dict[str | None, list[_Way]] = {}
         for way in self._human(epoch, now, [self.task.actions[i] for i in robots]):
-            found.setdefault(way.seen if self.options.policy == "watching" else None, []).append(way)
+            found.setdefault(way.seen, []).append(way)
         return found
 
     def _human(self, epoch: int, now: _Situation, robots: Sequence[GroundAction]) -> Iterator[_Way]:
