@@ -35,7 +35,7 @@ class Scenario:
     """What an answer has to consider.
 
     Attributes:
-        name: as the answer should call it; empty: as it likes.
+        name: as the answer should call it.
         goal: what the human wants.
         plan: names of what they mean to do.
         probability: its share.
@@ -173,8 +173,9 @@ def _expected(
         plans = list(islice(considered_plans(task, goal, seen, deadline), most + watched))
         if len(plans) > most:
             fault = f"max_ties: the human has more than {most} optimal plans"
-        own = name if len(plans) == 1 else ""
-        found += [Scenario(own, goal, plan, Fraction(share) / len(plans)) for plan in plans]
+        for number, plan in enumerate(plans, start=1):
+            own = name if len(plans) == 1 else f"{name or 'plan'} {number}"
+            found.append(Scenario(own, goal, plan, Fraction(share) / len(plans)))
     total = sum((scenario.probability for scenario in found), Fraction(0))
     shares = [replace(scenario, probability=scenario.probability / total) for scenario in found]
     return shares, wording.ALL_OPTIMAL if known is None else wording.POSTERIOR, fault
@@ -196,10 +197,9 @@ def _selection_fault(
     task: Task, result: Result, chosen: Sequence[Scenario], served: Sequence[GoalAnswer]
 ) -> str | None:
     """Whether the scenarios are those to consider, with their plans and probabilities."""
-    names = [scenario.name or entry.name for scenario, entry in zip(chosen, served, strict=False)]
-    if len(served) != len(chosen) or names != [entry.name for entry in served]:
-        expected = ", ".join(scenario.name or " ".join(scenario.plan) for scenario in chosen)
-        return f"the scenarios to consider are {expected or 'none'}"
+    names = [scenario.name for scenario in chosen]
+    if names != [entry.name for entry in served]:
+        return f"the scenarios to consider are {', '.join(names) or 'none'}"
     if len(set(names)) < len(names):
         return "two scenarios have one name"
     if not chosen:

@@ -10,6 +10,7 @@ from serendipity.testing.builders import task as build
 from serendipity.testing.cases import CASE_3_PLAN, case_3, case_4, case_5, case_6, case_8, case_9, case_10
 from serendipity.testing.countdown import Countdown
 from tests.search.modes.goals.test_worked_cases import workshop
+from tests.verify.scenarios.studio import TWO_ROADS, studio, two_roads
 from verify.calls.solve import solve
 
 
@@ -187,6 +188,11 @@ _CALLS: tuple[tuple[str, Callable[[], Task], dict[str, Any]], ...] = (
     ("goals, one left", lambda: workshop("!q -> z @ 5"), {"goals": _goals(1, 0), "horizon": 2}),
     ("goals, observed", lambda: workshop("!q -> z @ 5"), {"goals": _goals(1, 1), "observed": ["keep h"]}),
     ("goals, none", case_8, {"goals": [{"goal": ["conducted_triage h a"]}]}),
+    ("policy", studio, {"goals": _goals(1, 1), "horizon": 3}),
+    ("policy, worst", studio, {"goals": _goals(1, 3), "horizon": 3, "risk": "worst", "policy": "fixed"}),
+    ("policy, regret", studio, {"goals": _goals(1, 1), "horizon": 3, "risk": "regret"}),
+    ("watched", two_roads, {"ties": "watched"}),
+    ("library", two_roads, {"plans": TWO_ROADS}),
 )
 
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Any, Final
 
 import serendipity
-from serendipity.model import Result, SerendipityError, UsageError
+from serendipity.model import Result, SerendipityError, UsageError, Window
 from tests.verify.edits.corpus import Good
 from tests.verify.edits.edits import Edit
 
@@ -58,6 +58,10 @@ def explained(good: Good, data: dict[str, Any], result: Result, edits: tuple[Edi
         return "it claims less"
     if "goals" in good.asked and result.goals is None and _same_answer(good, result):
         return "it is the answer for the task's own goal, too"
+    if all(edit.path[:2] == ("statistics", "goals") for edit in edits) and _other_windows(good, result):
+        return "other windows that are as long"
+    if _same_library(good, data, result):
+        return "the library is another one, and the answer is that for it"
     if _beliefs(result) is not None and _same_recognition(good, data, result):
         return "the posterior is another one, and the answer is that for it"
     if {edit.path[0] for edit in edits} == {"human_plan_times"} and _same_answer(good, result, times=True):
@@ -110,7 +114,7 @@ def _asked(good: Good, result: Result, *, times: bool = False) -> Result | None:
         times: with the human's plan as the result has it, too.
     """
     options = {key: value for key, value in result.options.to_dict().items() if not key.endswith("_limit")}
-    wanted = ("human_plan", *(("goals", "observed") if result.goals is not None else ()))
+    wanted = ("human_plan", *(("goals", "observed", "plans") if result.goals is not None else ()))
     given = {key: value for key, value in good.asked.items() if key in wanted}
     if times:
         options, given = options | {"head_start": 0}, {"human_plan": result.human_entries}
@@ -160,6 +164,40 @@ def _same_recognition(good: Good, data: dict[str, Any], result: Result) -> bool:
     goals = [{key: goal[key] for key in ("name", "goal", "prior")} for goal in said["goals"]]
     options = {key: value for key, value in result.options.to_dict().items() if not key.endswith("_limit")}
     again = serendipity.plan(good.task, goals=goals, observed=said["observed"], beta=said["beta"], **options)
+    return bool(_meaning(again.to_dict()) == _meaning(data))
+
+
+def _other_windows(good: Good, result: Result) -> bool:
+    """Whether only windows are elsewhere: help is within them, and the rest is as it would be anyway."""
+    for one, before in zip(result.goals or (), good.result.goals or (), strict=True):
+        window = one.window or Window(1, 1)
+        if replace(one, window=before.window) != before or len(window) != len(before.window or ()):
+            return False
+        state, rest = set(good.task.init), list[str]()
+        for step in sorted(one.plan or (), key=lambda step: step.epoch):
+            action = good.task.actions[good.task.named[step.action][0]]
+            if step.epoch < window.start and step.agents == (result.human,):
+                if step.action != (one.human_plan or ())[step.epoch - 1]:
+                    return False
+            elif step.epoch >= window.end:
+                rest.append(step.action)
+                continue
+            state = state.difference(action.delete).union(action.add)
+        alone = serendipity.plan(replace(good.task, init=frozenset(state)), mode="individual")
+        if tuple(rest) != alone.human_plan:
+            return False
+    return True
+
+
+def _same_library(good: Good, data: dict[str, Any], result: Result) -> bool:
+    """Whether the call with the plans that the edited result takes as given is answered just so."""
+    if result.goals is None or result.recognition is not None or result.options.ties == "watched":
+        return False
+    plans = [
+        {"name": one.name, "probability": one.probability, "plan": one.human_plan} for one in result.goals
+    ]
+    options = {key: value for key, value in result.options.to_dict().items() if not key.endswith("_limit")}
+    again = serendipity.plan(good.task, plans=plans, **options)
     return bool(_meaning(again.to_dict()) == _meaning(data))
 
 

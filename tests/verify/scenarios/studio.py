@@ -1,6 +1,6 @@
 """A task in which it pays to watch: the first epoch shows what the human wants."""
 
-from typing import Any
+from typing import Any, Final
 
 import serendipity
 from serendipity.model import Result, Task
@@ -29,6 +29,13 @@ def helped(**options: Any) -> Result:
     """The answer over both goals, in which there is an epoch more than the human needs alone."""
     goals = [{"name": name, "goal": [name]} for name in ("p", "z")]
     return serendipity.plan(studio(), goals=goals, horizon=3, **options)
+
+
+TWO_ROADS: Final = (
+    {"name": "a", "probability": "1/3", "plan": ["go_a h", "rest h", "end_a h"]},
+    {"name": "b", "probability": "2/3", "plan": ["go_b h", "rest h", "end_b h"]},
+)
+"""A library of plans for :func:`two_roads`."""
 
 
 def two_roads() -> Task:

@@ -8,7 +8,7 @@ import pytest
 import serendipity
 from serendipity.model import Certificate, Result, Task
 from tests.verify.scenarios.edit import Edit, edit
-from tests.verify.scenarios.studio import helped, studio, two_roads
+from tests.verify.scenarios.studio import TWO_ROADS, helped, studio, two_roads
 
 P, Z = "statistics.goals.0", "statistics.goals.1"
 
@@ -240,11 +240,7 @@ def test_bounds_of_unfinished_answers(bound: float, verdict: str) -> None:
 
 
 def _library(**options: Any) -> Result:
-    plans = [
-        {"name": "a", "probability": "1/3", "plan": ["go_a h", "rest h", "end_a h"]},
-        {"name": "b", "probability": "2/3", "plan": ["go_b h", "rest h", "end_b h"]},
-    ]
-    return serendipity.plan(two_roads(), plans=plans, **options)
+    return serendipity.plan(two_roads(), plans=TWO_ROADS, **options)
 
 
 def _watched(**options: Any) -> Result:
@@ -287,7 +283,7 @@ TIED: dict[str, tuple[Edit, str]] = {
     "a share": (edit(f"{P}.probability", 0.1), "the probability is"),
     "two plans exchanged": (
         edit("statistics.goals", lambda old: [old[1], old[0], *old[2:]]),
-        "not the optimal plan that is considered",
+        "the scenarios to consider are plan 1, plan 2, plan 3, plan 4",
     ),
     "a plan twice": (edit(f"{P}.human_plan", ["go_b h", "rest h", "end_b h"]), "not the optimal plan"),
     "too many": (edit("options.max_ties", 3), "more than 3 optimal plans"),
