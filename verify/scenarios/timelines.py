@@ -187,7 +187,9 @@ def answered(
 
 def figures_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
     """Whether a figure is wrong; those of regret need an optimiser, but for what follows from the others."""
-    if not result.opportunity and (result.plan or any(line.case.result.window for line in lines)):
+    answers = [line.case.result for line in lines]
+    acting = any(step.agents != (result.human,) for answer in answers for step in answer.plan or ())
+    if not result.opportunity and (acting or any(answer.window for answer in answers)):
         return "no opportunity, but robots act"
     if result.options.risk != "regret":
         fault = differing(result, figures(result, lines))

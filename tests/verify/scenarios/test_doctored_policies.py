@@ -7,6 +7,7 @@ import pytest
 
 import serendipity
 from serendipity.model import Certificate, Result, Task
+from serendipity.testing.builders import task as build
 from tests.verify.scenarios.edit import Edit, edit
 from tests.verify.scenarios.studio import TWO_ROADS, helped, studio, two_roads
 
@@ -217,6 +218,17 @@ def test_help_that_is_denied_at_any_risk(risk: str, idle: float) -> None:
     change = _all(_IDLE, _figures(idle, idle, 0.0, 6.0, 0.0))
     refuted = _certified(studio(), helped(risk=risk), change).refuted
     assert refuted is not None and refuted.claim == "no_opportunity"
+
+
+def test_robots_that_are_free_are_idle_without_an_opportunity() -> None:
+    actions = {"do_p h": "-> p", "do_z h": "-> z", "work r": "-> done"}
+    task = build(goal="p", actions=actions)
+    goals = [{"goal": [name]} for name in ("p", "z")]
+    answer = serendipity.plan(task, goals=goals, horizon=2, discount=1)
+    assert _certified(task, answer).verdict == "proved"
+    refuted = _certified(task, answer, _with(f"{P}.plan", _step(2, "work r", 0.0))).refuted
+    assert refuted is not None
+    assert (refuted.claim, refuted.reason) == ("cost", "no opportunity, but robots act")
 
 
 def test_the_counterexample_is_what_robots_do_until_they_see_more() -> None:
