@@ -13,6 +13,8 @@ EXAMPLES: Final = (
     "serendipity plan --example room2 --discount 0.9 --human-model observant",
     "serendipity execute --example room2 --discount 0.6 --log run.jsonl",
     "serendipity execute --example room2 --replay run.jsonl",
+    "serendipity execute --example room2 --discount 1 --human noisy:0.2 --runs 9 --log days.jsonl",
+    "serendipity learn --example room2 days.jsonl -o plans.json",
     "serendipity execute --example room2 --discount 0.9 --human noisy:0.1 --runs 5 --seed 7 --deadline 0.1",
     "serendipity plan --example room2 --discount 0.6 --save-plan help.plan",
     "serendipity show --example room7 help.json -o help.html",

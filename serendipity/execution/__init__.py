@@ -7,6 +7,7 @@ require_siblings("search", "verify")
 from serendipity.execution.adapters import Faults  # noqa: E402
 from serendipity.execution.decided import VERDICTS, Decided, Outlook, Passed, Reported, Robots  # noqa: E402  # checked before  # noqa: E402
 from serendipity.execution.execution import Execution  # noqa: E402
+from serendipity.execution.habits import Habits, KnownPlan, learn  # noqa: E402
 from serendipity.execution.log import LogLine, as_text, log_lines, read_logs, replay  # noqa: E402
 from serendipity.execution.persons import (  # noqa: E402
     Moment,
@@ -25,6 +26,8 @@ __all__ = [
     "Decided",
     "Execution",
     "Faults",
+    "Habits",
+    "KnownPlan",
     "LogLine",
     "Moment",
     "Noisy",
@@ -40,6 +43,7 @@ __all__ = [
     "Runs",
     "as_text",
     "execute",
+    "learn",
     "log_lines",
     "moment_of",
     "read_logs",

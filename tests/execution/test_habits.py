@@ -1,0 +1,156 @@
+"""Habits: plans counted in logs, by hand; what is wrong with logs is said in one line."""
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+import serendipity
+from serendipity.execution import as_text, learn
+from serendipity.execution.habits import read_episodes, wilson
+from serendipity.model import InputError, UsageError
+from serendipity.recognition import plan_library
+from serendipity.testing.builders import task as build
+from tests.cli.conftest import Runs, assert_one_line
+
+HOME = build(
+    init="up",
+    actions={
+        "wash h": "up -> clean",
+        "make h": "up -> coffee",
+        "drink h": "coffee -> !coffee fed",
+        "help h r": "-> fed",
+        "make r": "-> coffee",
+    },
+)
+
+DAYS = """day,time,actor,action
+2026-03-02,7:00,h,(make h)
+2026-03-02,07:10,h,drink h
+2026-03-02,07:12,r,make r
+2026-03-03,07:00,H,make h
+2026-03-03,07:05,h,drink h
+2026-03-07,09:00,h,wash h
+2026-03-08,09:30,h,drink h
+"""
+"""Monday and Tuesday coffee, Saturday a wash, and Sunday what can't be done alone."""
+
+
+@pytest.fixture
+def days(tmp_path: Path) -> Path:
+    file = tmp_path / "days.csv"
+    file.write_text(DAYS)
+    return file
+
+
+def test_frequencies_by_hand(days: Path) -> None:
+    found = learn(HOME, days)
+    coffee, wash = found.plans
+    assert (found.episodes, found.fitting, found.left_out) == (4, 3, 1)
+    assert found.reason == "human plan, step 1: 'drink h' is not applicable: 'coffee' is false"
+    assert (coffee.plan, coffee.goal, coffee.count) == (("make h", "drink h"), ("fed",), 2)
+    assert (coffee.probability, wash.probability) == pytest.approx((2 / 3, 1 / 3))
+    assert coffee.interval == pytest.approx((0.2077, 0.9385), abs=1e-4)
+
+
+def test_what_is_asked_for_counts_and_all_days_count_a_little(days: Path) -> None:
+    coffee, wash = learn(HOME, days, on="weekday").plans
+    assert (coffee.probability, wash.probability) == pytest.approx(((2 + 2 / 3) / 3, (1 / 3) / 3))
+    assert (coffee.count, wash.count, wash.interval[0]) == (2, 0, 0)
+    assert learn(HOME, days, on="weekday", usual=0).plans[0].probability == 1
+    assert learn(HOME, days, at="9:45").plans[0].plan == ("wash h",)
+    nobody_knows = learn(HOME, days, on="sun")
+    assert (nobody_knows.fitting, nobody_knows.plans[0].interval) == (0, (0, 1))
+    assert [one.probability for one in nobody_knows.plans] == pytest.approx([2 / 3, 1 / 3])
+
+
+def test_a_learnt_library_can_be_read(days: Path) -> None:
+    library = plan_library(HOME, learn(HOME, days).to_dict())
+    assert [one.probability for one in library] == [Fraction(2, 3), Fraction(1, 3)]
+    assert [one.literals for one in library] == [("fed",), ("clean",)]
+
+
+def test_activities_follow_each_other(tmp_path: Path) -> None:
+    file = tmp_path / "days.csv"
+    rows = ["2026-03-02T07:00,h,wash h,wash", "2026-03-02T07:01,h,make h,coffee"]
+    rows += ["2026-03-02T07:09,h,drink h,coffee", "2026-03-03T07:00,h,make h,coffee"]
+    file.write_text("\n".join(["Time, Actor, Action, Activity", *rows]))
+    first, second, third = read_episodes(HOME, file)
+    assert [one.activity for one in (first, second, third)] == ["wash", "coffee", "coffee"]
+    assert [one.before for one in (first, second, third)] == ["nothing", "wash", "nothing"]
+    assert (second.minute, second.weekday, third.weekday) == (421, 0, 1)
+    found = learn(HOME, file, after="wash", usual=0)
+    assert [(one.name, one.probability) for one in found.plans] == [
+        ("coffee 2", 1),
+        ("wash 1", 0),
+        ("coffee 3", 0),
+    ]
+
+
+def test_logs_of_executions_are_episodes(tmp_path: Path) -> None:
+    """Where robots do not help, everybody follows plans of their own."""
+    task = serendipity.example("room2")
+    file = tmp_path / "runs.jsonl"
+    runs = serendipity.execute(task, "observant", runs=2, discount=0)
+    file.write_text("".join(map(as_text, runs.logs)))
+    (one,) = learn(task, file).plans
+    assert (one.count, one.goal, one.plan) == (2, None, serendipity.plan(task).human_plan)
+
+
+def test_wilson_at_its_ends() -> None:
+    assert wilson(0, 10) == pytest.approx((0, 0.2775), abs=1e-4)
+    assert wilson(10, 10) == pytest.approx((0.7225, 1), abs=1e-4)
+    assert wilson(0, 0) == (0, 1)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("day,time,action\n", "days.csv:1: expected columns day, time, actor and action, got no 'actor'"),
+        ("", "days.csv:1: expected columns"),
+        ("day,time,actor,action\n1,7:00,h\n", "days.csv:2: expected 4 columns"),
+        ("day,time,actor,action\n1,7:00,h,make h,5\n", "days.csv:2: expected 4 columns"),
+        (
+            "day,time,actor,action\n1,late,h,make h\n",
+            "days.csv:2: time: expected a time as 07:30, got 'late'",
+        ),
+        ("time,actor,action\n7:00,h,make h\n", "days.csv:2: time: expected a date and a time as"),
+        ("day,time,actor,action\n1,7:00,x,make h\n", "days.csv:2: actor: expected one of h, r, got 'x'"),
+        ("day,time,actor,action\n1,7:00,h,fly h\n", "days.csv:2: action: there is no action 'fly h'"),
+        ("day,time,actor,action\n1,7:00,h,drink h\n", "days.csv: expected a plan that h can follow: human"),
+        (f"day,time,actor,action\n1,7:00,h,{'x' * 200_000}\n", "days.csv:1: expected CSV: field larger"),
+        ("day,time,actor,action\n", "days.csv: expected a plan that h can follow"),
+        ('{"schema": "serendipity.execution/1"}\n{"human": "fly h"}', "days.csv:2: action: there is no"),
+        ('{"schema": "serendipity.execution/1"}\n{"human": 3}', "days.csv:2: action: there is no"),
+    ],
+)
+def test_what_is_wrong_with_logs_is_said(text: str, message: str, tmp_path: Path) -> None:
+    file = tmp_path / "days.csv"
+    file.write_text(text)
+    with pytest.raises(InputError) as caught:
+        learn(HOME, file)
+    assert str(caught.value).replace(f"{tmp_path}/", "").startswith(message)
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({"on": "today"}, "on: expected one of mon, tue"),
+        ({"at": "late"}, "at: expected a time of day as 7:30, got 'late'"),
+        ({"usual": -1}, "usual: expected a number of at least 0"),
+    ],
+)
+def test_what_is_wrong_with_questions_is_said(asked: dict[str, str], message: str, days: Path) -> None:
+    with pytest.raises(UsageError, match=message):
+        learn(HOME, days, **asked)  # type: ignore[arg-type]
+
+
+def test_the_command_writes_a_library(run: Runs) -> None:
+    assert run("execute --example room2 --discount 0 --runs 2 --log days.jsonl").code == 0
+    done = run("learn --example room2 days.jsonl -o plans.json")
+    assert (done.code, done.out) == (0, "")
+    assert len(plan_library(serendipity.example("room2"), Path("plans.json"))) == 1
+    assert "2 episodes of commx" in run("learn --example room2 days.jsonl --on weekday").out
+    assert_one_line(run("learn --example room2 absent.csv"), "absent.csv", "no such file")
+    assert_one_line(run("learn --example room2 ."), "TASK and then TRACES")
+    assert_one_line(run("learn --example room2 days.jsonl --at noon"), "at: expected a time of day")
