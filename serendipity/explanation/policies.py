@@ -144,7 +144,8 @@ def _library(result: Result, entries: tuple[GoalAnswer, ...]) -> list[dict[str, 
     for number, entry in enumerate(entries, start=1):
         one: dict[str, Any] = {"name": entry.name or str(number), "plan": list(entry.human_plan or ())}
         one["probability"] = str(as_written(entry.probability))
-        found.append(one | ({"goal": named[entry.name]} if entry.name in named else {}))
+        goal = entry.goal or named.get(entry.name)
+        found.append(one | ({} if goal is None else {"goal": list(goal)}))
     return found
 
 

@@ -154,4 +154,5 @@ def _goal(task: Task, discount: Fraction, goal: ServedGoal) -> GoalAnswer:
         goal.window,
         _plan(task, discount, goal.steps),
         plan_times(task, goal.human_plan),
+        goal.goal,
     )

@@ -196,5 +196,13 @@ def _expected(
     considered: Sequence[Candidate], recognition: Recognition | None, call: Request
 ) -> Iterator[Answer]:
     """Several scenarios are left."""
+    own = [None if recognition or c.goal == call.task.goal else _literals(call.task, c) for c in considered]
     for answer in solve_scenarios(call.prepared, call.options, considered, call.deadline):
-        yield answer._replace(recognition=recognition)
+        served = zip(answer.goals or (), own, strict=True)
+        goals = tuple(replace(one, goal=goal) for one, goal in served)
+        yield answer._replace(recognition=recognition, goals=goals)
+
+
+def _literals(task: Task, candidate: Candidate) -> tuple[str, ...]:
+    goal = candidate.goal
+    return (*(task.facts[i] for i in goal.positive), *(f"!{task.facts[i]}" for i in goal.negative))

@@ -46,6 +46,7 @@ class ServedGoal:
         steps: what everybody does, or None.
         window: in which that plan is interrupted, or None where it is left alone.
         cost: what it costs the team, or None.
+        goal: literals of the goal, where neither the task nor a recognition says it.
     """
 
     name: str
@@ -54,6 +55,7 @@ class ServedGoal:
     steps: tuple[Step, ...] | None
     window: Window | None
     cost: Fraction | None
+    goal: tuple[str, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,32 @@
+"""Plans that the human may follow, each with a goal of its own: answered, told and proved."""
+
+import serendipity
+from serendipity.model import Result
+
+
+def test_plans_with_goals_of_their_own_are_proved() -> None:
+    task = serendipity.example("room2")
+    goals = {room: [f"conducted_triage commx {room}"] for room in ("room1", "room3", "room9")}
+    alone = {
+        room: serendipity.plan(task, goals=[{"name": room, "goal": goal}]).human_plan
+        for room, goal in goals.items()
+    }
+    plans = [
+        {"name": room, "probability": 1, "goal": goals[room], "plan": list(alone[room])} for room in goals
+    ]
+    by_plans = serendipity.plan(task, discount="0.9", plans=plans)
+    by_goals = serendipity.plan(
+        task, discount="0.9", goals=[{"name": room, "goal": goal} for room, goal in goals.items()]
+    )
+    assert (by_plans.cost, by_plans.objective) == (by_goals.cost, by_goals.objective)
+    read = Result.from_dict(by_plans.to_dict())
+    assert [scenario.goal for scenario in read.goals] == [None, *map(tuple, list(goals.values())[1:])]
+    assert serendipity.verify(task, read).verdict == "proved"
+
+
+def test_one_plan_is_a_given_one() -> None:
+    task = serendipity.example("room2")
+    plan = serendipity.plan(task, mode="individual").human_plan
+    found = serendipity.plan(task, discount="0.9", plans=[{"name": "it", "probability": 1, "plan": list(plan)}])
+    known = serendipity.plan(task, discount="0.9", human_plan=plan)
+    assert found.to_dict() | {"statistics": None} == known.to_dict() | {"statistics": None}
