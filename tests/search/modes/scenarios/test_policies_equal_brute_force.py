@@ -7,8 +7,9 @@ from hypothesis import strategies as st
 
 from search import PreparedTask
 from search.modes.scenarios import Candidate, solve_scenarios
-from serendipity.model import Options, Task
+from serendipity.model import Condition, Options, Task
 from serendipity.model.answers.answer import Answer
+from serendipity.testing.builders import task as build
 from serendipity.testing.oracle.scenarios import best_policy
 from tests.search.modes.scenarios.strategies import options_over, scenarios
 
@@ -38,3 +39,31 @@ def test_search_equals_brute_force(given_: tuple[Task, list[Candidate]], data: s
     if options.risk == "mean":
         costs = (c.weight * (s.cost or 0) for c, s in zip(candidates, answer.goals or (), strict=True))
         assert sum(costs, Fraction(0)) == answer.cost
+
+
+def test_a_window_may_close_before_the_human_profits() -> None:
+    """Both things are up after epoch 2; the human waits in a window of one epoch, and is quick after it."""
+    task = build(
+        init="start",
+        actions={
+            "turn_x h": "start -> at_x !start",
+            "turn_y h": "start -> at_y !start",
+            "do_x h": "at_x -> x @ 3",
+            "do_y h": "at_y -> y @ 6",
+            "quick_x h": "at_x up_x -> x @ 0",
+            "quick_y h": "at_y up_y -> y",
+            "lift_x r": "-> up_x",
+            "lift_y r": "-> up_y @ 0",
+        },
+    )
+    candidates = [
+        Candidate(
+            Condition((task.facts.index(fact),)),
+            task.plan_from_names([f"turn_{fact} h", f"do_{fact} h"]),
+            Fraction(1, 2),
+        )
+        for fact in "xy"
+    ]
+    options = Options(horizon=3, window_weight=Fraction(1), policy="fixed")
+    answer = solved(task, options, candidates)
+    assert (answer.objective, answer.cost) == (Fraction(7, 2), Fraction(5, 2))
