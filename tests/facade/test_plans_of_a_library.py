@@ -27,6 +27,8 @@ def test_plans_with_goals_of_their_own_are_proved() -> None:
 def test_one_plan_is_a_given_one() -> None:
     task = serendipity.example("room2")
     plan = serendipity.plan(task, mode="individual").human_plan
-    found = serendipity.plan(task, discount="0.9", plans=[{"name": "it", "probability": 1, "plan": list(plan)}])
+    found = serendipity.plan(
+        task, discount="0.9", plans=[{"name": "it", "probability": 1, "plan": list(plan)}]
+    )
     known = serendipity.plan(task, discount="0.9", human_plan=plan)
     assert found.to_dict() | {"statistics": None} == known.to_dict() | {"statistics": None}

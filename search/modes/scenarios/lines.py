@@ -1,15 +1,15 @@
 """What one scenario may do in an epoch beside robots: rules 1 to 3 of semantics 3.1 (semantics 11)."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from search.call.context import SearchContext
-from search.modes.scenarios.measure import INFINITE_WORTH, Member, Worths
+from search.modes.scenarios.measure import INFINITE_WORTH, Member, Tail, Worths
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option, together
-from search.packed.operators import applicable
+from search.packed.operators import Operator, applicable
 from search.packed.successor_generator import Successors
 from search.spaces.factory import suffix_rule
 from serendipity.model.resources.deadline import Deadline
@@ -87,13 +87,14 @@ class Line:
         self._context = context
         self._steps = context.followed(scenario.plan)
         self._suffix = suffix_rule(context, scenario.plan)
+        self._suffixes: dict[tuple[int, int, int], Sequence[tuple[Operator, JointAction]]] = {}
         self._horizon = scenario.horizon
         self._max_window = options.max_window or scenario.horizon
         self._tells_starts = options.preservation == "state" or self._max_window < scenario.horizon
 
     def first(self) -> Member:
         """Before the first epoch."""
-        return Member(self.number, self._context.packed.init, FOLLOWING, 0, (), 0)
+        return Member(self.number, self._context.packed.init, FOLLOWING, 0, None, 0)
 
     # -- what may happen
 
@@ -133,13 +134,15 @@ class Line:
     def _end(self, at: Member, robots: JointAction) -> Iterator[Way]:
         if robots.actions:
             return
-        part = NOTHING
-        if at.tail:
-            ((op, part),) = self._context.followed(at.tail[:1])
+        assert at.tail is not None, "it has begun"
+        part, rest = NOTHING, self._suffix_steps(at.tail)
+        if rest:
+            op, part = rest[0]
             if not applicable(op, at.state):
                 return
         paid, state = self._together(at, part, robots)
-        yield Way(part, paid, at._replace(state=state, tail=at.tail[1:]), False)
+        after = at.tail._replace(done=at.tail.done + 1)
+        yield Way(part, paid, at._replace(state=state, tail=after), False)
 
     def _within(
         self, at: Member, epoch: int, part: JointAction, robots: JointAction, opens: bool, most: int
@@ -150,7 +153,7 @@ class Line:
         start, left = at.start or epoch, self._horizon - epoch
         limit = self._worths.key(most - paid) if most < INFINITE_WORTH else INFINITE_KEY
         if self._suffix.key(state, left, start, limit) < limit:
-            tail = self._suffix.actions(state, left, start)
+            tail = Tail(state, left, start, 0)
             yield Way(part, paid, Member(self.number, state, OVER, 0, tail, at.ahead), opens)
         least = paid + self._worths.epoch + self._worths.of_key(self._context.bound(state))
         may_last = left and (not at.start or epoch - at.start + 1 < self._max_window)
@@ -169,6 +172,13 @@ class Line:
         """Whether what robots do by themselves is applicable."""
         return all(applicable(self._context.packed.op(action), state) for action in robots.actions)
 
+    def _suffix_steps(self, tail: Tail) -> Sequence[tuple[Operator, JointAction]]:
+        """What is left of a suffix; it is put together when it is asked for first."""
+        begun = tail[:3]
+        if begun not in self._suffixes:
+            self._suffixes[begun] = self._context.followed(self._suffix.actions(*begun))
+        return self._suffixes[begun][tail.done :]
+
     # -- what is left
 
     def guide(self, at: Member, epoch: int, deadline: Deadline) -> Guide | None:
@@ -185,8 +195,10 @@ class Line:
 
     def least(self, at: Member, epoch: int) -> int:
         """A bound that is had at once on what is left to pay after an epoch."""
-        if at.phase == OVER:
-            return sum(self._worths.of_key(part.weight) for _, part in self._context.followed(at.tail))
+        if at.tail is not None:
+            if not at.tail.done:
+                return self._worths.of_key(self._suffix.key(*at.tail[:3], INFINITE_KEY))
+            return sum(self._worths.of_key(part.weight) for _, part in self._suffix_steps(at.tail))
         known = self.certain.known(at.state, epoch, _start(at, epoch))
         if known is not None:
             return known.least
@@ -198,7 +210,8 @@ class Line:
 
     def left_alone(self, at: Member, epoch: int) -> tuple[int, ...]:
         """What the human does after an epoch if nobody helps: their suffix, or the rest of their plan."""
-        return at.tail if at.phase == OVER else tuple(op.action for op, _ in self._steps[epoch:])
+        steps = self._steps[epoch:] if at.tail is None else self._suffix_steps(at.tail)
+        return tuple(op.action for op, _ in steps)
 
     def rest(self, at: Member, epoch: int) -> Remainder | None:
         """What is left of a scenario that goes on for certain, as it was found; None where it was not."""

@@ -19,6 +19,22 @@ SHARE: Final = 0.2
 """The share of the time that is left for each look at scenarios one by one."""
 
 
+class Tail(NamedTuple):
+    """A suffix, by the state that it begins in.
+
+    Attributes:
+        state: packed.
+        left: how many epochs are left then.
+        start: ``xi1`` of the window before it.
+        done: how many of its actions are done.
+    """
+
+    state: int
+    left: int
+    start: int
+    done: int
+
+
 class Member(NamedTuple):
     """A scenario that the robots hold possible, as far as it has come.
 
@@ -27,7 +43,7 @@ class Member(NamedTuple):
         state: packed.
         phase: of its window.
         start: ``xi1``, where that still matters, else 0.
-        tail: what is left of the suffix.
+        tail: the suffix, once it has begun; None before.
         ahead: what it has cost more than that of its group which has cost the least; 0 for the mean.
     """
 
@@ -35,7 +51,7 @@ class Member(NamedTuple):
     state: int
     phase: int
     start: int
-    tail: tuple[int, ...]
+    tail: Tail | None
     ahead: int
 
 

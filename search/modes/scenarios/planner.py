@@ -172,7 +172,7 @@ class _ScenarioCall:
             return self._told(status, baseline)
         best = self._found
         _, idle = self._figures(self._idle)
-        least = max(self._figures(searches[-1].lower)[0], Fraction(0))
+        least = max(self._figures(max(search.lower for search in searches))[0], Fraction(0))
         if best.upper < INFINITE_WORTH:
             objective, cost = self._figures(best.upper)
             if cost < idle:

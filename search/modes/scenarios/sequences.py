@@ -8,11 +8,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import count
-from typing import NamedTuple
+from operator import itemgetter
+from typing import Final, NamedTuple
 
 from search.engine.paths import plan_steps
 from search.modes.scenarios.lines import OVER, Line, Way
-from search.modes.scenarios.measure import SHARE, Measure, Member
+from search.modes.scenarios.measure import INFINITE_WORTH, SHARE, Measure, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
 from search.packed.successor_generator import Successors
@@ -34,6 +35,7 @@ class _Label(NamedTuple):
     before: "tuple[Member, _Label] | None" = None
 
 
+_NONE: Final = _Label(INFINITE_WORTH)
 _Places = dict[Member, _Label]
 
 
@@ -103,6 +105,7 @@ class SequenceSearch:
         for i, line in enumerate(self._lines):
             deadline = self._deadline.part(SHARE)
             self._floors[i], _ = line.known(deadline)
+            self.lower = max(self.lower, self._measure.value(self._members, self._floors))
             guide = line.guide(self._members[i]._replace(ahead=0), 0, deadline)
             if guide is not None:
                 epochs = range(1, self._horizon + 1)
@@ -128,7 +131,8 @@ class SequenceSearch:
         tie, root, seen = count(), self._root(), dict[object, int]()
         queue = [(self._bound(root), 0, next(tie), root)]
         while queue and queue[0][0] < self.upper:
-            self.lower, _, _, node = heappop(queue)
+            least, _, _, node = heappop(queue)
+            self.lower = max(self.lower, least)
             self._deadline.check()
             self.expanded += 1
             for robots in self._choices(node):
@@ -160,15 +164,26 @@ class SequenceSearch:
         self.generated += 1
         for i, line in enumerate(self._lines):
             places: _Places = {}
+            ended: list[tuple[int, Member, _Label]] = []
             limit = self._limit(i)
             for m, label in node.places[i].items():
                 self._deadline.tick()
+                if m.phase == OVER:  # the suffix goes on, as long as robots are idle
+                    if not robots.actions:
+                        ended.append((label.paid + line.least(m, epoch), m, label))
+                    continue
                 possible = line.possible(robots, m.state)
                 for way in line.ways(m, epoch, robots, limit - label.paid) if possible else ():
                     paid = label.paid + way.paid
-                    known = places.get(way.after)
-                    if (known is None or paid < known.paid) and paid + line.least(way.after, epoch) < limit:
-                        places[way.after] = _Label(paid, way, (m, label))
+                    total, found = paid + line.least(way.after, epoch), _Label(paid, way, (m, label))
+                    if way.after.phase == OVER:
+                        ended.append((total, way.after, found))
+                    elif total < limit and paid < places.get(way.after, _NONE).paid:
+                        places[way.after] = found
+            if ended:  # it is known what is left, so one of them is best
+                total, m, label = min(ended, key=itemgetter(0))
+                if total < limit:
+                    places[m] = label
             if not places:
                 return None
             after.append(places)
@@ -210,6 +225,8 @@ class SequenceSearch:
             for epoch, (m, way) in enumerate(reversed(ways), start=1):
                 course.go_on(way, m, epoch)
             course.steps += own
+            if best.tail is not None:
+                course.steps += plan_steps(line.left_alone(best, 0), self._horizon - best.tail.left + 1)
             found[line.number] = course.played
         return found
 
