@@ -13,9 +13,10 @@ decision's lower bound says can be saved at most.
 """
 
 import inspect
+import os
 import tempfile
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from datetime import date, timedelta
 from pathlib import Path
 from random import Random
@@ -26,7 +27,7 @@ import typer
 
 import serendipity
 from serendipity.execution import Habits, learn
-from serendipity.model import Condition, Result, Script, Task
+from serendipity.model import Condition, PlanStep, Result, Script, Task
 from serendipity.model.task.actions import apply
 from serendipity.model.task.facts import Facts
 from serendipity.testing.builders import Builder
@@ -53,6 +54,7 @@ ACTIVITIES: Final = (
     Activity("plants", "balcony", "can", 0.2, 0.6),
 )
 _HEADS: Final = ("looking", "knowing", "promised", "at most", "seconds")
+_STROLL: Final = ("walk ann bed hall", "walk ann hall bed")
 _MONDAY: Final = date(2026, 1, 5)
 
 
@@ -82,28 +84,29 @@ def household(seed: int, days: int) -> tuple[Task, list[Day]]:
 
 def _home(seed: int) -> Task:
     dice, built = Random(f"home {seed}"), Builder(("ann", "robot"), f"household-{seed}")
+    kept = {a: (dice.choice([p for p in _PLACES if p != a.place]), a.place) for a in ACTIVITIES}
     for who, name in enumerate(built.agents):
         for here, there in (way for room in _ROOMS for way in ((room, "hall"), ("hall", room))):
             effects = f"at_{name}_{there} !at_{name}_{here}"
             built.named(f"walk {name} {here} {there}", (who,), f"at_{name}_{here}", effects)
-        for thing in (activity.thing for activity in ACTIVITIES):
-            for place in _PLACES:
+        for activity, places in kept.items():
+            for place in places:
+                thing = activity.thing
                 free, there, held = f"free_{name}", f"{thing}_{place}", f"{name}_has_{thing}"
                 take, put = f"take {name} {thing} {place}", f"put {name} {thing} {place}"
                 built.named(take, (who,), f"at_{name}_{place} {free} {there}", f"{held} !{free} !{there}")
                 built.named(put, (who,), f"at_{name}_{place} {held}", f"!{held} {free} {there}")
     for name, place, thing, *_ in ACTIVITIES:
         built.named(f"{name} ann", (0,), f"at_ann_{place} {thing}_{place} free_ann", f"done_{name}")
-    kept = [f"{a.thing}_{dice.choice([p for p in _PLACES if p != a.place])}" for a in ACTIVITIES]
-    return built.task(f"at_ann_bed at_robot_store free_ann free_robot {' '.join(kept)}", "")
+    things = " ".join(f"{activity.thing}_{place}" for activity, (place, _) in kept.items())
+    return built.task(f"at_ann_bed at_robot_store free_ann free_robot {things}", "")
 
 
 def log(days: Iterable[Day], seed: int) -> str:
     """The days as CSV."""
     dice, rows = Random(f"clock {seed}"), ["day,time,actor,action"]
     for number, day in enumerate(days):
-        stroll = ["walk ann bed hall", "walk ann hall bed"] if day.stroll else []
-        for minute, action in enumerate((*stroll, *day.plan), start=dice.randint(390, 480)):
+        for minute, action in enumerate((*_STROLL * day.stroll, *day.plan), start=dice.randint(390, 480)):
             rows.append(f"{_MONDAY + timedelta(number)},{minute // 60:02}:{minute % 60:02},ann,{action}")
     return "".join(f"{row}\n" for row in rows)
 
@@ -116,10 +119,12 @@ class Decision(NamedTuple):
     most: float | None = None
 
 
+Policy = Callable[[Day], Decision]
+
+
 def by_frequency(task: Task, habits: Habits) -> Decision:
     """Things are brought to where they are needed, the most frequent first, if more often than not."""
-    state, steps = task.init, list[str]()
-    robot = task.with_human("robot")
+    state, steps, robot = task.init, list[str](), task.with_human("robot")
     often = dict.fromkeys((activity.name for activity in ACTIVITIES), 0.0)
     for plan in habits.plans:
         for activity in ACTIVITIES:
@@ -134,24 +139,30 @@ def by_frequency(task: Task, habits: Habits) -> Decision:
     return Decision(dict(enumerate(steps, start=1)))
 
 
-def over_scenarios(task: Task, habits: Habits, most: int, seconds: float) -> Decision | None:
-    """Help for the likeliest plans together; None where such calls are not known."""
+def over_scenarios(task: Task, habits: Habits, most: int, seconds: float) -> Policy | None:
+    """Help for the likeliest plans, on a day that for the one that begins most like hers; or None."""
     if "plans" not in inspect.signature(serendipity.plan).parameters:
         return None
-    library: dict[str, Any] = habits.to_dict()
-    library["plans"] = library["plans"][:most]
-    asked: dict[str, Any] = {"plans": library}
-    weights = [plan["probability"] for plan in library["plans"]]
-    lengths = (w * len(plan["plan"]) for w, plan in zip(weights, library["plans"], strict=True))
-    result = serendipity.plan(task, discount=1, window_weight=0, time_limit=seconds, **asked)
-    return _decided(result, sum(lengths) / sum(weights))
+    likely = habits.plans[:most]
+    asked: dict[str, Any] = {"plans": [plan.to_dict() for plan in likely], "window_weight": 0}
+    result = serendipity.plan(task, discount=1, time_limit=seconds, **asked)
+    alone = sum(p.probability * len(p.plan) for p in likely) / sum(p.probability for p in likely)
+    told = {goal.name: goal.plan or () for goal in result.goals or ()}
+
+    def decided(day: Day) -> Decision:
+        done = (*_STROLL * day.stroll, *day.plan)
+        alike = max(likely, key=lambda one: len(os.path.commonprefix([one.plan, done])))  # noqa: RUF071
+        return _decided(result, told.get(alike.name, ()), alone)
+
+    return decided
 
 
 def knowing(task: Task, day: Day, seconds: float) -> Decision:
     """Help for what Ann does on that very day."""
     aimed = task.with_goal(_done(task, day.activities))
     asked: dict[str, Any] = {"discount": 1, "window_weight": 0, "time_limit": seconds}
-    return _decided(serendipity.plan(aimed, human_plan=day.plan, **asked), len(day.plan))
+    result = serendipity.plan(aimed, human_plan=day.plan, **asked)
+    return _decided(result, result.plan or (), len(day.plan))
 
 
 def paid_knowing(task: Task, day: Day, decision: Decision) -> int:
@@ -181,12 +192,11 @@ def paid_looking(task: Task, day: Day, decision: Decision) -> int:
     return count
 
 
-def _decided(result: Result, alone: float) -> Decision:
-    served = [goal.plan for goal in result.goals or () if goal.plan]
-    plan = max([result.plan or (), *served], key=len)
+def _decided(result: Result, plan: Iterable[PlanStep], alone: float) -> Decision:
     steps = {step.epoch: step.action for step in plan if step.agents == ("robot",)}
-    costs = (result.cost, result.lower_bound)
-    return Decision(steps, *(None if cost is None else alone - cost for cost in costs))
+    return Decision(
+        steps, *(None if cost is None else alone - cost for cost in (result.cost, result.lower_bound))
+    )
 
 
 def _way(task: Task, state: frozenset[int], goal: Condition) -> list[str]:
@@ -199,7 +209,7 @@ def _done(task: Task, activities: Iterable[str]) -> Condition:
 
 
 def main(
-    households: int = 3, learnt: int = 60, helped: int = 10, most: int = 8, time_limit: float = 10
+    households: int = 3, learnt: int = 60, helped: int = 10, most: int = 2, time_limit: float = 10
 ) -> None:
     """Print a line for each policy of each household."""
     print(f"{'household, robot':<24}{''.join(f'{head:>11}' for head in _HEADS)}")
@@ -210,37 +220,28 @@ def main(
             file.write_text(log(days[:learnt], seed))
             habits = {on: learn(task, file, on=on) for on in ("weekday", "weekend")}
         for name in ("does nothing", "frequencies", "scenarios", "knows the day"):
-            began = time.process_time()
-            made: list[Decision | None] = []
-            known: dict[str, Decision | None] = {}
-            for day in days[learnt:]:
-                if name == "knows the day":
-                    made.append(knowing(task, day, time_limit))
-                    continue
-                if day.kind not in known:
-                    known[day.kind] = _habitual(name, task, habits[day.kind], most, time_limit)
-                made.append(known[day.kind])
+            began, kinds = time.process_time(), habits.items()
+            policies = {on: _policy(name, task, known, most, time_limit) for on, known in kinds}
+            made = [policy(day) for day in days[learnt:] if (policy := policies[day.kind]) is not None]
             took = time.process_time() - began
             print(_row(f"{seed}, {name}", task, days[learnt:], made, took), flush=True)
 
 
-def _habitual(name: str, task: Task, habits: Habits, most: int, seconds: float) -> Decision | None:
+def _policy(name: str, task: Task, habits: Habits, most: int, seconds: float) -> Policy | None:
     if name == "scenarios":
         return over_scenarios(task, habits, most, seconds)
-    return by_frequency(task, habits) if name == "frequencies" else Decision({})
+    if name == "knows the day":
+        return lambda day: knowing(task, day, seconds)
+    decision = by_frequency(task, habits) if name == "frequencies" else Decision({})
+    return lambda _: decision
 
 
-def _row(
-    label: str, task: Task, days: Sequence[Day], decisions: Sequence[Decision | None], took: float
-) -> str:
-    made = [decision for decision in decisions if decision is not None]
+def _row(label: str, task: Task, days: Sequence[Day], made: Sequence[Decision], took: float) -> str:
     if not made:
         return f"{label:<24}{'-':>11}"
-    figures: list[list[float | None]] = [
-        [len(day.plan) - how(task, day, one) for day, one in zip(days, made, strict=True)]
-        for how in (paid_looking, paid_knowing)
-    ]
-    figures += [[one.promised for one in made], [one.most for one in made]]
+    figures: list[list[float | None]] = [[one.promised for one in made], [one.most for one in made]]
+    for paid in (paid_knowing, paid_looking):
+        figures.insert(0, [len(d.plan) - paid(task, d, one) for d, one in zip(days, made, strict=True)])
     told = ["-" if None in some else f"{fmean(x or 0 for x in some):.2f}" for some in figures]
     return f"{label:<24}{''.join(f'{text:>11}' for text in (*told, f'{took:.1f}'))}"
 
