@@ -6,11 +6,15 @@ from typing import Final
 
 from search.modes.goals import Explainer
 from serendipity.model import Deadline, Task
+from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import Number
 from serendipity.recognition.recognise import GoalsGiven, candidate_goals, posterior, strictness
 
 _LIKELY: Final = 0.2
 """A goal of that probability is not ruled out."""
+
+_EXACT: Final = 0.7
+"""The share of the time that exact likelihoods may take; bounds on them have to do otherwise."""
 
 
 class Beliefs:
@@ -68,7 +72,11 @@ class Beliefs:
             LimitReachedError: the deadline came first; the weights stay as they were.
         """
         if self._observed:
-            found = self._explainer.explain(self._observed, deadline, canonical=False)
+            try:
+                found = self._explainer.explain(self._observed, deadline.part(_EXACT), canonical=False)
+            except LIMITS:
+                deadline.check()
+                found = self._explainer.from_here(self._observed, state, deadline)
             priors = zip(self.candidates, self._priors, strict=True)
             weighed = [replace(candidate, prior=prior) for candidate, prior in priors]
             recognition = posterior(self._task, weighed, tuple(self._observed), found, self._beta)

@@ -110,6 +110,28 @@ class Explainer:
             found.append(likelihood)
         return found
 
+    def from_here(
+        self, observed: Sequence[str], state: frozenset[int], deadline: Deadline | None = None
+    ) -> list[Likelihood]:
+        """Bounds on the costs for each goal, by where all that was done has led (Masters and Sardina 2017).
+
+        What was done and their best plan from there on cost ``cost(G, O)`` at least, and their optimum is at
+        most ``cost(G, not O)``.  So no likelihood is above the exact one.
+        """
+        deadline, found = deadline or Deadline(), []
+        for prepared in self._prepared:
+            task = prepared.task
+            spent = sum((task.actions[task.named[name][0]].cost for name in observed), Fraction(0))
+            best, rest = (
+                None if plan is None else task.cost_of(plan.actions)
+                for plan in (
+                    SearchContext(one, Options(), deadline).canonical_plan()
+                    for one in (prepared, prepared.at(state))
+                )
+            )
+            found.append(Likelihood(None if rest is None else spent + rest, best, None))
+        return found
+
     def readings(
         self, observed: Sequence[str], prices: Prices, deadline: Deadline | None = None
     ) -> list[Reading | None]:

@@ -31,3 +31,24 @@ def test_action_by_action(task: Task, seed: int) -> None:
                 (one.with_observed, one.without_observed) for one in quick.explain(observed, canonical=False)
             ]
             assert told == [(one.with_observed, one.without_observed) for one in fresh]
+
+
+@given(st.one_of(tasks(), usar_tasks()), st.integers(0, 2**32))
+def test_costs_from_here_are_bounds(task: Task, seed: int) -> None:
+    """What was done, and the best from there on, is a plan that embeds it."""
+    dice = Random(seed)
+    goals = [task.goal, *(Condition((fact,)) for fact in dice.choices(range(len(task.facts)), k=2))]
+    explainer, state, observed = Explainer(task, goals), task.init, list[str]()
+    for _ in range(4):
+        possible = [i for i in task.human_actions if task.actions[i].applicable(state)]
+        if not possible:
+            break
+        action = task.actions[dice.choice(possible)]
+        observed.append(action.name)
+        state = apply(state, action)
+        exact = explainer.explain(observed, canonical=False)
+        for known, bound in zip(exact, explainer.from_here(observed, state), strict=True):
+            assert bound.with_observed is None or (known.with_observed or 0) <= bound.with_observed
+            if known.without_observed is not None:
+                assert bound.without_observed is not None
+                assert bound.without_observed <= known.without_observed
