@@ -111,7 +111,7 @@ class Session:
 
     @listing
     def __init__(
-        self, task: Task, *, human_plan: Iterable[str] | None = None, **options: Unpack[SessionOptions]
+        self, task: Task, *, human_plan: Iterable[PlanEntry] | None = None, **options: Unpack[SessionOptions]
     ) -> None:
         self._deadline = options.get("deadline")
         self._session = session.Session(task, human_plan=human_plan, **options)
@@ -123,7 +123,7 @@ class Session:
         return self._session.task
 
     @property
-    def human_plan(self) -> tuple[str, ...] | None:
+    def human_plan(self) -> tuple[PlanEntry, ...] | None:
         """The plan of the human; None until it is given or predicted."""
         return self._session.human_plan
 
@@ -170,7 +170,7 @@ class Session:
         """
         self._idle().change(facts)
 
-    def follow(self, names: Iterable[str] | None) -> None:
+    def follow(self, names: Iterable[PlanEntry] | None) -> None:
         """See :meth:`serendipity.Session.follow`.
 
         Raises:

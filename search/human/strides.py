@@ -366,9 +366,13 @@ def _together(asked: Sequence[_Condition]) -> Iterator[tuple[int, int, _Conditio
 def may_stride(packed: PackedTask) -> bool:
     """Whether the human alone may go from action to action: nothing but facts happens beside them.
 
-    The script changes nothing that they do, or that a goal asks for, and no bystander has a plan.
+    The script changes nothing that they do, or that a goal asks for, no bystander has a plan, and nobody is
+    in the middle of anything.
     """
     if not packed.task.due:
+        return False
+    clock = next((field for field, _, op in packed.due if op.agents == packed.clock_bit), 0)
+    if any(field == clock and op.agents != packed.clock_bit for field, _, op in packed.due):
         return False
     robots = sum(1 << robot for robot in packed.task.robots)
     if any(op.agents & ~(robots | packed.human_bit | packed.clock_bit) for _, _, op in packed.due):

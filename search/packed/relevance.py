@@ -5,13 +5,14 @@ from itertools import compress
 
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
-from serendipity.model.task.unit_steps import CLOCK
+from serendipity.model.task.unit_steps import CLOCK, UNDER_WAY
 
 
 def deeds_of(task: Task) -> list[int]:
-    """Actions of bystanders, which nobody may make impossible (semantics "Time")."""
+    """What bystanders do, and others are in the middle of, which has to stay possible (semantics "Time")."""
     people = {agent for agent in task.script.people if task.agents[agent] != CLOCK}
-    return [i for _, i in task.due if not people.isdisjoint(task.actions[i].participants)]
+    due = ((i, task.actions[i]) for _, i in task.due)
+    return [i for i, a in due if not people.isdisjoint(a.participants) or a.name.startswith(UNDER_WAY)]
 
 
 def relevant_to_goals(

@@ -91,7 +91,7 @@ def in_units(call: Request, units: UnitSteps) -> Request:
     options, epochs = call.options.but(head_start=0, ties="fixed"), call.options.head_start
     if given is not None:  # it may come too late, or be in a bystander's way
         call.task.replay_alone(units.begun(units.after_waiting(given, epochs)), strict=options.strict)
-    inner = replace(call, prepared=prepared, given=given, options=options)
+    inner = replace(call, prepared=prepared, given=given, options=options, question=None)
     if not epochs:
         return inner
     state = units.waited(epochs, strict=options.strict)

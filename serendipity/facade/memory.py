@@ -14,10 +14,14 @@ from operator import attrgetter
 from typing import Any, Final, NamedTuple
 
 from search import WarmStart
+from serendipity.facade.results import named_plan
 from serendipity.model import Options, Step, Task, Visible, Window
 from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.numbers import total
-from serendipity.model.task.actions import apply
+from serendipity.model.task.actions import GroundAction, apply
+from serendipity.model.task.course import BrokenPlanError
+from serendipity.model.task.passing import epoch_later
+from serendipity.model.task.plans import PlanEntry
 
 _Key = tuple[Hashable, ...]
 """A question: all options but limits; candidate goals and what was observed, where goals are not known."""
@@ -38,14 +42,14 @@ class _Known:
         options: as they were asked for, with the limits of the last call.
         answer: the last answer; None once the world has moved on.
         warm: what a search may begin with.
-        human_plan: what is left, by name, of the human's plan that it is about; None where it is about none.
+        human_plan: what is left, as it is given, of the human's plan that it is about; None: of none.
         visible: what the human sees, if the caller has said it.
     """
 
     options: Options
     answer: Answer | None
     warm: WarmStart
-    human_plan: tuple[str, ...] | None
+    human_plan: tuple[PlanEntry, ...] | None
     visible: Visible | None
 
 
@@ -63,7 +67,11 @@ class SessionMemory:
         self._known: OrderedDict[_Key, _Known] = OrderedDict()
 
     def question(
-        self, options: Options, visible: Visible | None, about: Hashable, human_plan: tuple[str, ...] | None
+        self,
+        options: Options,
+        visible: Visible | None,
+        about: Hashable,
+        human_plan: tuple[PlanEntry, ...] | None,
     ) -> "RememberedQuestion":
         """A question, and what is known of it.
 
@@ -117,16 +125,16 @@ class SessionMemory:
         """The questions are others now."""
         self._known.clear()
 
-    def moved(self, before: Task, state: frozenset[int], *, epochs: int) -> None:
+    def moved(self, before: Task, now: Task, *, epochs: int) -> None:
         """The world is in another state.
 
         Args:
             before: the task from the state before.
-            state: ids of the facts that are true now.
+            now: the task from the present state.
             epochs: how many have passed, 1 or 0.
         """
         for key, known in self._known.items():
-            self._known[key] = _moved(before, known, state, epochs)
+            self._known[key] = _moved(before, known, now, epochs)
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +154,7 @@ class RememberedQuestion:
     options: Options
     visible: Visible | None
     about: Hashable
-    human_plan: tuple[str, ...] | None
+    human_plan: tuple[PlanEntry, ...] | None
     known: _Known | None
 
     @property
@@ -196,7 +204,7 @@ class RememberedQuestion:
             bound, is_best = _bound(answer, self.options), answer.status == "optimal"
             warm = WarmStart(answer.steps or (), answer.window, True, bound, is_best, answer.horizon)
             if answer.human_plan is not None:
-                plan = tuple(task.actions[i].name for i in answer.human_plan)
+                plan = named_plan(task, answer.human_plan)
         self.memory.keep(self.about, _Known(self.options, answer, warm, plan, self.visible))
 
 
@@ -275,7 +283,7 @@ def _bound(answer: Answer, options: Options) -> Fraction | None:
     return least + options.window_weight if least > 0 else None
 
 
-def _moved(before: Task, known: _Known, state: frozenset[int], epochs: int) -> _Known:
+def _moved(before: Task, known: _Known, task: Task, epochs: int) -> _Known:
     """The knowledge that is left in another state.
 
     Where the next epoch of the plan leads to that state, the rest is the rest of a plan; where nothing has
@@ -283,8 +291,8 @@ def _moved(before: Task, known: _Known, state: frozenset[int], epochs: int) -> _
     """
     warm, options = known.warm, known.options
     now = [before.actions[step.action] for step in warm.steps if step.epoch == 1]
-    planned = all(action.applicable(before.init) for action in now) and apply(before.init, *now) == state
-    if state == before.init and not planned:
+    planned = _leads_to(before, now, task)
+    if (task.init, task.script) == (before.init, before.script) and not planned:
         return known
     passed = 1 if planned else epochs
     steps = (Step(step.epoch - passed, step.action) for step in warm.steps if step.epoch > passed)
@@ -296,6 +304,19 @@ def _moved(before: Task, known: _Known, state: frozenset[int], epochs: int) -> _
         left = replace(left, bound=warm.bound - paid, is_best=is_best, horizon=last)
     plan = known.human_plan
     return _Known(options, None, left, plan if plan is None else plan[passed:], known.visible)
+
+
+def _leads_to(before: Task, actions: list[GroundAction], task: Task) -> bool:
+    """Whether actions lead to the present state, and to what is left of the script."""
+    if not before.needs_time:
+        return (
+            all(one.applicable(before.init) for one in actions) and apply(before.init, *actions) == task.init
+        )
+    try:
+        later = epoch_later(before, actions)
+    except BrokenPlanError:
+        return False
+    return (later.init, later.script) == (task.init, task.script)
 
 
 def _later(window: Window | None) -> Window | None:

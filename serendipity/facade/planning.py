@@ -15,7 +15,7 @@ from serendipity.facade.in_time import answers_in_time
 from serendipity.facade.logs import record, recorded
 from serendipity.facade.memory import SessionMemory
 from serendipity.facade.prepared import HELD
-from serendipity.facade.results import to_result
+from serendipity.facade.results import named_plan, to_result
 from serendipity.model import Deadline, Options, PlanOptions, Result, Task, UsageError, Visible
 from serendipity.model.answers.answer import Answer
 from serendipity.model.arguments import FUNCTION, expect_or_none
@@ -208,7 +208,7 @@ def _begun(
             from serendipity.facade.scenarios import asked_about
 
             about = asked_about(call.task, unsure)
-        plan = None if call.given is None else tuple(call.task.actions[i].name for i in call.given)
+        plan = None if call.given is None else named_plan(call.task, call.given)
         call = replace(call, question=memory.question(chosen, visible, about, plan))
     if call.known is not None:
         return call, iter((call.known,))
@@ -216,7 +216,7 @@ def _begun(
         if unsure is not None:
             raise UsageError("goals, plans: are not planned for where actions take time")
         if memory is not None:
-            refuse_time(options=chosen, plan=call.given)
+            refuse_time(options=chosen)
         return call, answers_in_time(call, solver)
     if unsure is not None:
         from serendipity.facade.scenarios import settled

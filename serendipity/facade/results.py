@@ -11,7 +11,7 @@ from serendipity.model.answers.answer import Answer, ServedGoal, Tried
 from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAnswer
 from serendipity.model.numbers import figure, rounded
 from serendipity.model.task.execution import actions_of, participants, shares
-from serendipity.model.task.plans import PlanTimes, TimedPlan
+from serendipity.model.task.plans import PlanEntry, PlanTimes, TimedPlan
 from serendipity.model.task.plans_in_time import times_of, waited
 
 
@@ -102,9 +102,16 @@ def _bystanders(task: Task) -> dict[str, tuple[PlanStep, ...]]:
     """What bystanders do, by name; it costs nobody anything."""
     found: dict[str, list[PlanStep]] = {task.agents[i]: [] for i in sorted(task.script.people)}
     for deed in task.script.deeds:
-        who = task.agents[deed.agent]
-        found[who].append(PlanStep(deed.epoch, (who,), deed.name, 0.0, deed.variants[0].duration))
+        if deed.agent in task.script.people:  # and not in the middle of something
+            who = task.agents[deed.agent]
+            found[who].append(PlanStep(deed.epoch, (who,), deed.name, 0.0, deed.variants[0].duration))
     return {who: tuple(steps) for who, steps in found.items()}
+
+
+def named_plan(task: Task, plan: HumanPlan) -> tuple[PlanEntry, ...]:
+    """A human plan as callers give it: names, with epochs where these say more than their order."""
+    names, times = tuple(task.actions[i].name for i in plan), plan_times(task, plan)
+    return names if times is None else times.entries(names)
 
 
 def _plan(task: Task, discount: Fraction, steps: tuple[Step, ...] | None) -> tuple[PlanStep, ...] | None:

@@ -4,43 +4,51 @@ import threading
 import weakref
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
+from itertools import combinations
 from typing import Any, Unpack
 
+from search import PreparedTask
 from serendipity.facade.call import Given
 from serendipity.facade.memory import SessionMemory
 from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned, planned_anytime
 from serendipity.facade.prepared import HELD
-from serendipity.facade.results import named_steps
+from serendipity.facade.results import named_plan, named_steps
 from serendipity.model import HumanPlan, PlanError, PlanStep, Result, Task, UsageError
-from serendipity.model.arguments import BY_NAME, TASK, expect
+from serendipity.model.arguments import BY_NAME, TASK_IN_TIME, expect
 from serendipity.model.keywords import listing
-from serendipity.model.task.actions import GroundAction, apply, conflicting
+from serendipity.model.task.actions import NOOP, GroundAction, apply, conflicting
+from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.facts import Facts
+from serendipity.model.task.passing import epoch_later
+from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries
+from serendipity.model.task.plans_in_time import times_of
 from serendipity.model.task.task import canonical_name, several
 
 
 class Session:
     """A task in its present state, and the human's plan as far as it is known.
 
+    In time the script counts from the present state, too, and what has begun goes on (semantics 10.4).
+
     Packed actions, finite-domain variables and projections are kept from call to call,
     also after an epoch has been executed or a fact has changed; a new goal packs anew.
 
     Args:
         task: where things stand.
-        human_plan: names of the actions that the human is going to do, or None to predict them.
+        human_plan: the human's plan, as :func:`serendipity.plan` takes it, or None to predict it.
         **options: defaults of every call, as for :func:`serendipity.plan`.
     """
 
     @listing
     def __init__(
-        self, task: Task, *, human_plan: Iterable[str] | None = None, **options: Unpack[SessionOptions]
+        self, task: Task, *, human_plan: Iterable[PlanEntry] | None = None, **options: Unpack[SessionOptions]
     ) -> None:
-        expect(TASK, task=task)
+        expect(TASK_IN_TIME, task=task)
         self._prepared = HELD.take(task)
         weakref.finalize(self, HELD.hold, self._prepared).atexit = False
         self._options = options
-        self._given = None if human_plan is None else several(human_plan, "human plan")
-        """Names of a plan that nothing has been made of yet: it may be one only after the next change."""
+        self._given = None if human_plan is None else checked_entries(human_plan, "human plan")
+        """A plan that nothing has been made of yet: it may be one only after the next change."""
         self._human_plan: HumanPlan | None = None
         """The plan; at most one of the two is known."""
         self._predicted = False
@@ -59,11 +67,9 @@ class Session:
         return self._prepared.task
 
     @property
-    def human_plan(self) -> tuple[str, ...] | None:
-        """The plan of the human; None until it is given or predicted."""
-        if self._human_plan is None:
-            return self._given
-        return tuple(self.task.actions[i].name for i in self._human_plan)
+    def human_plan(self) -> tuple[PlanEntry, ...] | None:
+        """The plan of the human, in time with epochs from now; None until it is given or predicted."""
+        return self._given if self._human_plan is None else named_plan(self.task, self._human_plan)
 
     @property
     def rest(self) -> tuple[PlanStep, ...] | None:
@@ -129,14 +135,14 @@ class Session:
         # Robots may have made another plan cheaper, and nothing helps beside this one.
         self._is_outdated = self._predicted and bool(answer.saving_alone) and not answer.opportunity
         if self.human_plan is None:
-            self._given, self._predicted = answer.human_plan, True
+            self._given, self._predicted = answer.human_entries, True
 
     def cancel(self) -> None:
         """End the running call, from any thread; it returns the incumbent."""
         self._cancelled.set()
 
     def execute(self, actions: Iterable[str]) -> None:
-        """Move on by one epoch in which these actions were executed (none: everybody waited).
+        """Move on by one epoch in which these actions were executed, or begun (none: everybody waited).
 
         The human's plan goes on behind their action.  It is predicted anew after a joint
         action, after one that was not next, and where its rest does not work any more.  One that was
@@ -147,13 +153,38 @@ class Session:
             UsageError: an action is unknown or not applicable, or two of them conflict.
         """
         chosen = [self._action(name) for name in several(actions, "actions")]
-        for i, action in enumerate(chosen):
-            for other in chosen[:i]:
-                if conflicting(action, other, strict=False):
-                    raise UsageError(f"'{other.name}' and '{action.name}' can't share an epoch")
-        self._move(apply(self.task.init, *chosen), epochs=1)
-        self._follow([action for action in chosen if self.task.human in action.participants])
+        his = [action for action in chosen if self.task.human in action.participants]
+        if self._in_time:
+            self._execute_in_time(chosen, his)
+        else:
+            _require_compatible(chosen)
+            self._move(self._prepared.at(apply(self.task.init, *chosen)), epochs=1)
+            self._follow(his)
         self._take_up_rest()
+
+    @property
+    def _in_time(self) -> bool:
+        timed = any(not isinstance(entry, str) for entry in self._given or ())
+        return self.task.needs_time or timed or isinstance(self._human_plan, TimedPlan)
+
+    def _execute_in_time(self, chosen: list[GroundAction], his: list[GroundAction]) -> None:
+        self._keep_plan_if_it_works()
+        before, plan, left = self.task, self._human_plan, list[tuple[int, str]]()
+        if plan is not None:
+            left = times_of(before, plan).timed(before.actions[i].name for i in plan)
+        try:
+            later = epoch_later(before, chosen)
+        except BrokenPlanError as error:
+            raise UsageError(f"epoch: {error}") from None
+        self._move(PreparedTask(later) if before.needs_time else self._prepared.at(later.init), epochs=1)
+        if his:
+            on_plan = not his[0].joint and bool(left) and left[0][1] == his[0].name
+            plan, left = plan if on_plan else None, left[1:]
+        is_late = not his and bool(left) and left[0][0] == 1 and left[0][1] != NOOP
+        if not is_late:
+            left = [(epoch - 1, name) for epoch, name in left if epoch > 1]
+        self._human_plan, self._given = None, None if plan is None else tuple(left)
+        self._keep_plan_if_it_works()
 
     def change(self, facts: Mapping[str, bool]) -> None:
         """Set facts to true or false, as they were seen.
@@ -165,16 +196,16 @@ class Session:
         state = self._facts.seen(self.task.init, facts.items())
         if state == self.task.init:
             return
-        self._move(state, epochs=0)
+        self._move(self._prepared.at(state), epochs=0)
         self._keep_plan_if_it_works()
 
-    def follow(self, names: Iterable[str] | None) -> None:
+    def follow(self, names: Iterable[PlanEntry] | None) -> None:
         """Say what the human is going to do from here; None predicts it anew.
 
         The next call replays it, and raises :class:`serendipity.PlanError` where it can't be executed.
         """
         self._human_plan, self._predicted, self._is_outdated = None, False, False
-        self._given = None if names is None else several(names, "human plan")
+        self._given = None if names is None else checked_entries(names, "human plan")
 
     def set_goal(self, goal: Iterable[str]) -> None:
         """Give the human another goal: literals, ``!`` in front of those to be false.
@@ -186,10 +217,9 @@ class Session:
         self._human_plan = self._given = None
         self._memory.forget()
 
-    def _move(self, state: frozenset[int], *, epochs: int) -> None:
-        before = self.task
-        self._prepared = self._prepared.at(state)
-        self._memory.moved(before, self.task.init, epochs=epochs)
+    def _move(self, now: PreparedTask, *, epochs: int) -> None:
+        before, self._prepared = self.task, now
+        self._memory.moved(before, self.task, epochs=epochs)
 
     def _follow(self, his: list[GroundAction]) -> None:
         known = self.human_plan
@@ -204,9 +234,12 @@ class Session:
         rest, task = self._memory.rest, self.task
         if not self._predicted or self._human_plan is None or rest is None or not rest.steps:
             return
-        plan = tuple(step.action for step in rest.steps)
+        plan: HumanPlan = tuple(step.action for step in rest.steps)
         own = all(task.actions[i].participants == (task.human,) for i in plan)
         if own and task.cost_of(plan) < task.cost_of(self._human_plan):
+            if task.needs_time:
+                steps = sorted(rest.steps)
+                plan = task.plan_from_names([(step.epoch, task.actions[step.action].name) for step in steps])
             self._human_plan = plan
 
     def _keep_plan_if_it_works(self) -> None:
@@ -232,3 +265,9 @@ class Session:
     def _facts(self) -> Facts:
         """The facts by name, which no move changes."""
         return Facts(self.task.facts)
+
+
+def _require_compatible(chosen: list[GroundAction]) -> None:
+    for action, other in combinations(chosen, 2):
+        if conflicting(action, other, strict=False):
+            raise UsageError(f"'{action.name}' and '{other.name}' can't share an epoch")

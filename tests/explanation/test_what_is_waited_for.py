@@ -60,7 +60,7 @@ def test_a_morning() -> None:
 
 
 def test_a_head_start_and_what_it_is_worth() -> None:
-    """Worked case 5 of semantics 10.4: a robot two moves away brings what somebody would fetch."""
+    """As in worked case 5 of semantics 10.5: a robot two moves away brings what somebody would fetch."""
     meal = task(
         init="far",
         goal="full",

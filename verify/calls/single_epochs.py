@@ -58,8 +58,9 @@ def examined_in_time(
 
 def _is_known(task: Task, result: Result) -> bool:
     """Whether such a result is examined in time; over ties only where all optimal plans begin at once."""
-    options = result.options
-    if options.windowed and options.preservation == "state":
+    options, script = result.options, task.script
+    in_the_middle = any(deed.agent not in script.people for deed in script.deeds)
+    if in_the_middle or (options.windowed and options.preservation == "state"):
         return False
     if not is_tied(result):
         return kind_of(result) == "a plan"

@@ -99,8 +99,13 @@ class PlayedPlan:
         self.epoch += passed
         return passed
 
+    @property
+    def going(self) -> Iterator[tuple[GroundAction, int]]:
+        """The actions that have not ended yet, and how many epochs they still take."""
+        return ((going.action, going.left) for going in self._going)
+
     def under_way(self) -> Iterator[GroundAction]:
-        """The actions of the plan's that have not ended yet; those of bystanders don't count."""
+        """Those of the plan's; those of bystanders don't count."""
         people = self._script.people
         return (going.action for going in self._going if people.isdisjoint(going.action.participants))
 

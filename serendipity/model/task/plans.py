@@ -117,8 +117,11 @@ class PlanTimes:
 
     def entries(self, names: "Iterable[str]") -> "tuple[PlanEntry, ...]":
         """The plan as callers give it: names with epochs; a last ``noop`` says until when they wait."""
-        found = zip(self.starts, names, strict=True)
-        return (*found, *([(self.epochs, NOOP)] if self.waits_at_end else []))
+        return (*self.timed(names),)
+
+    def timed(self, names: "Iterable[str]") -> list[tuple[int, str]]:
+        """The same as a list of pairs."""
+        return [*zip(self.starts, names, strict=True), *([(self.epochs, NOOP)] if self.waits_at_end else [])]
 
 
 class TimedPlan(tuple[int, ...]):

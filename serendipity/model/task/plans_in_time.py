@@ -112,11 +112,16 @@ class _Human:
         self.states = [task.init]
         self.actions: list[int] = []
         self.starts: list[int] = []
+        deeds = (deed for deed in task.script.deeds if task.human in deed.variants[0].participants)
+        self._busy = max((deed.end for deed in deeds), default=0)  # in the middle of something
+        self.wait_until(self._busy)
 
     def step(self, step: int, epoch: int | None, name: str) -> None:
         """Do the action of a name, from an epoch on or at once."""
         ids = self.task.named.get(name, ())
         waits = self.task.waits(name)
+        if epoch is not None and epoch <= self._busy and waits:
+            return
         if epoch is not None:
             if epoch <= self.course.epoch:
                 early = f"expected an epoch from {self.course.epoch + 1} on, got {epoch}"

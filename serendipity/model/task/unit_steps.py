@@ -32,6 +32,9 @@ CLOCK: Final = "~clock"
 WAITING: Final = "~noop"
 """The human's waiting as an action: after all others, as who can act does."""
 
+UNDER_WAY: Final = "~going"
+"""Before the name of what somebody is in the middle of at first, who is no bystander: before waiting."""
+
 RESTING: Final = "~rest"
 """The human's waiting from their last action on, which is free where other waiting costs: the last of all."""
 
@@ -51,6 +54,7 @@ class UnitSteps:
         chains: by id of an original action its ids in the task, epoch by epoch.
         waiting: id of the human's waiting, which given plans may have.
         resting: the same after their last action; where waiting costs nothing it is no other.
+        busy: ids of what the human is in the middle of at first, epoch by epoch, where their plans begin.
     """
 
     task: Task
@@ -58,6 +62,7 @@ class UnitSteps:
     chains: tuple[tuple[int, ...], ...]
     waiting: int
     resting: int
+    busy: tuple[int, ...] = ()
 
     @cached_property
     def _begins(self) -> dict[int, int]:
@@ -66,7 +71,7 @@ class UnitSteps:
 
     def plan(self, plan: HumanPlan) -> HumanPlan:
         """A human plan of the original, one action for each epoch, waiting included."""
-        found: list[int] = []
+        found = [*self.busy]
         for action, start in zip(plan, self.original.starts_of(plan), strict=True):
             found += [self.waiting] * (start - 1 - len(found))
             found += self.chains[action]
@@ -82,7 +87,7 @@ class UnitSteps:
         """The plan of the original that a plan in single epochs is."""
         begins = self._begins
         starts = {epoch: begins[action] for epoch, action in enumerate(plan, start=1) if action in begins}
-        if {self.waiting, self.resting}.isdisjoint(plan):
+        if not self.busy and {self.waiting, self.resting}.isdisjoint(plan):
             return tuple(starts.values())
         return TimedPlan(starts.values(), starts, len(plan))
 
@@ -157,6 +162,7 @@ class _Steps:
         self._chains: list[list[GroundAction]] = []
         self._others: list[GroundAction] = []  # that nobody chooses
         self._clock: list[int] = []
+        self._busy: list[GroundAction] = []
         self._start: list[int] = []  # facts that hold at first
         busy = {
             agent for action in task.actions if action.timing is not None for agent in action.participants
@@ -234,7 +240,15 @@ class _Steps:
             self._others.append(tick)
         for deed in script.deeds:
             for action in deed.variants:
-                epochs = self._epochs(replace(action, cost=_FREE), [clock[deed.epoch - 1]], [])
+                free = [self._free[agent] for agent in action.participants if agent in self._free]
+                name = f"{UNDER_WAY} {action.name}" if free else action.name
+                epochs = self._epochs(replace(action, name=name, cost=_FREE), [clock[deed.epoch - 1]], [])
+                if free:
+                    last = epochs[-1]
+                    self._start = [fact for fact in self._start if fact not in free]
+                    epochs[-1] = replace(last, add=tuple(sorted((*last.add, *free))))
+                    self._due = [(fact, epochs[-1] if one is last else one) for fact, one in self._due]
+                self._busy = epochs if task.human in action.participants else self._busy
                 self._due.append((clock[deed.epoch - 1], epochs[0]))
                 self._others += epochs
 
@@ -273,7 +287,8 @@ class _Steps:
             known_variables=self._variables(find_variables(facts, init, tuple(every), deadline)),
         )
         chains = tuple(tuple(numbers[id(action)] for action in one) for one in self._chains)
-        return UnitSteps(unit, task, chains, numbers[id(idle[0])], numbers[id(idle[-1])])
+        busy = tuple(numbers[id(action)] for action in self._busy)
+        return UnitSteps(unit, task, chains, numbers[id(idle[0])], numbers[id(idle[-1])], busy)
 
     def _idle(self) -> list[GroundAction]:
         """The human's waiting; where it costs, also what they do once they begin nothing any more."""

@@ -1,0 +1,181 @@
+"""A session in time: each moment is a task of its own, and is asked about as such."""
+
+from dataclasses import replace
+from random import Random
+from typing import Final
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import serendipity
+from serendipity import PlanError, Result, Script, Session, Task, UsageError
+from serendipity.testing.builders import task
+from serendipity.testing.call import Call
+from serendipity.testing.oracle import best
+from serendipity.testing.strategies import calls_in_time, timed_tasks
+
+
+def fresh(session: Session, **options: object) -> Result:
+    return serendipity.plan(replace(session.task), human_plan=session.human_plan, **options)
+
+
+def same(one: Result, other: Result) -> bool:
+    return replace(one, statistics={}) == replace(other, statistics={})
+
+
+def now(answer: Result) -> list[str]:
+    """What an answer begins at once."""
+    return [step.action for step in answer.plan or () if step.epoch == 1]
+
+
+@pytest.mark.parametrize("name", ["morning", "office"])
+def test_following_the_answer_epoch_by_epoch(name: str) -> None:
+    session = Session(serendipity.example(name), discount=0.5)
+    answer = session.plan()
+    paid = 0.0
+    first = answer.cost
+    while not session.task.goal.holds(session.task.init) or session.task.script.deeds:
+        paid += sum(step.cost for step in answer.plan or () if step.epoch == 1)
+        session.execute(now(answer))
+        answer = session.plan()
+        assert same(answer, fresh(session, discount=0.5))
+        assert session.plan(time_limit=0).cost == answer.cost
+    assert paid == first
+
+
+_FIGURES = ("status", "cost", "objective", "opportunity", "saving", "lower_bound", "horizon", "window")
+
+MODES: Final = ("serendipity", "composite", "individual")
+
+
+@given(
+    st.one_of(calls_in_time(modes=MODES), calls_in_time(modes=MODES, of=timed_tasks())),
+    st.randoms(use_true_random=False),
+)
+def test_in_each_epoch_it_answers_what_brute_force_does(call: Call, dice: Random) -> None:
+    """Also in the middle of actions, with plans that are followed and others that are not."""
+    changes = {"head_start": 0, "waiting_cost": 0, "horizon": None}
+    options, asked = call.options.but(**changes), call.keywords(**changes)
+    session = Session(call.task, human_plan=call.human_entries, **asked)
+    for _ in range(3):
+        try:
+            answer = session.plan()
+        except (UsageError, PlanError):
+            return
+        moment, entries = session.task, session.human_plan
+        again = fresh(session, **asked)
+        assert [getattr(answer, name) for name in _FIGURES] == [getattr(again, name) for name in _FIGURES]
+        if moment.needs_time and entries is not None:
+            found = best(moment, options, moment.plan_from_names(entries))
+            cost = None if found.cost is None else float(found.cost)
+            assert (answer.status, answer.cost, answer.window) == (found.status, cost, found.window)
+        try:
+            session.execute(now(answer) if dice.random() < 0.4 else _anything(moment, dice))
+        except UsageError:
+            return
+
+
+def _anything(moment: Task, dice: Random) -> list[str]:
+    """Something that can begin, rather long than short."""
+    possible = [action for action in moment.actions if action.applicable(moment.init)]
+    chosen = dice.choices(possible, [action.duration**2 for action in possible]) if possible else []
+    return [action.name for action in chosen]
+
+
+def lane() -> Session:
+    """A walk of three epochs, a door that opens with epoch 6, and a robot that may open it in two."""
+    walk = task(
+        init="a",
+        goal="c",
+        actions={
+            "walk h": "a -> !a / b @ 1 [3]",
+            "pass h": "b open -> c @ 1",
+            "unlock r": " -> open @ 1 [2]",
+        },
+    )
+    return Session(walk.with_script(Script(facts=[(6, "open")])), mode="composite")
+
+
+def test_what_has_begun_goes_on_and_is_paid() -> None:
+    session = lane()
+    assert session.plan().cost == 2
+    session.execute(["walk h", "unlock r"])
+    assert session.plan().cost == 1
+    with pytest.raises(UsageError, match=r"'unlock r'.*can't begin in epoch 1: 'unlock r' goes on"):
+        session.execute(["unlock r"])
+    session.execute([])
+    assert "open" in {session.task.facts[fact] for fact in session.task.init}
+    assert session.plan().human_entries == ((5, "pass h"),), "as it was predicted"
+    session.follow(None)
+    assert session.plan().human_entries == ((2, "pass h"),)
+    assert session.plan().horizon == 2
+
+
+def test_what_robots_are_in_the_middle_of_is_waited_for() -> None:
+    """The human's own plan reckons with it, as with what bystanders do."""
+    ways = {"walk h": "p -> q !p @ 2", "jump h": "p open -> q !p @ 1", "open r": " -> open @ 1 [3]"}
+    session = Session(task(init="p", goal="q", actions=ways), mode="individual")
+    assert session.plan().cost == 2
+    session.execute(["open r"])
+    session.follow(None)
+    answer = session.plan()
+    assert (answer.cost, answer.human_entries) == (1, ((3, "jump h"),))
+    assert best(session.task, answer.options, None).cost == 1
+
+
+def test_the_script_comes_nearer() -> None:
+    session = lane()
+    session.plan()
+    assert session.human_plan == ((1, "walk h"), (7, "pass h"))
+    session.execute(["walk h"])
+    assert session.human_plan == ((6, "pass h"),)
+    assert [(one.epoch, one.true) for one in session.task.script.facts] == [(5, True)]
+    session.change({"open": True})
+    assert session.plan().cost == 1
+    assert session.plan(time_limit=0).status == "optimal"
+
+
+def test_who_is_late_is_later_by_as_much_and_who_is_early_waits_for_the_rest() -> None:
+    plan = [(2, "walk h"), (7, "pass h")]
+    late, early = lane(), lane()
+    for session in (late, early):
+        session.follow(plan)
+    early.execute(["walk h"])
+    assert early.human_plan == ((6, "pass h"),)
+    late.execute([])
+    late.execute([])
+    assert late.human_plan == ((1, "walk h"), (6, "pass h"))
+    late.execute(["unlock r"])
+    late.execute(["walk h"])
+    assert late.human_plan == ((5, "pass h"),)
+
+
+def test_what_is_left_of_the_last_answer() -> None:
+    session = lane()
+    answer = session.plan()
+    assert session.rest == answer.plan
+    session.execute(now(answer))
+    assert [(step.epoch, step.action) for step in session.rest or ()] == [
+        (step.epoch - 1, step.action) for step in answer.plan or () if step.epoch > 1
+    ]
+    session.execute(["unlock r"])
+    assert session.rest is None
+
+
+def test_a_session_says_what_it_does_not_know() -> None:
+    with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
+        Session(lane().task, head_start=2).plan()
+    session = lane()
+    answer = session.plan()
+    session.execute(["walk h"])
+    assert serendipity.verify(session.task, session.plan()).verdict == "undecided"
+    assert answer.status == "optimal"
+
+
+def test_what_takes_effect_at_other_times_shares_an_epoch() -> None:
+    both = {"walk h": " -> done !calm @ 1 [2]", "rest r": " -> calm @ 1"}
+    session = Session(task(goal="done", actions=both))
+    session.execute(["walk h", "rest r"])
+    with pytest.raises(UsageError, match=r"epoch: .*change the same fact"):
+        session.execute(["rest r"])
