@@ -90,6 +90,8 @@ def faults(task: Task, recognised: Recognition, deadline: Deadline) -> Iterator[
         if all(task.actions[i].participants != (task.human,) for i in task.named.get(name, ())):
             yield f"observed: '{name}' is not an action that the human does alone"
             return
+    if recognised.noise or any(goal.errors for goal in recognised.goals):
+        yield "noise: plans rest on observations without any"
     if not recognised.goals or not _close(float(sum(goal.prior for goal in recognised.goals)), 1.0):
         yield "the priors do not add up to 1"
     if len({goal.name for goal in recognised.goals}) < len(recognised.goals):

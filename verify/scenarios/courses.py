@@ -1,17 +1,16 @@
 """What may happen in an epoch of one scenario: rules 1 to 3 of semantics 3.1, beside what robots do."""
 
 from collections.abc import Callable, Iterator
-from fractions import Fraction
 from functools import cache
 from typing import Final, NamedTuple
 
 from verify.base.execution import State, fits, sets_beside
-from verify.base.fact_bits import BitOperator, BitOperators, FactBits, each_bit
-from verify.base.optimal_plans import Worth
+from verify.base.fact_bits import BitCondition, BitOperator, BitOperators, FactBits, each_bit
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE
 from verify.calls.call import ExaminedCall
 from verify.exhaustive.without_epochs import LeastLeft
+from verify.scenarios.suffixes import suffix_of
 
 FOLLOWS, INSIDE, OVER = range(3)
 """Phases of a scenario: before its window, or without one; in it; after it."""
@@ -30,7 +29,7 @@ class Member(NamedTuple):
         scenario: its number.
         state: as bits.
         phase: of its window.
-        epochs: of its window, where their number is limited; else 0.
+        epochs: of its window, where their number matters, and after it the index of its suffix; else 0.
         ahead: what it has paid more than that of its group which has paid least, where the greatest counts.
     """
 
@@ -50,7 +49,6 @@ class Way(NamedTuple):
 
 
 _WAITS: Final = BitOperator(0, 0, 0, 0, 0)
-_DONE: Final = (Fraction(0), 0)
 
 
 class Moves:
@@ -120,29 +118,39 @@ class Course:
         self._plan = [moves.operators[i] for i in call.human_plan or ()]
         self._horizon = int(call.horizon)
         self._most = call.options.max_window
+        self._counts = self._most is not None or call.options.preservation == "state"
+        goal, of = call.task.goal, moves.bits.of
+        self._goal = BitCondition(of(goal.positive), of(goal.negative))
         question = call.question.but(rule=FREE)
         part = relevant_part(question)
         assert part is not None, "only goals that the human reaches are considered"
-        self._left, of = LeastLeft(question, part), moves.bits.of
-        self._asked, self._matters = of(call.plans.alone.own.facts), of(self._left.facts)
-        self._worth, self._step = cache(self._worth_of), cache(self._step_of)
-        self._bound = cache(self._bound_of)
+        left, suffix = (
+            LeastLeft(question, part),
+            suffix_of(call.task, call.options, call.human_plan or (), call.plans),
+        )
+        self._asked, self._matters = of(suffix.facts), of(left.facts)
+        self._begin = cache(lambda state, *at: suffix.begin(_facts(state), *at))
+        self._step = cache(lambda state, *at: suffix.step(_facts(state), *at))
+        self._rest = cache(lambda state, *at: call.prices.units(suffix.cost(_facts(state), *at)))
+        self._bound = cache(lambda state: left(_facts(state)))
 
     def least(self, at: Member, epoch: int) -> int:
         """No less is left to pay after an epoch; after the last one exactly that."""
         if at.phase == OVER:
-            worth = self._worth(at.state & self._asked)
-            return INFINITE if worth is None else self._pay(self._call.prices.units(worth[0]))
+            return self._pay(self._rest(at.state & self._asked, at.epochs, self._horizon - epoch))
         wait = self._epoch if at.phase == FOLLOWS else 0
         if epoch == self._horizon:
-            return wait if at.phase == FOLLOWS and self._worth(at.state & self._asked) == _DONE else INFINITE
-        return self._bound(at.state & self._matters) + wait
+            return wait if at.phase == FOLLOWS and self._goal.holds(at.state) else INFINITE
+        left = self._bound(at.state & self._matters)
+        return INFINITE if left is None else self._pay(left) + wait
 
     def ways(self, at: Member, epoch: int, robots: BitOperator) -> Iterator[Way]:
         """What may happen in an epoch in which robots do so much by themselves."""
         moves = self._moves
         if at.phase == OVER:
-            yield self._way(at, self._step(at.state & self._asked), robots)
+            step, index = self._step(at.state & self._asked, at.epochs, self._horizon - epoch + 1)
+            part = _WAITS if step is None else moves.operators[step]
+            yield self._way(at._replace(epochs=index), part, robots)
             return
         if at.phase == FOLLOWS:
             planned = self._plan[epoch - 1] if epoch <= len(self._plan) else _WAITS
@@ -158,10 +166,11 @@ class Course:
         """Rules 2 and 3: the window ends with the epoch, or goes on."""
         way = self._way(at, part, robots)
         way = way._replace(paid=way.paid + self._epoch)
-        worth = self._worth(way.after.state & self._asked)
-        if worth is not None and worth[1] <= self._horizon - epoch:
-            yield way._replace(after=way.after._replace(phase=OVER, epochs=0))
-        epochs = 0 if self._most is None else at.epochs + 1
+        epochs = at.epochs + 1 if self._counts else 0
+        start = epoch + 1 - epochs if self._counts else 1
+        index = self._begin(way.after.state & self._asked, start, self._horizon - epoch)
+        if index is not None:
+            yield way._replace(after=way.after._replace(phase=OVER, epochs=index))
         if epoch < self._horizon and (self._most is None or epochs < self._most):
             yield way._replace(after=way.after._replace(phase=INSIDE, epochs=epochs))
 
@@ -169,18 +178,6 @@ class Course:
         state = at.state & ~(part.delete | robots.delete) | part.add | robots.add
         paid = part.weight + robots.weight
         return Way(self._moves.seen(part), paid, at._replace(state=state))
-
-    def _worth_of(self, state: int) -> Worth | None:
-        return self._call.plans.worth(_facts(state))
-
-    def _step_of(self, state: int) -> BitOperator:
-        """The next action of the canonical suffix."""
-        step = next(self._call.plans.steps(_facts(state)), None)
-        return _WAITS if step is None else self._moves.operators[step[0]]
-
-    def _bound_of(self, state: int) -> int:
-        left = self._left(_facts(state))
-        return INFINITE if left is None else self._pay(left)
 
 
 def _facts(state: int) -> State:

@@ -47,14 +47,9 @@ class PolicySearch:
     Args:
         calls: one for each scenario, with the human's plan in it, and the same horizon.
         measure: what is minimised.
-
-    Raises:
-        UndecidedError: a rule of the options is not covered.
     """
 
     def __init__(self, calls: Sequence[ExaminedCall], measure: Measure) -> None:
-        if not all(call.question.replans for call in calls):
-            raise UndecidedError("scenarios are examined under suffix replan and preservation kernel only")
         self._measure, self._watching = measure, calls[0].options.policy == "watching"
         self._effort, self._horizon = calls[0].effort, int(calls[0].horizon)
         self._moves = Moves(calls[0], measure.pay)

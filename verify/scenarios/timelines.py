@@ -14,6 +14,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.rules.case import Case
 from verify.rules.registry import RULES
 from verify.scenarios.reading import weight
+from verify.scenarios.suffixes import planned, suffix_of
 
 Figures = tuple[Fraction, Fraction]
 """Objective and cost."""
@@ -106,15 +107,16 @@ def rule_fault(claim: str, lines: Sequence[Timeline]) -> str | None:
 
 
 def suffix_fault(lines: Sequence[Timeline]) -> str | None:
-    """Where the suffix is replanned it is the canonical plan from the state that the window leaves."""
+    """The suffix is the canonical one from the state that the window leaves."""
     for line in lines:
-        case, window, options = line.case, line.case.result.window, line.case.result.options
-        if window is None or (options.suffix, options.preservation) != ("replan", "kernel"):
+        case, window = line.case, line.case.result.window
+        if window is None:
             continue
-        plans = OptimalPlans(case.task, case.alone).plans(case.replay.state_after(window.end - 1))
-        expected = [case.name(i) for i in next(plans, ())]
+        plans = OptimalPlans(case.task, case.alone)
+        suffix = suffix_of(case.task, case.result.options, case.pi_h, plans)
+        state, left = case.replay.state_after(window.end - 1), int(case.result.horizon or 0) + 1 - window.end
         done = [case.name(i) for epoch, i in sorted(case.human_does().items()) if epoch >= window.end]
-        if done != expected:
+        if done != planned(case.task, suffix, state, window.start, left):
             return f"scenario '{line.name}': from epoch {window.end} the human does not do the canonical plan"
     return None
 

@@ -92,6 +92,7 @@ def _shared_help(answer: dict[str, Any]) -> None:
 
 DOCTORED: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
     "a prior": (edit("statistics.recognition.goals.0.prior", 0.6), "replay", "priors do not add up"),
+    "noise": (edit("statistics.recognition.noise", {"miss": 0.1, "wrong": 0.1}), "replay", "noise"),
     "a posterior": (edit("statistics.recognition.goals.0.posterior", 0.6), "replay", "posterior is 0.5"),
     "a likelihood": (edit("statistics.recognition.goals.0.likelihood", 0.5), "replay", "likelihood is 1"),
     "a cost of recognition": (
