@@ -164,20 +164,20 @@ class Course:
 
     def _inside(self, at: Member, part: BitOperator, robots: BitOperator, epoch: int) -> Iterator[Way]:
         """Rules 2 and 3: the window ends with the epoch, or goes on."""
-        way = self._way(at, part, robots)
-        way = way._replace(paid=way.paid + self._epoch)
+        seen, spent, after = self._way(at, part, robots)
+        paid, state = spent + self._epoch, after.state
         epochs = at.epochs + 1 if self._counts else 0
         start = epoch + 1 - epochs if self._counts else 1
-        index = self._begin(way.after.state & self._asked, start, self._horizon - epoch)
+        index = self._begin(state & self._asked, start, self._horizon - epoch)
         if index is not None:
-            yield way._replace(after=way.after._replace(phase=OVER, epochs=index))
+            yield Way(seen, paid, Member(at.scenario, state, OVER, index, at.ahead))
         if epoch < self._horizon and (self._most is None or epochs < self._most):
-            yield way._replace(after=way.after._replace(phase=INSIDE, epochs=epochs))
+            yield Way(seen, paid, Member(at.scenario, state, INSIDE, epochs, at.ahead))
 
     def _way(self, at: Member, part: BitOperator, robots: BitOperator) -> Way:
         state = at.state & ~(part.delete | robots.delete) | part.add | robots.add
-        paid = part.weight + robots.weight
-        return Way(self._moves.seen(part), paid, at._replace(state=state))
+        after = Member(at.scenario, state, at.phase, at.epochs, at.ahead)
+        return Way(self._moves.seen(part), part.weight + robots.weight, after)
 
 
 def _facts(state: int) -> State:

@@ -112,7 +112,8 @@ class PolicySearch:
 
     def _single(self, epoch: int, at: Member, below: int) -> int | None:
         """What a scenario contributes if robots know it to be this one, and if that is below so much."""
-        value = self._value((epoch, (at._replace(ahead=0),)), below - at.ahead)
+        level = at._replace(ahead=0) if at.ahead else at
+        value = self._value((epoch, (level,)), below - at.ahead)
         return None if value is None else value + at.ahead
 
     def _least(self, group: Group, below: int) -> int | None:
