@@ -70,8 +70,11 @@ def settled(call: Request, unsure: Unsure) -> tuple[Request, Solver]:
         nothing = Answer("infeasible", reason="no-human-plan", expanded=None, generated=None, goals=())
         return call, lambda _: iter((nothing._replace(recognition=recognition),))
     if len(considered) == 1:
-        solver = ties.answers if recognition is None else partial(_certain, considered[0], recognition)
-        return _about(call, considered[0], recognition), solver
+        only = considered[0]
+        own = None if recognition or only.goal == call.task.goal else _literals(call.task, only)
+        plain = recognition is None and own is None
+        solver = ties.answers if plain else partial(_certain, only, recognition, own)
+        return _about(call, only, recognition), solver
     _refuse(call.task, call.options)
     return call, partial(_expected, considered, recognition)
 
@@ -184,11 +187,13 @@ def _about(call: Request, candidate: Candidate, recognition: Recognition | None)
     return replace(call, prepared=prepared, given=given, options=call.options.but(ties="fixed"))
 
 
-def _certain(candidate: Candidate, recognition: Recognition, call: Request) -> Iterator[Answer]:
-    """One scenario is left."""
+def _certain(
+    candidate: Candidate, recognition: Recognition | None, goal: tuple[str, ...] | None, call: Request
+) -> Iterator[Answer]:
+    """One scenario is left; ``goal``: its literals, where neither task nor recognition has them."""
     for answer in ties.answers(call):
         plan = answer.human_plan
-        served = ServedGoal(candidate.name, Fraction(1), plan, answer.steps, answer.window, answer.cost)
+        served = ServedGoal(candidate.name, Fraction(1), plan, answer.steps, answer.window, answer.cost, goal)
         yield answer._replace(recognition=recognition, goals=(served,))
 
 

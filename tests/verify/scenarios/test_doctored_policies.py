@@ -271,6 +271,13 @@ def test_plans_that_are_given_or_tied(risk: str, policy: str) -> None:
         assert certificate.claims[0].reason.startswith(words)
 
 
+def test_one_plan_with_a_goal_of_its_own() -> None:
+    answer = serendipity.plan(two_roads(), plans=[{"probability": 1, "goal": ["a"], "plan": ["go_a h"]}])
+    assert [scenario.goal for scenario in answer.goals or ()] == [("a",)]
+    assert _certified(two_roads(), answer).verdict == "proved"
+    assert _certified(two_roads(), answer, edit(f"{P}.goal", ["b"])).verdict == "refuted"
+
+
 LIBRARIES: dict[str, tuple[Edit, str]] = {
     "a share": (edit(f"{P}.probability", 0.5), "the probabilities do not add up to 1"),
     "no share": (_all(edit(f"{P}.probability", 0.0), edit(f"{Z}.probability", 1.0)), "above 0"),
