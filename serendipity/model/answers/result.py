@@ -9,9 +9,9 @@ from typing import Any, Final
 from serendipity._version import __version__
 from serendipity.model.answers.answer import PolicyBounds, Status
 from serendipity.model.answers.fields import MalformedError, finite, form
-from serendipity.model.answers.histories import histories
+from serendipity.model.answers.over_scenarios import over_scenarios
 from serendipity.model.answers.policy import Policy
-from serendipity.model.answers.recognition import UNEXPLAINED, Recognition
+from serendipity.model.answers.recognition import Recognition
 from serendipity.model.answers.result_form import FORMS, fields_of, object_of
 from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, HelpedPerson, TiedAnswer
 from serendipity.model.errors import InputError
@@ -23,8 +23,6 @@ from serendipity.model.task.plans import PlanEntry, PlanStep, PlanTimes, Window
 from serendipity.model.telling import Grid, Line, Output, team
 
 _COLUMNS: Final = {"epoch": int, "agents": str, "action": str, "cost": float, "duration": int}
-
-_MEASURES: Final = {"mean": "expected cost", "worst": "greatest cost", "regret": "greatest regret"}
 
 _REASONS: Final = {
     "no-human-plan": "the human can't reach the goal alone, so there is no plan to preserve",
@@ -129,7 +127,7 @@ class Result(Tabular, Output):
         """The lines that ``plan`` prints, but for what only its task knows: its name, and more robots."""
         robots = _robots(self)
         if self.goals is not None:
-            yield from for_goals(self)
+            yield from over_scenarios(self)
             return
         yield Line(team(self.human, robots))
         yield from opening(self, robots)
@@ -352,64 +350,3 @@ def _totals(result: Result) -> str:
     mean = " on average" if result.options.ties == "expected" else ""
     alone = "" if result.human_cost is None else f"; alone {result.human} pays {plain(result.human_cost)}"
     return f"{paid}{mean}{alone}"
-
-
-def for_goals(result: Result) -> Iterator[Line | Grid]:
-    """The robots' plan, and what happens for each goal that is considered."""
-    if result.status == "unknown":
-        yield Line("the limit came before any answer")
-        return
-    entries = result.goals or ()
-    if result.recognition is not None and not result.recognition.explained:
-        yield Line(UNEXPLAINED)
-    if result.cost is None:
-        why = result.reason or result.status
-        yield Line(f"no plan: {result.human} can reach none of the goals alone ({why})")
-        return
-    weight = plain(result.options.window_weight)
-    gap = f"not proved; at least {plain(result.lower_bound)}, with {weight} for each epoch of a window"
-    proof = "proved" if result.status == "optimal" else gap
-    what = {"mean": "expected cost", "worst": "greatest cost", "regret": "greatest regret"}[
-        result.options.risk
-    ]
-    if not result.opportunity:
-        yield Line(f"the robots leave {result.human} alone: {what} {plain(result.cost)} ({proof})")
-    else:
-        saving = f"{plain(result.saving)} less than {plain((result.cost or 0) + (result.saving or 0))}"
-        yield Line(f"{what} {plain(result.cost)}, {saving} ({proof})")
-    yield Line()
-    header = ("", "probability", "cost", "window", "goal" if result.recognition else "plan")
-    rows = [
-        (str(number), f"{entry.probability:.4f}", plain(entry.cost), _window(entry.window), entry.name)
-        for number, entry in enumerate(entries, start=1)
-    ]
-    yield Grid(header, rows, numbered=True)
-    yield from _policy(result, entries)
-
-
-def _policy(result: Result, entries: Sequence[GoalAnswer]) -> Iterator[Line | Grid]:
-    """What robots do, and what they have seen by then."""
-    if len(entries) == 1 or result.options.policy == "fixed":
-        told = [("", step) for step in result.plan or ()]
-    else:
-        tree = histories(entries, result.human, int(result.horizon or 0))
-        told = [
-            (", ".join(str(i + 1) for i in history.scenarios), step)
-            for history in tree
-            for step in (history.robots if result.opportunity else ())
-        ]
-    if not told:
-        return
-    yield Line()
-    if not told[0][0]:
-        yield Line("everybody does:" if len(entries) == 1 else "whatever it is, robots do:")
-        steps = [(str(step.epoch), ", ".join(step.agents), step.action) for _, step in told]
-        yield Grid(("epoch", "agents", "action"), steps, numbered=True)
-        return
-    yield Line(f"robots watch {result.human}, and do:")
-    rows = [(str(step.epoch), ", ".join(step.agents), step.action, possible) for possible, step in told]
-    yield Grid(("epoch", "agents", "action", "while it may be"), rows, numbered=True)
-
-
-def _window(window: Window | None) -> str:
-    return "-" if window is None else f"[{window.start}, {window.end})"
