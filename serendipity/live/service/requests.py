@@ -81,6 +81,7 @@ class PlanRequest(AnytimeRequest):
     )
     observed: list[str] | None = Field(None, description="what the human has done, for `goals`")
     beta: float | str | None = Field(None, description="of the posterior, for `goals`")
+    plans: list[dict[str, Any]] | None = Field(None, description="plans that the human may follow")
 
 
 class SessionRequest(AnytimeRequest):
