@@ -228,12 +228,21 @@ class Line:
             after = way.after
             self.certain.learn(after.state, epoch, _start(after, epoch), before.after(way.paid))
 
-    def certainly(self, at: Member, epoch: int, deadline: Deadline) -> tuple[int, int]:
-        """Bound and worth of what is left, if this is what the human does for certain."""
+    def certainly(self, at: Member, epoch: int, deadline: Deadline, *, again: bool = True) -> tuple[int, int]:
+        """Bound and worth of what is left, if this is what the human does for certain.
+
+        Args:
+            at: after the epoch.
+            epoch: its number.
+            deadline: what is known by then is returned.
+            again: whether to go on where a deadline came before.
+        """
         if at.phase == OVER or epoch == self._horizon:
             rest = self.least(at, epoch)
             return rest, rest
-        found = self.certain.remainder(at.state, epoch, _start(at, epoch), deadline)
+        found = None if again else self.rest(at, epoch)
+        if found is None:
+            found = self.certain.remainder(at.state, epoch, _start(at, epoch), deadline)
         return found.least, found.worth
 
 

@@ -15,10 +15,6 @@ INFINITE_WORTH: Final = 1 << (1 << 16)
 """No plan: above every worth."""
 
 
-SHARE: Final = 0.2
-"""The share of the time that is left for each look at scenarios one by one."""
-
-
 class Tail(NamedTuple):
     """A suffix, by the state that it begins in.
 

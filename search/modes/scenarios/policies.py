@@ -9,14 +9,17 @@ choice first (learning depth-first search, Bonet and Geffner 2006); scenarios on
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from heapq import heapify, heapreplace
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from search.modes.scenarios.lines import FOLLOWING, OVER, Guide, Line, Way
-from search.modes.scenarios.measure import INFINITE_WORTH, SHARE, Measure, Member
+from search.modes.scenarios.measure import INFINITE_WORTH, Measure, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
 from search.packed.successor_generator import Successors
 from serendipity.model.resources.deadline import Deadline
+
+_SHARE: Final = 0.2
+"""The share of the time that is left for a first look at each scenario of a group by itself."""
 
 
 class Choice(NamedTuple):
@@ -138,14 +141,15 @@ class PolicySearch:
 
     def _look(self, group: Group) -> bool:
         """Bound a group by its scenarios one by one; whether only one is left, which settles it."""
-        single = len(group.members) == 1
-        deadline = self._deadline
+        single, deadline = len(group.members) == 1, self._deadline
         if group not in self._looked:
             self._looked.add(group)
-            deadline = deadline.part(SHARE)
+            deadline = deadline.part(_SHARE)
         elif not single:
             return False
-        found = [self._lines[m.scenario].certainly(m, group.epoch, deadline) for m in group.members]
+        found = [
+            self._lines[m.scenario].certainly(m, group.epoch, deadline, again=single) for m in group.members
+        ]
         least, worths = zip(*found, strict=True)
         group.lower = max(group.lower, self._measure.value(group.members, least))
         if not single:

@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 
 from search.engine.paths import plan_steps
 from search.modes.scenarios.lines import OVER, Line, Way
-from search.modes.scenarios.measure import INFINITE_WORTH, SHARE, Measure, Member
+from search.modes.scenarios.measure import INFINITE_WORTH, Measure, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
 from search.packed.successor_generator import Successors
@@ -34,6 +34,9 @@ class _Label(NamedTuple):
     way: Way | None = None
     before: "tuple[Member, _Label] | None" = None
 
+
+_SHARE: Final = 0.8
+"""The share of the time that is left for the scenarios one by one, and one more of them."""
 
 _NONE: Final = _Label(INFINITE_WORTH)
 _Places = dict[Member, _Label]
@@ -103,7 +106,7 @@ class SequenceSearch:
             LimitReachedError: the deadline ran out; the bounds hold.
         """
         for i, line in enumerate(self._lines):
-            deadline = self._deadline.part(SHARE)
+            deadline = self._deadline.part(_SHARE / (len(self._lines) - i + 1))
             self._floors[i], _ = line.known(deadline)
             self.lower = max(self.lower, self._measure.value(self._members, self._floors))
             guide = line.guide(self._members[i]._replace(ahead=0), 0, deadline)
