@@ -1,0 +1,296 @@
+"""Four domains of the planning competition of 2002 in time, with the agents that CoDMAP 2015 gave them.
+
+    python -m benchmarks.ipc2002time [FOLDER] [--suite FOLDER] [--calls one,alone,serendipity]
+        [--time-limit 20] [--only WORD] [--record FILE]
+
+The folder has one for each domain (driverlog, rovers, satellite, zenotravel: *SimpleTime*), with
+``domain.pddl`` and problems for a single agent.  Of these a suite in MA-PDDL is written, unfactored, in which
+drivers, rovers, satellites and aircraft are the agents: whoever an action is about does it, and loading and
+unloading a truck takes its driver, as in CoDMAP.
+
+``one``: somebody who does all, one thing after another (mode ``individual`` on the files as they are).
+``alone``: the first agent that might reach the goal alone, in the delete relaxation, or else the first, in
+mode ``individual``.  ``serendipity``: the same human, and the next other agent as a robot (discount 0.9).
+Each call is a process; its limit and its seconds are processor time once the files are read.  ``first`` is
+when a plan was known.  All plans are checked by unified-planning on the original files (extra ``up``).
+"""
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import SimpleNamespace
+from typing import Annotated, Any, Final, NamedTuple
+
+import typer
+
+import serendipity
+from benchmarks.problems import PROBLEMS
+from serendipity import Result, SerendipityError, Task
+from serendipity.evaluation.measuring.record import Record
+from serendipity.evaluation.measuring.running import apart, measured
+from serendipity.evaluation.measuring.suites import Problem, Roles, may_alone, problems, roles
+from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
+from serendipity.facade.planning import plan_anytime
+from serendipity.model.errors import PlanError, told
+from serendipity.model.resources import deadline
+from serendipity.pddl.parsing.tree import SExpression, read_tree
+from serendipity.pddl.work import Work
+
+AGENTS: Final = {"driverlog": "driver", "rovers": "rover", "satellite": "satellite", "zenotravel": "aircraft"}
+"""The type of the agents of each domain."""
+
+_BY: Final = {"driverlog": ("?driver", "(over all (driving ?driver ?truck))")}
+"""Whoever does what is about no agent, and what that takes."""
+
+CALLS: Final[dict[str, dict[str, Any]]] = {
+    "one": {"mode": "individual"},
+    "alone": {"mode": "individual"},
+    "serendipity": {"mode": "serendipity", "discount": "0.9"},
+}
+
+SOON: Final = 2.0
+"""Seconds in which a first plan is wanted."""
+
+Row = Mapping[str, Any]
+
+
+class Asked(NamedTuple):
+    """A call about a problem; ``suite`` has the files in MA-PDDL, ``source`` those of the competition."""
+
+    suite: str
+    source: str
+    domain: str
+    name: str
+    call: str
+    limit: float
+
+    def __repr__(self) -> str:
+        return f"{self.domain} {self.name} {self.call} {self.limit:g}"
+
+
+def main(
+    source: Annotated[Path, typer.Argument()] = PROBLEMS / "ipc2002time",
+    suite: Path | None = None,
+    calls: str = ",".join(CALLS),
+    time_limit: float = 20,
+    only: str = "",
+    record: Path | None = None,
+) -> None:
+    """Write the suite, ask, and print a line for each call and a table."""
+    with TemporaryDirectory() as folder:
+        written = suite or Path(folder)
+        write_suite(source, written)
+        asked = [
+            Asked(str(written), str(source), problem.domain, problem.name, call, time_limit)
+            for problem in sorted(problems(written), key=lambda p: (p.domain, len(p.name), p.name))
+            for call in calls.split(",")
+            if only in f"{problem.domain} {problem.name}"
+        ]
+        rows: list[Row] = []
+        for one, row in measured(asked, _apart, Record(record)):
+            print(repr(one), " ".join(f"{name}={value}" for name, value in row.items()), flush=True)
+            rows.append({"domain": one.domain, "call": one.call, **row})
+    parts = [
+        table(("call", "domain"), grouped(rows, lambda row: (row["call"], row["domain"])), COLUMNS),
+        table(("call",), grouped(rows, lambda row: (row["call"],)), COLUMNS),
+    ]
+    print(as_markdown(parts), end="")
+
+
+def _number(test: Callable[[Row], bool]) -> Callable[[Sequence[Row]], int]:
+    return lambda rows: sum(map(test, rows))
+
+
+COLUMNS: Final[dict[str, Callable[[Sequence[Row]], object]]] = {
+    "tasks": len,
+    "decided": _number(lambda row: row["status"] in ("optimal", "infeasible")),
+    "of these without a plan": _number(lambda row: row["status"] == "infeasible"),
+    "plan": _number(lambda row: row["cost"] is not None),
+    f"in {SOON:g} s": _number(lambda row: row["first"] is not None and row["first"] <= SOON),
+    "valid": _number(lambda row: row["valid"] is True),
+    "errors": _number(lambda row: row["status"] == "error"),
+}
+
+
+def _apart(asked: Asked) -> Row:
+    return apart(answered, asked)
+
+
+def answered(asked: Asked) -> Row:
+    """One call: how it ended and when its first plan came, and whether unified-planning takes the plan."""
+    deadline.time = SimpleNamespace(perf_counter=time.process_time)  # type: ignore[attr-defined]
+    try:
+        task = _task(asked)
+        begun, first, last = time.process_time(), None, None
+        for last in plan_anytime(task, time_limit=asked.limit, **CALLS[asked.call]):
+            if first is None and last.cost is not None:
+                first = round(time.process_time() - begun, 2)
+    except SerendipityError as error:
+        return {"status": "error", "cost": None, "first": None, "valid": None, "reason": told(error)}
+    assert last is not None, "there is always an answer"
+    return {
+        "status": last.status,
+        "cost": last.cost,
+        "bound": last.lower_bound,
+        "alone": last.human_cost,
+        "first": first,
+        "seconds": round(time.process_time() - begun, 2),
+        "valid": None if last.plan is None else _checked(asked, task, last),
+        "reason": last.reason,
+    }
+
+
+def _task(asked: Asked) -> Task:
+    source, suite = Path(asked.source) / asked.domain, Path(asked.suite) / asked.domain
+    files = "domain.pddl", f"{asked.name}.pddl"
+    if asked.call == "one":
+        return serendipity.load_agents({"one": (source / files[0], source / files[1])})
+    problem = Problem(asked.domain, asked.name, suite / files[0], suite / files[1])
+    return problem.task(_roles(problem))
+
+
+def _roles(problem: Problem) -> Roles:
+    """The first agent that might do it alone, or else the first, and the next other."""
+    agents = [
+        name for name, kind in problem.unit().problem.objects.items() if kind == (AGENTS[problem.domain],)
+    ]
+    return roles(problem, 1, may_alone) if len(agents) > 1 else Roles(agents[0], ())
+
+
+# -- MA-PDDL
+
+
+def write_suite(source: Path, target: Path) -> None:
+    """Write MA-PDDL of the competition's files: a folder for each domain."""
+    for domain in sorted(AGENTS):
+        if not (source / domain).is_dir():
+            continue
+        (target / domain).mkdir(parents=True, exist_ok=True)
+        for file in sorted((source / domain).glob("*.pddl")):
+            text = file.read_text()
+            if file.name == "domain.pddl":
+                text = _written(with_agents(_tree(text), domain))
+            (target / domain / file.name).write_text(text)
+
+
+def with_agents(domain: SExpression, name: str) -> SExpression:
+    """The domain with an agent for each action: a parameter of their type, or whoever it takes."""
+    for part in _nodes(domain):
+        if part.head == ":requirements":
+            part.items += [":multi-agent", ":unfactored-privacy"]
+        elif part.head == ":durative-action":
+            place = part.items.index(":parameters")
+            parameters = _typed(part.items[place + 1])
+            agent = next((variable for variable, kind in parameters if kind == AGENTS[name]), None)
+            if agent is None:
+                agent, condition = _BY[name]
+                asked = part.items[part.items.index(":condition") + 1]
+                assert isinstance(asked, SExpression), "checked by whoever reads it"
+                asked.items.append(_tree(condition))
+            others = [pair for pair in parameters if pair[0] != agent]
+            part.items[place + 1] = _node(word for variable, kind in others for word in (variable, "-", kind))
+            part.items[place:place] = [":agent", agent, "-", AGENTS[name]]
+    return domain
+
+
+def _tree(text: str) -> SExpression:
+    (tree,) = _nodes(read_tree(text, Work()))
+    return tree
+
+
+def _nodes(node: SExpression) -> Iterator[SExpression]:
+    return (item for item in node.items if isinstance(item, SExpression))
+
+
+def _node(items: Any) -> SExpression:
+    node = SExpression(1)
+    node.items = [*items]
+    return node
+
+
+def _typed(node: Any) -> list[tuple[str, str]]:
+    """Variables, each with its type."""
+    found: list[tuple[str, str]] = []
+    names: list[str] = []
+    words = iter(node.items)
+    for word in words:
+        if word == "-":
+            kind = next(words)
+            found += [(name, kind) for name in names]
+            names = []
+        else:
+            names.append(word)
+    return found
+
+
+def _written(item: Any) -> str:
+    return item if isinstance(item, str) else f"({' '.join(map(_written, item.items))})"
+
+
+# -- what unified-planning says
+
+
+def _checked(asked: Asked, task: Task, result: Result) -> bool:
+    try:
+        return is_valid(asked, task, result)
+    except PlanError:
+        return False
+
+
+def is_valid(asked: Asked, task: Task, result: Result) -> bool:
+    """Whether a plan is one of the original files, by unified-planning's validator of plans with times."""
+    from unified_planning.engines.plan_validator import TimeTriggeredPlanValidator
+    from unified_planning.environment import get_environment
+    from unified_planning.io import PDDLReader
+    from unified_planning.plans import ActionInstance, TimeTriggeredPlan
+
+    from serendipity.up.schedule import start_times
+
+    get_environment().credits_stream = None
+    source = Path(asked.source) / asked.domain
+    domain = _tree((source / "domain.pddl").read_text())
+    problem = PDDLReader().parse_problem_string(
+        _written(_without_either(domain)), (source / f"{asked.name}.pddl").read_text().lower()
+    )
+    plan = []
+    steps = list(result.plan or ())
+    for step, start in zip(steps, start_times(task, steps, [True] * len(steps)), strict=True):
+        name, *words = step.action.split()
+        if asked.call != "one":
+            words = _original(domain, asked.domain, name, words)
+        things = tuple(problem.environment.expression_manager.ObjectExp(problem.object(w)) for w in words)
+        takes = task.actions[task.named[step.action][0]].duration * task.epoch
+        plan.append((start, ActionInstance(problem.action(name), things), takes))
+    return bool(TimeTriggeredPlanValidator().validate(problem, TimeTriggeredPlan(plan)))
+
+
+def _original(domain: SExpression, name: str, action: str, words: list[str]) -> list[str]:
+    """The arguments of an action as the original file has them, of those with the agent in front."""
+    (schema,) = (n for n in _nodes(domain) if n.head == ":durative-action" and n.items[1] == action)
+    kinds = [kind for _, kind in _typed(schema.items[schema.items.index(":parameters") + 1])]
+    agent, *others = words
+    if AGENTS[name] in kinds:
+        others.insert(kinds.index(AGENTS[name]), agent)
+    return others
+
+
+def _without_either(domain: SExpression) -> SExpression:
+    """The domain with a type for each ``(either ...)``, which unified-planning does not read."""
+    text = _written(domain)
+    (types,) = (node for node in _nodes(domain) if node.head == ":types")
+    for predicates in (node for node in _nodes(domain) if node.head == ":predicates"):
+        for kinds in (n for p in _nodes(predicates) for n in _nodes(p) if n.head == "either"):
+            united = "_or_".join(str(kind) for kind in kinds.items[1:])
+            text = text.replace(_written(kinds), united)
+            text = text.replace(_written(types), _written(_united(types, kinds.items[1:], united)))
+    return _tree(text)
+
+
+def _united(types: SExpression, kinds: Sequence[Any], united: str) -> SExpression:
+    rest = [item for item in types.items if item not in kinds]
+    return _node([*rest[:1], *kinds, "-", united, *rest[1:-2], united, *rest[-2:]])
+
+
+if __name__ == "__main__":
+    typer.run(main)
