@@ -1,4 +1,4 @@
-"""Robots as stick figures in physics, by Bullet (the optional extra ``robot``)."""
+"""Robots as figures in physics, by Bullet (the optional extra ``robot``)."""
 
 from serendipity.robot.physics.film import FORMATS, Film, check_format
 from serendipity.robot.physics.stage import Stage

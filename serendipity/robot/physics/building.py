@@ -1,26 +1,20 @@
-"""The miniature building: cells of a floor plan as rooms with walls, and doors that are pushed open."""
+"""The miniature building: cells of a floor plan as rooms with walls and open doorways."""
 
 from collections.abc import Iterator
 from typing import Final
 
 from serendipity.pictures.map.layout import Box, MapLayout
-from serendipity.robot.physics.engine import Colour, Engine, Link
+from serendipity.robot.physics.engine import Colour, Engine
 
 CELL: Final = 0.8
 """Least side of a room, in metres."""
-GAP: Final = 0.42
-"""How wide a doorway is, in metres."""
 
+_GAP: Final = 0.42  # how wide a doorway is, in metres
 _NEAR: Final = 0.24  # from a doorway to where it is approached
 _WALL: Final = 0.16, 0.04  # height and thickness
-_DOOR: Final = 0.15, 0.02
-_CLEAR: Final = 0.035  # between the leaf and the ends of walls
-_DOOR_MASS: Final = 0.08
-_SPRING: Final = 0.012  # the torque that closes a door again, in newton metres
 _HALL: Final[Colour] = (0.87, 0.85, 0.79, 1)
 _ROOM: Final[Colour] = (0.94, 0.94, 0.93, 1)
 _BRICK: Final[Colour] = (0.62, 0.66, 0.72, 1)
-_WOOD: Final[Colour] = (0.72, 0.53, 0.33, 1)
 
 Point = tuple[float, float]
 
@@ -35,7 +29,6 @@ class Rooms:
     Attributes:
         middles: the middle of each place, in metres.
         corners: its corner at the left, nearest to who looks.
-        doors: their leaves, by the middle of the doorway.
         width, depth: of the whole, in metres.
     """
 
@@ -45,17 +38,15 @@ class Rooms:
         self._scale = CELL / min(side for box in layout.boxes.values() for side in (box.width, box.height))
         self.width, self.depth = layout.width * self._scale, layout.height * self._scale
         boxes = layout.boxes.items()
-        self.corners = {p: self._at(b.left, b.bottom) for p, b in boxes}
+        self.corners = {place: self._at(box.left, box.bottom) for place, box in boxes}
         self.middles = {place: self._at(box.x, box.y) for place, box in boxes}
-        self.doors: dict[Point, list[int]] = {}
         ground = (self.width + 4, self.depth + 4, 0.1)
         engine.box(ground, (self.width / 2, self.depth / 2, -0.06), (1, 1, 1, 1))
-        for box in layout.boxes.values():
+        for place, box in boxes:
             size = (box.width * self._scale, box.height * self._scale, 0.01)
-            colour = _HALL if box.corridor else _ROOM
-            engine.box(size, (*self._at(box.x, box.y), -0.005), colour, solid=False)
-        for wall in self._walls():
-            self._brick(*wall)
+            engine.box(size, (*self.middles[place], -0.005), _HALL if box.corridor else _ROOM, solid=False)
+        for start, end in self._walls():
+            self._brick(start, end)
 
     def way(self, source: str, target: str) -> tuple[Point, ...]:
         """The points on the way between two places that share a doorway: before it, in it, behind it."""
@@ -72,12 +63,10 @@ class Rooms:
 
     def place_at(self, point: Point) -> str:
         """The place whose middle is nearest, counted in its own sides."""
-        boxes = self._layout.boxes
 
         def off(place: str) -> float:
-            x, y = self.middles[place]
-            width, height = boxes[place].width * self._scale, boxes[place].height * self._scale
-            return max(abs(point[0] - x) / width, abs(point[1] - y) / height)
+            (x, y), box = self.middles[place], self._layout.boxes[place]
+            return max(abs(point[0] - x) / box.width, abs(point[1] - y) / box.height)
 
         return min(self.middles, key=off)
 
@@ -91,40 +80,30 @@ class Rooms:
         for a, b in self._layout.doors:
             (x, y), upright = _between(boxes[a], boxes[b])
             openings[round(x, 3), round(y, 3), upright] = boxes[a].corridor and boxes[b].corridor
-        drawn: set[tuple[float, ...]] = set()
-        for box in boxes.values():
-            for start, end in _sides(box):
-                piece = tuple(round(value, 3) for value in (*start, *end))
-                if piece in drawn:
-                    continue
-                drawn.add(piece)
-                yield from self._pieces(start, end, openings)
+        sides = [side for box in boxes.values() for side in _sides(box)]
+        for start, end in {tuple(round(v, 3) for v in (*a, *b)): (a, b) for a, b in sides}.values():
+            yield from self._pieces(start, end, openings)
 
     def _pieces(
         self, start: Point, end: Point, openings: dict[tuple[float, float, bool], bool]
     ) -> Iterator[tuple[Point, Point]]:
-        upright = start[0] == end[0]
+        axis = 1 if start[0] == end[0] else 0
         on = [
-            (x, y, wide)
-            for (x, y, up), wide in openings.items()
-            if up is upright
+            ((x, y), wide)
+            for (x, y, upright), wide in openings.items()
+            if upright is bool(axis)
             and (start[0] - 0.01 <= x <= end[0] + 0.01)
             and (start[1] - 0.01 <= y <= end[1] + 0.01)
         ]
-        a, b = self._at(*start), self._at(*end)
-        if any(wide for _, _, wide in on):
+        if any(wide for _, wide in on):
             return
-        axis = 1 if upright else 0
+        a, b = self._at(*start), self._at(*end)
         direction = 1 if b[axis] > a[axis] else -1
-        for x, y, _ in sorted(on, key=lambda opening: direction * self._at(*opening[:2])[axis]):
-            middle = self._at(x, y)
+        for middle in sorted((self._at(*at) for at, _ in on), key=lambda point: direction * point[axis]):
             near, far = list(middle), list(middle)
-            near[axis] -= direction * GAP / 2
-            far[axis] += direction * GAP / 2
+            near[axis] -= direction * _GAP / 2
+            far[axis] += direction * _GAP / 2
             yield a, (near[0], near[1])
-            if middle not in self.doors:
-                ends = (near[0], near[1]), (far[0], far[1])
-                self.doors[middle] = [self._leaf(hinge, middle) for hinge in ends]
             a = far[0], far[1]
         yield a, b
 
@@ -133,23 +112,6 @@ class Rooms:
         size = (abs(end[0] - start[0]) + thick, abs(end[1] - start[1]) + thick, height)
         middle = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2, height / 2)
         self._engine.box(size, middle, _BRICK)
-
-    def _leaf(self, hinge: Point, end: Point) -> int:
-        """Half of a door: it swings both ways about its hinge, and falls shut again."""
-        bullet, (height, thick) = self._engine.bullet, _DOOR
-        along = (end[0] - hinge[0], end[1] - hinge[1])
-        whole = abs(along[0] + along[1])
-        unit, length = (along[0] / whole, along[1] / whole), whole - 1.2 * _CLEAR
-        half = [max(abs(part) * length, thick) / 2 for part in unit] + [height / 2]
-        offset = [unit[0] * (length / 2 + _CLEAR), unit[1] * (length / 2 + _CLEAR), height / 2 + 0.01]
-        at, call = (offset[0], offset[1], offset[2]), self._engine.call
-        solid = self._engine.solid("BOX", at, halfExtents=half)
-        look = self._engine.look("BOX", _WOOD, at, halfExtents=half)
-        leaf = Link(look, axis=(0, 0, 1), mass=_DOOR_MASS, middle=at, solid=solid)
-        door = self._engine.body(0, -1, -1, (*hinge, 0), [leaf])
-        call("changeDynamics", door, 0, jointLowerLimit=-2.6, jointUpperLimit=2.6, jointDamping=0.01)
-        call("setJointMotorControl2", door, 0, bullet.POSITION_CONTROL, targetPosition=0, force=_SPRING)
-        return door
 
 
 def _sides(box: Box) -> Iterator[tuple[Point, Point]]:

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 from serendipity.model import UsageError
 
@@ -16,28 +16,6 @@ Vector = tuple[float, float, float]
 Colour = tuple[float, float, float, float]
 
 _SOLVER_PASSES: Final = 60
-
-
-class Link(NamedTuple):
-    """A part of a body, which hangs on another part by a joint.
-
-    Attributes:
-        look: its form to be seen.
-        at: where its joint is, from that of the part it hangs on.
-        axis: about which it turns; None: it is fixed.
-        mass: in kilograms.
-        middle: of its mass, from its joint.
-        parent: number of the part that it hangs on, the trunk being 0.
-        solid: its form that others meet; -1 for none.
-    """
-
-    look: int
-    at: Vector = (0, 0, 0)
-    axis: Vector | None = None
-    mass: float = 0.001
-    middle: Vector = (0, 0, 0)
-    parent: int = 0
-    solid: int = -1
 
 
 class Engine:
@@ -60,9 +38,8 @@ class Engine:
         self.seconds = 0.0
         self.call("setGravity", 0, 0, -9.81)
         self.call("setTimeStep", 1 / RATE)
-        self.call(
-            "setPhysicsEngineParameter", numSolverIterations=_SOLVER_PASSES, deterministicOverlappingPairs=1
-        )
+        passes = {"numSolverIterations": _SOLVER_PASSES, "deterministicOverlappingPairs": 1}
+        self.call("setPhysicsEngineParameter", **passes)
 
     def call(self, name: str, *arguments: Any, **named: Any) -> Any:
         """A function of pybullet's in this world."""
@@ -79,33 +56,33 @@ class Engine:
             self.call("disconnect")
             self._client = -1
 
-    def look(self, form: str, colour: Colour, at: Vector = (0, 0, 0), **size: Any) -> int:
-        """A form to be seen (``BOX``, ``SPHERE`` ...), about a point of the part that has it."""
+    def look(self, form: str, colour: Colour, **size: Any) -> int:
+        """A form to be seen (``BOX``, ``SPHERE`` ...)."""
         kind = getattr(self.bullet, f"GEOM_{form}")
-        return int(self.call("createVisualShape", kind, rgbaColor=colour, visualFramePosition=at, **size))
+        return int(self.call("createVisualShape", kind, rgbaColor=colour, **size))
 
-    def solid(self, form: str, at: Vector = (0, 0, 0), **size: Any) -> int:
+    def solid(self, form: str, **size: Any) -> int:
         """A form that others meet, likewise."""
-        kind = getattr(self.bullet, f"GEOM_{form}")
-        return int(self.call("createCollisionShape", kind, collisionFramePosition=at, **size))
+        return int(self.call("createCollisionShape", getattr(self.bullet, f"GEOM_{form}"), **size))
 
-    def body(self, mass: float, solid: int, look: int, at: Vector, links: Sequence[Link] = ()) -> int:
-        """A body: its trunk, and what hangs on it; without mass the trunk stays where it is."""
-        turning, fixed, count = self.bullet.JOINT_REVOLUTE, self.bullet.JOINT_FIXED, len(links)
-        upright = [(0, 0, 0, 1)] * count
+    def body(
+        self, mass: float, solid: int, look: int, at: Vector, parts: Sequence[tuple[int, Vector]] = ()
+    ) -> int:
+        """A body, and looks that are fixed to it, each in its place; without mass it stays where it is."""
+        count = len(parts)
         made = self.call(
             "createMultiBody",
             *(mass, solid, look, at),
-            linkMasses=[link.mass for link in links],
-            linkCollisionShapeIndices=[link.solid for link in links],
-            linkVisualShapeIndices=[link.look for link in links],
-            linkPositions=[link.at for link in links],
-            linkOrientations=upright,
-            linkInertialFramePositions=[link.middle for link in links],
-            linkInertialFrameOrientations=upright,
-            linkParentIndices=[link.parent for link in links],
-            linkJointTypes=[fixed if link.axis is None else turning for link in links],
-            linkJointAxis=[link.axis or (0, 0, 1) for link in links],
+            linkMasses=[0.001] * count,
+            linkCollisionShapeIndices=[-1] * count,
+            linkVisualShapeIndices=[seen for seen, _ in parts],
+            linkPositions=[place for _, place in parts],
+            linkOrientations=[(0, 0, 0, 1)] * count,
+            linkInertialFramePositions=[(0, 0, 0)] * count,
+            linkInertialFrameOrientations=[(0, 0, 0, 1)] * count,
+            linkParentIndices=[0] * count,
+            linkJointTypes=[self.bullet.JOINT_FIXED] * count,
+            linkJointAxis=[(0, 0, 1)] * count,
         )
         return int(made)
 

@@ -2,11 +2,10 @@
 
 import io
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from importlib.util import find_spec
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +14,7 @@ from serendipity.model import UsageError
 from serendipity.model.numbers import plain
 from serendipity.robot.physics.building import Rooms
 from serendipity.robot.physics.engine import Engine, Vector
-from serendipity.robot.physics.figure import Kit, StickFigure
+from serendipity.robot.physics.figure import Figure, Kit
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -106,14 +105,13 @@ _RED: Final = (190, 25, 25)
 _PAPER: Final = (255, 255, 255)
 
 
-@dataclass(frozen=True, slots=True)
-class _Frame:
+class _Frame(NamedTuple):
     """A moment: its epoch, what was to be seen, and where whose name belongs."""
 
     epoch: int
     image: "Image.Image"
-    agents: tuple[tuple[str, Pixel], ...]
-    things: tuple[tuple[str, Pixel], ...]
+    agents: dict[str, Pixel]
+    things: dict[str, Pixel]
 
 
 class Film:
@@ -134,41 +132,27 @@ class Film:
         self._rate = rate
         self._frames: list[_Frame] = []
 
-    # -- recording
-
     def begin(
-        self, engine: Engine, building: Rooms, figures: Mapping[str, StickFigure], things: Mapping[str, Kit]
+        self, engine: Engine, building: Rooms, figures: Mapping[str, Figure], things: Mapping[str, Kit]
     ) -> None:
-        """Set up the camera.
-
-        Args:
-            building: what is to be seen.
-        """
+        """Set up the camera before what is to be seen."""
         self._engine = engine
         self._camera = Camera(engine, building, self._width)
         self._figures, self._things = figures, things
         self._next = 0.0
-        self._places = [
-            (place, self._camera.pixel((x + _INSET[0], y + _INSET[1], 0.0)))
-            for place, (x, y) in building.corners.items()
-        ]
+        corners = building.corners.items()
+        self._places = {
+            place: self._camera.pixel((x + _INSET[0], y + _INSET[1], 0.0)) for place, (x, y) in corners
+        }
 
     def watch(self, epoch: int) -> None:
         """Take a picture, if it is time for one."""
         if self._engine.seconds < self._next:
             return
         self._next = self._engine.seconds + 1 / self._rate
-        pixel = self._camera.pixel
-        self._frames.append(
-            _Frame(
-                epoch,
-                self._camera.picture(),
-                tuple((name, pixel(figure.top)) for name, figure in self._figures.items()),
-                tuple((name, pixel(thing.place)) for name, thing in self._things.items()),
-            )
-        )
-
-    # -- showing
+        agents = {name: self._camera.pixel(figure.top) for name, figure in self._figures.items()}
+        things = {name: self._camera.pixel(thing.place) for name, thing in self._things.items()}
+        self._frames.append(_Frame(epoch, self._camera.picture(), agents, things))
 
     def clip(self, suffix: str, log: Sequence[Mapping[str, Any]]) -> bytes:
         """All frames as a moving picture.
@@ -241,22 +225,13 @@ class Film:
             costs = f"{log[0]['human']} {plain(event['human_cost'])} · team {plain(event['cost'])}"
             draw.text((self._width - 14, 11), costs, _INK, fonts[16], anchor="ra")
             draw.text((self._width - 14, 36), "paid so far", _PALE, fonts[14], anchor="ra")
-        for name, (x, y) in self._places:
+        for name, (x, y) in self._places.items():
             draw.text((x, y + _HEAD), name, _PALE, fonts[12], anchor="ls")
-        for name, (x, y) in frame.things:
-            draw.text(
-                (x + 9, y + _HEAD + 17),
-                name,
-                _RED,
-                fonts[14],
-                anchor="ls",
-                stroke_width=2,
-                stroke_fill=_PAPER,
-            )
-        for name, (x, y) in frame.agents:
-            draw.text(
-                (x, y + _HEAD - 3), name, _INK, fonts[14], anchor="ms", stroke_width=2, stroke_fill=_PAPER
-            )
+        outlined: dict[str, Any] = {"font": fonts[14], "stroke_width": 2, "stroke_fill": _PAPER}
+        for name, (x, y) in frame.things.items():
+            draw.text((x + 9, y + _HEAD + 17), name, _RED, anchor="ls", **outlined)
+        for name, (x, y) in frame.agents.items():
+            draw.text((x, y + _HEAD - 3), name, _INK, anchor="ms", **outlined)
         return page
 
 
@@ -272,9 +247,9 @@ def check_format(path: Path) -> None:
 
 def _deeds(event: Mapping[str, Any]) -> list[str]:
     """What takes place in an epoch, and what does not."""
-    done = [f"{' and '.join(step['agents'])}: {_short(step)}" for step in event["steps"]]
-    missed = [f"{' and '.join(one['agents'])}: {_short(one)} ({one['why']})" for one in event["unfinished"]]
-    return done + missed
+    told = [(step, "") for step in event["steps"]]
+    told += [(one, f" ({one['why']})") for one in event["unfinished"]]
+    return [f"{' and '.join(step['agents'])}: {_short(step)}{why}" for step, why in told]
 
 
 def _short(step: Mapping[str, Any]) -> str:

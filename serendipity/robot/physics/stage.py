@@ -1,7 +1,8 @@
-"""An adapter whose robots are stick figures in physics, in the building of the task."""
+"""An adapter whose robots are figures in physics, in the building of the task."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
+from math import cos, sin
 from typing import Final
 
 from serendipity.model import GroundAction, Task, UsageError
@@ -12,10 +13,11 @@ from serendipity.pictures.map.names import parts
 from serendipity.pictures.map.places import Whereabouts, find_places
 from serendipity.pictures.scene.finder import Finder
 from serendipity.robot.adapter import Epoch, Order, Report
+from serendipity.robot.physics import deeds
 from serendipity.robot.physics.building import CELL, Point, Rooms
-from serendipity.robot.physics.deeds import Bodies, Deed, StuckError, in_turn, shelf, spot_of, together
+from serendipity.robot.physics.deeds import Deed, StuckError, in_turn, together
 from serendipity.robot.physics.engine import RATE, Colour, Engine
-from serendipity.robot.physics.figure import Kit, StickFigure
+from serendipity.robot.physics.figure import Figure, Kit
 from serendipity.robot.physics.film import Film
 
 EPOCH: Final = 5.0
@@ -64,12 +66,11 @@ class Stage:
         self._epoch = EPOCH if epoch is None else epoch
         self._engine = engine = Engine()
         self._building = Rooms(engine, lay_out(places))
-        self._bodies = Bodies(engine, self._building)
         self._figures = {agent: self._figure(agent, place) for agent, place in agents.items()}
         self._kits: dict[str, Kit] = {}
         medkits = _medkits(task)
         for number, name in enumerate(places.objects):
-            self._kits[name] = Kit(engine, shelf((-2.0, 0.0), number), first_aid=name in medkits)
+            self._kits[name] = Kit(engine, _shelf((-2.0, 0.0), number), first_aid=name in medkits)
         self._begun: dict[Order, _Errand] = {}
         for pair, kilograms in (rubble or {}).items():
             self._heap(*pair, kilograms)
@@ -136,7 +137,7 @@ class Stage:
         things = list(self._things(state, after))
         yield from things
         if not moved and not things:
-            yield self._bodies.work([self._figures[agent] for agent in agents])
+            yield deeds.wait([self._figures[agent] for agent in agents], deeds.WORK)
 
     def _things(self, state: frozenset[int], after: frozenset[int]) -> Iterator[Deed]:
         before, then = self._finder.objects(state), self._finder.objects(after)
@@ -144,31 +145,36 @@ class Stage:
             was, will = self._holder(before[name]), self._holder(then[name])
             if was is will:
                 continue
-            if was is None and will is not None:
-                yield self._bodies.take(will, _SPEED, kit)
-            elif will is None and was is not None:
-                yield self._bodies.put(was, kit)
-            elif was is not None and will is not None:
-                yield self._bodies.hand(was, will, _SPEED, kit)
+            if was is None:
+                assert will is not None
+                yield deeds.take(will, _SPEED, kit)
+            else:
+                yield deeds.put(was, kit) if will is None else deeds.hand(was, will, _SPEED, kit)
 
-    def _holder(self, where: Whereabouts) -> StickFigure | None:
+    def _holder(self, where: Whereabouts) -> Figure | None:
         return None if where.holder is None else self._figures.get(where.holder)
 
     def _to(self, agent: int, place: str) -> Deed:
+        """Walk to one's spot in a place, from wherever one is."""
+        figure, building = self._figures[agent], self._building
+        here = building.place_at(figure.at)
+        points = [*(building.way(here, place) if here != place else ()), self._spot(agent, place)]
         speed = _PERSONS_SPEED if agent == self._task.human else _SPEED
-        return self._bodies.go(self._figures[agent], speed, place, self._spot(agent, place))
+        return in_turn(deeds.walk(figure, speed, point, place) for point in points)
 
     # -- where things stand
 
-    def _figure(self, agent: int, place: str) -> StickFigure:
-        at = self._spot(agent, place)
-        if agent == self._task.human:
-            return StickFigure(self._engine, at, *_PERSON, size=1.15)
-        colour = _ROBOTS[self._task.robots.index(agent) % len(_ROBOTS)]
-        return StickFigure(self._engine, at, colour, _FACE)
+    def _figure(self, agent: int, place: str) -> Figure:
+        colours = _PERSON
+        if agent != self._task.human:
+            colours = _ROBOTS[self._task.robots.index(agent) % len(_ROBOTS)], _FACE
+        return Figure(self._engine, self._spot(agent, place), *colours)
 
     def _spot(self, agent: int, place: str) -> Point:
-        return spot_of(self._building.middles[place], agent, len(self._task.agents))
+        """Where in a place an agent stands, so that nobody is in anybody's way."""
+        x, y = self._building.middles[place]
+        across = 0.22 * (2 * agent / max(1, len(self._task.agents) - 1) - 1)
+        return x + across, y + (0.13 if agent % 2 else -0.13)
 
     def _settle(self, state: frozenset[int]) -> None:
         """Things are where the world has them, whoever has brought them there."""
@@ -180,7 +186,7 @@ class Stage:
             elif where.place is not None and where.place in self._building.middles:
                 lies = kit.holder is None and self._building.place_at(kit.place[:2]) == where.place
                 if not (lies and kit.place[0] > -CELL / 2):
-                    kit.put(shelf(self._building.middles[where.place], number))
+                    kit.put(_shelf(self._building.middles[where.place], number))
 
     def _heap(self, a: str, b: str, kilograms: float) -> None:
         way = self._building.way(a, b) if {a, b} <= self._building.middles.keys() else ()
@@ -188,6 +194,13 @@ class Stage:
             raise UsageError(f"rubble: there is no doorway between {a} and {b}")
         x, y = (way[1][0] + way[2][0]) / 2, (way[1][1] + way[2][1]) / 2
         self._engine.box((0.3, 0.3, 0.12), (x, y, 0.06), (0.45, 0.42, 0.4, 1), kilograms)
+
+
+def _shelf(middle: Point, number: int) -> Point:
+    """Where in a place the thing of that number lies: round the edge."""
+    angle = 0.7 + 1.1 * number
+    radius = 0.225 / max(abs(cos(angle)), abs(sin(angle)), 0.75)
+    return middle[0] + radius * cos(angle), middle[1] + radius * sin(angle)
 
 
 def _medkits(task: Task) -> frozenset[str]:
