@@ -49,14 +49,6 @@ def test_help_fits_a_terminal(run: Runs, monkeypatch: pytest.MonkeyPatch) -> Non
     assert len(examples) < 10 and set(examples) <= {*EXAMPLES, *SERVERS, "serendipity COMMAND --help"}
 
 
-@pytest.mark.parametrize("option", ["mode", "suffix", "preservation", "interference", "human_model", "ties"])
-def test_help_names_the_choices_of_the_registry(option: str, run: Runs) -> None:
-    from serendipity.model.keywords import CHOICES
-
-    shown = "".join(run("plan --help").out.split())
-    assert f"--{option.replace('_', '-')}{'|'.join(CHOICES[option])}" in shown
-
-
 def test_version(run: Runs) -> None:
     import serendipity
     from search.kernel.library import state

@@ -22,26 +22,6 @@ def test_it_reads_as_it_was(value: dict[str, object]) -> None:
     assert json.loads(json_text(value)) == value
 
 
-def test_members_have_lines_down_to_the_second_level() -> None:
-    steps = [{"epoch": 1, "agents": ["é"]}, {"epoch": 2, "agents": []}]
-    assert json_text(
-        {"cost": 1.5, "none": [], "window": {"start": 1, "end": 2}, "plan": steps}
-    ).splitlines() == [
-        "{",
-        ' "cost": 1.5,',
-        ' "none": [],',
-        ' "window": {',
-        '  "start": 1,',
-        '  "end": 2',
-        " },",
-        ' "plan": [',
-        '  {"epoch": 1, "agents": ["é"]},',
-        '  {"epoch": 2, "agents": []}',
-        " ]",
-        "}",
-    ]
-
-
 @pytest.mark.parametrize(
     ("value", "error"), [(math.nan, ValueError), ([-math.inf], ValueError), ({1}, TypeError)]
 )

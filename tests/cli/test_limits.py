@@ -152,13 +152,6 @@ def test_what_was_going_on_is_said_once() -> None:
         raise MemoryError
 
 
-def test_the_process_ends_with_all_that_was_written(process: Runs) -> None:
-    done = process("plan --example room2 --discount 0.6 --format json")
-    assert (done.code, done.err) == (0, "")
-    assert json.loads(done.out)["cost"] == 12.6
-    assert process("plan --example nowhere").code == 2
-
-
 def test_what_is_loaded_in_the_middle_is_loaded_first_under_a_time_limit() -> None:
     """Loading arrays and solvers takes longer than a short limit allows to overrun it."""
     late = {name for room in ("search", "verify") for name in imported_in_functions(ROOT / room)}

@@ -1,7 +1,6 @@
 """Where answers go: whole files or none, stdout, stderr for the rest."""
 
 import json
-import logging
 import os
 import stat
 import subprocess
@@ -12,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.cli.streams import manner, output
+from serendipity.cli.streams import output
 from serendipity.model import Result, UsageError
 from tests.cli.conftest import ROOT, Runs
 
@@ -88,13 +87,6 @@ def test_warnings_go_to_stderr_unless_quiet(run: Runs) -> None:
     assert [line for line in loud.out.splitlines() if "ms" not in line] == [
         line for line in quiet.out.splitlines() if "ms" not in line
     ]
-
-
-def test_verbosity_sets_the_level_of_our_loggers() -> None:
-    for verbosity, level in ((0, logging.WARNING), (1, logging.INFO), (2, logging.DEBUG), (5, logging.DEBUG)):
-        manner.start_logging(verbosity)
-        assert logging.getLogger("serendipity").level == level
-        assert logging.getLogger("search").level == level
 
 
 def test_a_reader_that_stops_early_is_no_error() -> None:

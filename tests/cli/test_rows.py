@@ -7,11 +7,10 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.evaluation.benchmark import measure, scaling
 from serendipity.evaluation.benchmark.contenders import Outcome
 from serendipity.evaluation.benchmark.coverage.rows import Row
 from serendipity.evaluation.benchmark.coverage.table import as_table, read_rows
-from serendipity.model.table import Table, table_of
+from serendipity.model.table import Table
 from serendipity.writing.rows import FORMATS
 from serendipity.writing.rows import written as written_as
 from tests.cli.conftest import Runs, assert_one_line
@@ -70,38 +69,6 @@ def test_reproduce(run: Runs) -> None:
     written = saved(run, command, table)
     assert written.pop("csv") == [(*row[:7], round(row[7], 6), *row[8:]) for row in told]
     assert all(rows == told for rows in written.values())
-
-
-def test_bench(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
-    command = "bench --rooms 8 --seeds 1 --modes communication --discounts 0.9 --repeat 1 --contenders search"
-    room2 = serendipity.example("room2")
-    timings = list(measure.measure([room2], ["communication"], ["0.9"], ["search"], repeat=1))
-    monkeypatch.setattr(measure, "measure", lambda *_, **__: iter(timings))
-    table = table_of(measure.MeasuredCall, timings)
-    assert [row[1:4] for row in table.rows] == [("communication", "0.9", "search")]
-    for rows in saved(run, f"{command} --quiet", table).values():
-        assert rows == list(table.rows)
-
-
-def test_bench_scaling(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = {"axis": "rooms", "medkits": 2, "robots": 1, "corridors": None, "mode": "serendipity", "seed": 0}
-    took = dict.fromkeys(("read_seconds", "pack_seconds", "search_seconds", "again_seconds"), 0.125)
-    more = {
-        "discount": "0.9",
-        "actions": 60,
-        "length": 12,
-        "memory": 50.5,
-        "status": "optimal",
-        "expanded": 9,
-    }
-    samples = [
-        scaling.Sample(value=float(rooms), rooms=rooms, cost=cost, **asked, **took, **more)  # type: ignore[arg-type]
-        for rooms, cost in ((8, 12.6), (16, None))
-    ]
-    monkeypatch.setattr(scaling, "scale", lambda *_, **__: iter(samples))
-    table = table_of(scaling.Sample, samples)
-    for rows in saved(run, "bench --scaling rooms --seeds 1 --quiet", table).values():
-        assert rows == list(table.rows)
 
 
 def test_bench_of_a_suite(run: Runs) -> None:

@@ -5,7 +5,6 @@ import json
 import pytest
 
 from search.strategies.portfolio import chosen as chosen_turns
-from serendipity.cli.text.answers import table_of
 from tests.cli.conftest import Runs, assert_one_line
 
 
@@ -39,15 +38,3 @@ def test_nothing_is_told_without_v_and_another_name_is_refused(run: Runs) -> Non
     run("plan --example room2 -v")
     assert run("plan --example room2 --quiet").err == ""
     assert_one_line(run("plan --example room2 --strategies magic"), "strategies", "magic")
-
-
-def test_a_row_tells_all() -> None:
-    rows = [
-        {"name": "soon", "seconds": 0.0004, "better": 0, "bound": None, "settled": False},
-        {"name": "all", "seconds": 12.5, "better": 2, "bound": 1012.6, "settled": True},
-    ]
-    assert [line.split() for line in table_of(rows).splitlines()] == [
-        ["turn", "seconds", "better", "answers", "bound", "settled"],
-        ["soon", "0.000"],
-        ["all", "12.500", "2", "1012.6", "yes"],
-    ]

@@ -11,7 +11,6 @@ from serendipity.cli.text.answers import plan_report
 from serendipity.cli.text.render import rendered
 from serendipity.model import Options, Result, Window
 from serendipity.model.keywords import CHOICES
-from serendipity.model.numbers import plain
 from serendipity.model.telling import Grid, Line
 from serendipity.pictures import build_scene
 from serendipity.pictures.scene.scene import headline
@@ -68,13 +67,6 @@ def test_a_plan_that_is_only_the_humans_is_not_shown_twice(run: Runs) -> None:
     text = run("plan --example room7 --discount 0.6").out
     assert "former plan" not in text
     assert text.count("conduct_triage commx room1") == 1
-
-
-@pytest.mark.parametrize(
-    ("value", "text"), [(13.0, "13"), (12.6, "12.6"), (0.1 + 0.2, "0.3"), (1012.6, "1012.6")]
-)
-def test_numbers_read_as_people_write_them(value: float, text: str) -> None:
-    assert plain(value) == text
 
 
 def test_a_terminal_gets_the_same_words_in_colour() -> None:

@@ -320,18 +320,6 @@ def test_what_was_played_outlives_a_server_that_is_killed() -> None:
         assert [event["event"] for event in shown] == ["begun", "epoch", "epoch"]
 
 
-def test_a_map_has_room_for_all_that_comes_together_and_never_shrinks() -> None:
-    table = SharedRounds(setting(name="taxis", task=serendipity.example("taxis"), discount=1))
-    widths = [table.view()["map"]["width"]]
-    while (view := table.view())["end"] is None:
-        able = [choice for choice in view["can"] if choice["kind"] in ("offer", "go")] or view["can"]
-        table.do({"do": "act", "moment": view["moment"], "action": able[0]["action"]})
-        widths.append(table.view()["map"]["width"])
-        if len(widths) > 15:
-            break
-    assert widths == sorted(widths)
-
-
 def test_a_port_in_use_is_one_line(capsys, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     with serving(command="play") as server:

@@ -10,7 +10,7 @@ import httpx
 import pytest
 
 from tests.live.conftest import Opened
-from tests.live.play_tasks import DOMAIN, TAKE, two_goals, with_third_kit
+from tests.live.play_tasks import DOMAIN, TAKE
 from tests.live.server import Server, serving
 
 pytestmark = pytest.mark.browser
@@ -90,50 +90,6 @@ def test_who_uses_the_keyboard_stays_where_they_are_and_hears_what_happens(opene
         page.wait_for_selector('#epoch:text-is("3")')
         assert page.evaluate("document.activeElement.closest('#can') !== null")
         assert page.inner_text("#told").startswith("Epoch 3. You: ")
-
-
-def test_the_papers_example_by_keys(opened: Opened) -> None:
-    with serving(command="play") as server:
-        page = opened(server)
-        page.wait_for_selector("#can button")
-        for count, key in enumerate(["ArrowUp", *["ArrowLeft"] * 4, "1", *["ArrowLeft"] * 4], start=2):
-            page.keyboard.press(key)
-            page.wait_for_selector(f'#epoch:text-is("{count}")')
-        page.keyboard.press("1")
-        page.wait_for_selector("#finish")
-        assert page.locator("#finish-costs td").all_inner_texts()[1] == "12.6"
-
-
-def test_somebody_turns_off_towards_another_kit(opened: Opened, tmp_path: Path) -> None:
-    problem = with_third_kit(tmp_path, "room6")
-    with serving(*pddl(problem), command="play") as server:
-        page = opened(server)
-        go(page, "hall8", "hall7", "room7", "room6")
-        choose(page, "pick up medkit")
-        go(page, "room7", "hall7", "hall6", "hall5", "hall4", *TO_ROOM1)
-        treat(page)
-        said = verdicts(server)
-        assert said[:2] == ["waits", "helps"]
-        assert set(said[-4:]) == {"stopped"}, "the help that was begun is of no use any more"
-        events = [e for e in server.client.get("/export.json").json() if e["event"] == "epoch"]
-        assert events[-1]["human_cost"] == 15.0, "help did not make anything dearer"
-        assert not any("hand_over" in step for event in events for step in event["steps"])
-
-
-def test_two_goals_are_possible(opened: Opened, tmp_path: Path) -> None:
-    problem, goals = with_third_kit(tmp_path, "room8", robot="room3"), two_goals(tmp_path)
-    with serving(*pddl(problem), "--goals", str(goals), command="play") as server:
-        page = opened(server)
-        page.click("#think")
-        assert page.locator("#thought .share output").all_inner_texts() == ["50 %", "50 %"]
-        assert "not sure which goal" in page.inner_text("#thought")
-        go(page, "hall8", "hall7", "hall6", "hall5", "hall4")
-        assert page.locator("#thought .share output").all_inner_texts()[0] == "100 %"
-        choose(page, TAKE)
-        page.wait_for_selector('#can button:has-text("take medkit mk2")', state="detached")
-        go(page, *TO_ROOM1)
-        assert treat(page)[1] == "12.2"
-        assert verdicts(server)[:6] == ["unsure", "unsure", "helps", "helps", "helps", "helps"]
 
 
 def test_two_pages_a_reload_and_a_server_that_stops(opened: Opened) -> None:

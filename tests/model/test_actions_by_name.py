@@ -1,11 +1,9 @@
 """Actions are found by name where they stand; a task with another goal keeps what that can not change."""
 
-import pytest
 from hypothesis import given
 
 import serendipity
 from serendipity.model import Condition, Task
-from serendipity.model.task.names import ActionNames
 from serendipity.testing.builders import task as build
 from serendipity.testing.strategies import Call, calls
 
@@ -28,12 +26,6 @@ def test_names_are_compared_part_by_part() -> None:
     for name in names:
         (found,) = task.named[f"{name} h"]
         assert task.actions[found].name == f"{name} h"
-
-
-def test_no_actions_have_no_names() -> None:
-    assert not ActionNames(())
-    with pytest.raises(KeyError):
-        ActionNames(())["a"]
 
 
 def test_another_goal_keeps_the_variables() -> None:

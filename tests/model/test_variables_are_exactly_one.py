@@ -203,15 +203,6 @@ def test_an_instance_that_an_action_breaks_is_left_out() -> None:
     assert [len(group) for group in places] == [6, 6, 1]
 
 
-def test_the_hands_of_a_few_blocks_are_found_without_names() -> None:
-    task = blocks("abc", "r s")
-    nameless = [f"f{i}" for i in range(len(task.facts))]
-    groups = [v.facts for v in find_variables(nameless, task.init, task.actions) if not v.boolean]
-    assert [[task.facts[f] for f in group] for group in groups] == [
-        [f"handempty {hand}", *(f"holding {hand} {x}" for x in "abc")] for hand in "rs"
-    ]
-
-
 def test_names_of_a_building_change_nothing() -> None:
     task = usar("a-b-c", human="a", robots={"rob": "c"}, kits={"k": "b"}, triage="c")
     nameless = [f"f{i}" for i in range(len(task.facts))]
@@ -223,29 +214,6 @@ def test_the_deadline_is_kept_where_names_are_looked_at() -> None:
     balance = Balance(len(task.facts), task.init, task.actions, Deadline())
     with pytest.raises(LimitReachedError):
         groups_by_form(task.facts, balance, Deadline(time_limit=0))
-
-
-def test_a_position_and_a_carried_thing_are_found() -> None:
-    task = build(
-        init="at-a kit-a",
-        actions={
-            "go h": "at-a -> at-b !at-a",
-            "back h": "at-b -> at-a !at-b",
-            "take-a h": "at-a kit-a -> held busy !kit-a",
-            "drop-b h": "at-b held -> kit-b seen-b !held !busy",
-            "drop-a h": "at-a held -> kit-a !held !busy",
-            "take-b h": "at-b kit-b -> held busy !kit-b",
-        },
-    )
-    groups = {
-        frozenset(task.facts[f] for f in variable.facts)
-        for variable in task.variables
-        if not variable.boolean
-    }
-    assert groups == {frozenset({"at-a", "at-b"}), frozenset({"kit-a", "kit-b", "held"})} or groups == {
-        frozenset({"at-a", "at-b"}),
-        frozenset({"kit-a", "kit-b", "busy"}),
-    }
 
 
 TRACES = {f"move-{x} h": f"{x}0 -> {x}1 trace !{x}0" for x in "abc"}

@@ -95,16 +95,6 @@ def test_costs_depend_on_who_acts(agents: tuple[str, ...], discount: str, tmp_pa
     assert optimum(tmp_path, files, agents, discount) == pytest.approx(expected.cost)
 
 
-def test_nothing_is_ground(tmp_path: Path) -> None:
-    files, agents = example_files("parcels")
-    written = lifted_files(unit(files), shares(agents, "0.9"))
-    assert written.domain.count("(:action") == 6
-    assert (
-        "(:action drive\n  :parameters (?who - driver ?car - vehicle ?from - place ?to - place)"
-        in written.domain
-    )
-
-
 @pytest.mark.parametrize(
     ("action", "message"),
     [

@@ -1,7 +1,6 @@
 """Ground actions against an enumeration of all arguments, kept as far as they can be executed."""
 
 import tempfile
-from collections import Counter
 from itertools import product
 from pathlib import Path
 
@@ -95,36 +94,3 @@ def test_ground_actions_are_those_that_can_be_executed(
     found = {a.name: (names(a.pre), names(a.add), names(a.delete)) for a in task.actions if " h " in a.name}
     assert found == possible(actions, static)
     assert all(ids == tuple(sorted({*ids})) for a in task.actions for ids in (a.pre, a.add, a.delete))
-
-
-def test_many_actions_may_wait_for_few_and_few_for_many(tmp_path: Path) -> None:
-    """``last`` (3 actions) needs what ``middle`` (9) does, and that what ``first`` (1) does."""
-    head = domain(
-        action("last", "(h ?x o2)", "(s ?x)", "?who - agent ?x - thing"),
-        action("middle", "(g o1)", "(h ?x ?y)", "?who - agent ?x ?y - thing"),
-        action("first", "(s o1)", "(g o1)"),
-        action("never", "(c ?x ?y)", "(g ?x)", "?who - agent ?x ?y - thing"),
-        action("link", "(f o1 o1)", "(c o1 o1)"),
-        predicates=PREDICATES,
-        constants=CONSTANTS,
-    )
-    found = one(tmp_path, head, problem("(s o1)", "(s o3)", "h r - agent"))
-    assert Counter(a.name.split()[0] for a in found.actions if a.participants == (0,)) == {
-        "last": 3,
-        "middle": 9,
-        "first": 1,
-    }
-
-
-def test_what_needs_a_lasting_fact_to_be_false_is_left_out(tmp_path: Path) -> None:
-    head = domain(
-        action("wipe", "(g o1)", "(not (s o1))"),  # nobody makes g true
-        action("wait", "(not (s o1))", "(g o2)"),
-        action("both", "(and (g o3) (not (g o3)))", "(g o2)"),
-        action("make", "(s o1)", "(g o3)"),
-        action("undo", "(g o3)", "(not (g o3))"),
-        predicates=PREDICATES,
-        constants=CONSTANTS,
-    )
-    found = one(tmp_path, head, problem("(s o1)", "(g o3)", "h r - agent"))
-    assert {a.name for a in found.actions} == {"make h", "make r", "undo h", "undo r"}

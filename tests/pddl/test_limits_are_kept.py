@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity import LimitReachedError, SerendipityError, Task, UsageError, pddl
+from serendipity import LimitReachedError, Task, UsageError, pddl
 from serendipity.model import Deadline
 from serendipity.model.resources.deadline import MIB
 from serendipity.model.resources.memory import resident
@@ -180,19 +180,3 @@ def test_progress_tells_what_is_done_and_how_many_actions_there_are(tmp_path: Pa
 def test_limits_have_to_be_numbers(limits: dict[str, float]) -> None:
     with pytest.raises(UsageError, match=f"{next(iter(limits))}: expected"):
         serendipity.load(YARD, **limits)
-
-
-def test_every_loader_takes_a_deadline() -> None:
-    limits = Countdown(0)
-    example = serendipity.example
-    for load in (
-        lambda: serendipity.load(YARD, deadline=limits),
-        lambda: pddl.read_folder(YARD, deadline=limits),
-        lambda: serendipity.load_pddl(*OFFICE, human="ann", robots=["bot"], deadline=limits),
-        lambda: pddl.read_pddl(*OFFICE, human="ann", robots=["bot"], deadline=limits),
-        lambda: serendipity.load_agents({"ann": OFFICE, "bot": OFFICE}, deadline=limits),
-        lambda: pddl.read_agents({"ann": OFFICE, "bot": OFFICE}, deadline=limits),
-        lambda: example("room2", deadline=limits),
-    ):
-        with pytest.raises(SerendipityError, match="the time limit came first, reading the task"):
-            load()

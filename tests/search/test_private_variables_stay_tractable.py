@@ -1,13 +1,10 @@
 """The human's private variables are tabulated together only as far as that does not take long."""
 
-from pathlib import Path
-
 import pytest
 from hypothesis import given
 
 import search.human.own_problem
 import search.human.pattern_database
-import serendipity
 from search import prepare, solve
 from search.human.pattern_database import partial_graph, private_fields, whole_graph
 from search.kernel.library import library
@@ -45,16 +42,6 @@ def test_what_can_only_become_little_together_is_kept_together() -> None:
     graph = whole_graph(problem, Deadline())
     assert graph.mask == sum(private_fields(problem))
     assert len(graph.moves) == COUNT + 1
-
-
-def test_many_easy_searches_are_not_handed_over(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """The kernel took over after 200 states in all, and takes milliseconds a question in large buildings."""
-    asked: list[object] = []
-    monkeypatch.setattr(search.human.own_problem, "own_planner", lambda *given: asked.append(given))
-    serendipity.generate_usar(tmp_path / "building", rooms=210, corridors=4)
-    building = serendipity.load(tmp_path / "building")
-    assert serendipity.plan(building, discount=0.9, window_weight=0).status == "optimal"
-    assert not asked
 
 
 @pytest.mark.skipif(library() is None, reason="there is no kernel here")

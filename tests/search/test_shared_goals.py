@@ -16,7 +16,6 @@ from search.kernel.library import library
 from serendipity.model import Deadline, LimitReachedError, Options, Task, UsageError
 from serendipity.model.options import INFINITE
 from serendipity.testing.builders import task as build
-from serendipity.testing.builders import usar
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies import Call, calls, family_tasks
 from tests.search.exact_answers import proved, same_cost
@@ -204,15 +203,3 @@ def test_what_was_known_before_the_kernel_went_on_is_kept(
     *_, answer = serendipity.plan_anytime(task, mode="composite", horizon=INFINITE, discount="0.9")
     assert (answer.status, answer.cost, answer.human_cost) == ("feasible", 7, 7)
     assert 2 < answer.lower_bound < 3.3
-
-
-@pytest.mark.skipif(library() is None, reason="there is no kernel here")
-def test_in_buildings_the_kernel_is_not_asked(monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(*_: object, **__: object) -> None:
-        raise AssertionError("it takes longer than all the rest")
-
-    monkeypatch.setattr(search.classical.team, "team_planner", refuse)
-    task = usar("a-b-c-d b-s", human="a", robots={"r": "s"}, kits={"m": "s"}, triage="d")
-    answer = serendipity.plan(task, mode="composite", horizon=INFINITE, discount="0.9")
-    assert answer.status == "optimal"
-    assert answer.cost < answer.human_cost

@@ -12,7 +12,6 @@ from serendipity.model import Task
 from serendipity.pictures import Scene, build_scene, draw
 from serendipity.pictures.formats.svg import svg
 from serendipity.pictures.map.layout import lay_out
-from serendipity.pictures.map.names import elided
 from serendipity.pictures.map.places import Whereabouts, find_places
 from serendipity.pictures.picture.map_picture import MARGIN, map_picture
 from serendipity.pictures.scene.scene import Meeting
@@ -125,23 +124,6 @@ def test_what_somebody_holds_is_in_a_frame_with_them(room2: Scene) -> None:
     assert "frame-agent-1" not in after
 
 
-def test_a_box_in_a_van_that_is_driven_is_in_both_frames() -> None:
-    scene = played(lorry(6))
-    frame = scene.frames[0]
-    objects = frame.objects | {
-        "lorry": Whereabouts("west", riders=(H,)),
-        "consignment1": Whereabouts(holder=H, carrier="lorry"),
-        "consignment2": Whereabouts(holder=H, carrier="consignment1"),
-    }
-    nested = replace(scene, frames=(replace(frame, objects=objects),))
-    tokens = kept_apart(nested, 0)
-    keys = {name: f"object-{i}" for i, name in enumerate(frame.objects)}
-    outer, inner = tokens[f"frame-{keys['lorry']}"], tokens[f"frame-{keys['consignment1']}"]
-    assert outer.encloses(inner)
-    assert inner.encloses(tokens[keys["consignment2"]])
-    assert not inner.encloses(tokens["agent-0"])
-
-
 def test_several_meetings_in_one_place_have_one_tag(room2: Scene) -> None:
     later = [Meeting(epoch, "hall4", (), "again") for epoch in (9, 11)]
     scene = replace(room2, meetings=(*room2.meetings, *later))
@@ -173,18 +155,6 @@ def test_hoists_are_places_and_who_only_drives_is_where_the_lorry_is() -> None:
     assert (drive.verb, drive.detail) == ("go to", "shop")
     for frame in scene.frames:
         kept_apart(scene, frame.epoch)
-
-
-def test_without_a_former_plan_there_is_no_lane_for_it() -> None:
-    task = lorry(1)
-    scene = played(task)
-    assert not replace(scene, former_acts=()).deviates
-
-
-def test_names_are_shortened_so_that_they_can_be_told_apart() -> None:
-    assert elided("package12", 8) == "packa…12"
-    assert elided("consignment", 8) == "consign…"
-    assert elided("crate1", 8) == "crate1"
 
 
 @pytest.mark.parametrize(

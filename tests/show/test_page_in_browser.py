@@ -5,7 +5,6 @@ Skipped, with a message, where playwright or Chromium is absent; ``make test-bro
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -196,16 +195,6 @@ def test_labels_stay_in_the_map_and_out_of_each_other(
     assert frame.locator("title").text_content() == "van, dora, box"
     page.page.locator("#slider").fill("0")
     assert not frame.is_visible()
-    page.close()
-
-
-def test_a_high_map_is_seen_as_a_whole(browser: Any, tmp_path: Path, room2: Scene) -> None:
-    layout = room2.layout
-    turned = {place: replace(box, x=box.y, y=box.x) for place, box in layout.boxes.items()}
-    high = replace(layout, boxes=turned, width=layout.height + 100, height=layout.width)
-    page = Opened(browser, written(replace(room2, layout=high), tmp_path), 1300, reduced_motion="reduce")
-    shown = [page.page.locator(part).evaluate("e => e.clientHeight") for part in ("#map", "#map-scroller")]
-    assert shown[0] <= shown[1]
     page.close()
 
 

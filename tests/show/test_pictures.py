@@ -13,8 +13,7 @@ import serendipity
 from serendipity.model import Task, UsageError
 from serendipity.pictures import Scene, build_scene, draw
 from serendipity.pictures.formats.page import page
-from serendipity.pictures.map.names import ems
-from serendipity.pictures.picture.drawing import HUMAN, ROBOTS, fitted, on, wrapped
+from serendipity.pictures.picture.drawing import HUMAN, ROBOTS, on, wrapped
 from serendipity.pictures.picture.map_picture import tokens
 from tests.show.drawn import SVG
 
@@ -123,15 +122,6 @@ def test_letters_can_be_read_on_their_tokens(colour: str) -> None:
     assert _contrast(on(colour), colour) >= 3  # WCAG AA for large and bold text
 
 
-def test_labels_fit() -> None:
-    assert fitted("hall", 100, 20, 10) == ("hall", 20)
-    text, size = fitted("a very long name indeed", 60, 20, 10)
-    assert text.endswith("…")
-    assert size == 10
-    assert wrapped("pick up medkit", 60, (13,)) == (("pick up", "medkit"), 13)
-    assert wrapped("conducted_triage commx room1", 130, (14, 12))[0] == ("conducted_triage", "commx room1")
-
-
 @pytest.mark.parametrize(
     ("one", "other"),
     [
@@ -146,12 +136,6 @@ def test_what_tells_labels_apart_is_not_cut(one: str, other: str) -> None:
             lines, size = wrapped(text, 90, (14, 12, 11, 10, 9), 4, bold=bold)
             assert "".join(lines).replace(" ", "") == text.replace(" ", "")
             assert size >= 9
-
-
-def test_wide_letters_need_more_room() -> None:
-    assert ems("phenomenon") > ems("pilltill10") > 0
-    assert fitted("ward" * 5, 100, 20, 5)[1] > fitted("wmwm" * 5, 100, 20, 5)[1]
-    assert fitted("\u90e8\u5c4b" * 3, 100, 20, 5)[1] < fitted("abcdef", 100, 20, 5)[1]
 
 
 def test_paper_has_every_epoch(room2: Scene) -> None:

@@ -58,27 +58,6 @@ def test_the_hand_over_is_a_meeting(room2: Scene) -> None:
     assert room2.key_epoch == 6
 
 
-def test_a_kit_that_is_left_and_taken_is_a_meeting_too() -> None:
-    task = serendipity.example("room2")
-    moves = [
-        ("robot", "move_reverse robot room4 room3"),
-        ("robot", "pick_up_medkit robot mk2 room3"),
-        ("robot", "drop_off robot mk2 room3"),
-    ]
-    steps = [PlanStep(i, (who,), action, 1.0) for i, (who, action) in enumerate(moves, 1)]
-    human = ["move commx room13 hall8"] + [f"move_reverse commx hall{i} hall{i - 1}" for i in (8, 7, 6, 5)]
-    human += [
-        "move_reverse commx hall4 room4",
-        "move_reverse commx room4 room3",
-        "pick_up_medkit commx mk2 room3",
-    ]
-    steps += [PlanStep(i, ("commx",), action, 1.0) for i, action in enumerate(human, 1)]
-    result = replace(serendipity.plan(task, discount="0.6"), plan=tuple(steps))
-    (meeting,) = build_scene(task, result).meetings
-    assert (meeting.epoch, meeting.place, meeting.objects) == (8, "room3", ("mk2",))
-    assert meeting.text == "commx takes mk2, which robot left"
-
-
 def test_ground_files_give_the_same_frames(room2: Scene) -> None:
     task = ground(serendipity.example("room2"))
     scene = build_scene(task, serendipity.plan(task, discount="0.6"))

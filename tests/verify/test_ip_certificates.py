@@ -8,11 +8,10 @@ from hypothesis import given
 import serendipity
 from serendipity.model import Certificate, Claim, InputError, LimitReachedError, Options, UsageError
 from serendipity.testing.by_hand import result
-from serendipity.testing.cases import CASE_3_PLAN, case_3, case_4, case_10
+from serendipity.testing.cases import case_4, case_10
 from serendipity.testing.strategies import Call, calls
 from tests.verify.doctored import ANOTHER_TASK, DOCTORED
 from tests.verify.untrue import dearer, solved
-from tests.verify.valid import CASE_4_PI_H
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
@@ -39,16 +38,6 @@ def test_answers_are_proved(method: str) -> None:
         assert certificate.verdict == "proved", certificate.to_dict()
 
     law()
-
-
-def test_pi_h_is_said_to_be_canonical_or_given() -> None:
-    task = case_4()
-    assert "canonical optimal plan" in _claim(certify(task, solved(task)), "replay").reason
-    other = solved(task, CASE_4_PI_H, discount="0.9")
-    canonical = solved(task, discount="0.9")
-    assert other.human_plan == canonical.human_plan
-    lazy = solved(case_3(), CASE_3_PLAN)
-    assert "pi_H is" in _claim(certify(case_3(), lazy), "replay").reason
 
 
 def test_what_pi_h_is_does_not_hold_up_a_certificate(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -134,16 +123,6 @@ def test_bounds_of_feasible_answers(bound: float, verdict: str) -> None:
 
 
 # -- bad input
-
-
-def test_unknown_encoding_solver_and_method() -> None:
-    answer = solved(case_4())
-    with pytest.raises(UsageError, match="encoding: expected one of automata, paper"):
-        certify(case_4(), answer, encoding="enigma")
-    with pytest.raises(UsageError, match="solver: expected one of highs, cbc"):
-        certify(case_4(), answer, solver="abacus")
-    with pytest.raises(UsageError, match="method: expected one of auto, program"):
-        certify(case_4(), answer, method="prayer")
 
 
 @pytest.mark.parametrize(

@@ -82,20 +82,6 @@ def test_an_automaton_that_would_be_too_large_leaves_facts_out() -> None:
     assert small.facts < whole.facts
 
 
-@pytest.mark.parametrize("most", [1, 5, 50])
-def test_smaller_automata_give_the_same_answers(most: int) -> None:
-    expected = [
-        solve(case_4(), Options(mode=mode, discount=Fraction(9, 10))).cost
-        for mode in ("serendipity", "communication")
-    ]
-    with limited(automaton_states=most, states_a_value=0):
-        again = [
-            solve(case_4(), Options(mode=mode, discount=Fraction(9, 10))).cost
-            for mode in ("serendipity", "communication")
-        ]
-    assert again == expected == [6.2, 6.2]
-
-
 # -- the human alone
 
 

@@ -86,14 +86,6 @@ def test_a_violation_names_epoch_and_action() -> None:
     assert "'has rob k2' is false" in str(first)
 
 
-def test_without_a_replay_cost_and_window_are_left_unchecked() -> None:
-    built = RULE_BROKEN["an action dropped"][1]()
-    report = check(built.task, built.result)
-    assert set(report.unchecked) == {"cost", "window"}
-    assert report.of("replay") is report.first
-    assert report.of("lower_bound") is None
-
-
 def test_rules_stand_in_the_order_of_their_claims() -> None:
     claims = [rule.claim for rule in RULES]
     assert claims == sorted(claims, key=CLAIMS.index)

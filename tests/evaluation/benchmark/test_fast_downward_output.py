@@ -2,17 +2,13 @@
 
 import sys
 from collections.abc import Iterator
-from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
-from search import PreparedTask
-from serendipity import SerendipityError, example
+from serendipity import SerendipityError
 from serendipity.evaluation.benchmark import fast_downward
 from serendipity.evaluation.benchmark.fast_downward import LMCUT, Found, run
-from serendipity.evaluation.benchmark.measure import CONTENDERS
-from serendipity.model import Options
 from serendipity.pddl.classical import ClassicalFiles
 
 FILES = ClassicalFiles("", "", scale=5)
@@ -58,14 +54,6 @@ def test_costs_are_scaled_back(processes: Outputs) -> None:
     found = answered()
     assert (found.status, found.cost, found.lower_bound) == ("optimal", 25.2, 25.2)
     assert (found.search_seconds, found.seconds, found.expanded, found.memory) == (0.001651, 0.005, 13, 10)
-
-
-def test_a_contender_tells_its_search_time(processes: Outputs) -> None:
-    processes += [(0, "Done!"), (0, FOUND)]
-    options = Options(mode="composite", horizon="inf", discount=Fraction("0.6"), time_limit=5)
-    answer = CONTENDERS["fast-downward"].answer(PreparedTask(example("room2")), options)
-    # Team costs are 1 and 0.4, so the files' are 5 and 2.
-    assert (answer.status, answer.cost, answer.seconds, answer.memory) == ("optimal", 25.2, 0.001651, 10)
 
 
 @pytest.mark.parametrize("outputs", [[(10, "unsolvable")], [(0, "Done!"), (11, NONE)]])

@@ -97,13 +97,6 @@ def test_what_earlier_calls_leave_behind(name: str, monkeypatch: pytest.MonkeyPa
     assert [(timing.discount, timing.repeats) for timing in timings] == [("0", 2), ("0.5", 2)]
 
 
-def test_in_turn_figures_are_medians_over_passes(monkeypatch: pytest.MonkeyPatch) -> None:
-    script = Scripted(0.1, 0.1, 0.3, 0.03, 0.1, 0.01, 0.2, 0.02)  # the first two are the warm-up
-    monkeypatch.setitem(CONTENDERS, "in-turn", replace(CONTENDERS["in-turn"], answer=script))
-    found = list(measure([example("room2")], ["serendipity"], ["0", "0.5"], ["in-turn"], repeat=3))
-    assert [(t.fastest, t.seconds, t.slowest) for t in found] == [(0.1, 0.2, 0.3), (0.01, 0.02, 0.03)]
-
-
 def timing(task: str, contender: str, seconds: float, **other: object) -> MeasuredCall:
     fixed = {"repeats": 1, "status": "optimal", "cost": 1.0, "process_seconds": None, "memory": None}
     return MeasuredCall(task, "composite", "0", contender, seconds, seconds, seconds, **{**fixed, **other})  # type: ignore[arg-type]
@@ -127,18 +120,6 @@ def test_ratios_are_call_by_call() -> None:
     assert row["min-max"] == "200.00-1600.00 ms"
 
 
-def test_others_are_compared_with_each_way_to_search() -> None:
-    seconds = {"search": 0.4, "in-turn": 0.1, "automata": 2.0, "fast-downward": 0.2}
-    found = [timing("a", name, value) for name, value in seconds.items()]
-    assert [(row["contender"], row["over"], row["least"]) for row in rows_of(ratios(found))] == [
-        ("automata", "search", "5.00 x"),
-        ("automata", "in-turn", "20 x"),
-        ("fast-downward", "search", "0.50 x"),
-        ("fast-downward", "in-turn", "2.00 x"),
-    ]
-    assert rows_of(ratios(found[:2])) == []
-
-
 def test_figures_that_a_limit_made_too_small_are_marked() -> None:
     """Three of four calls end: only what the fourth one's time decides is uncertain."""
     found = [timing(name, "search", 0.1) for name in "abcd"]
@@ -151,14 +132,6 @@ def test_figures_that_a_limit_made_too_small_are_marked() -> None:
     assert (row["proved"], row["median"], row["longest"]) == ("3", "3000.00 ms", ">= 10000.00 ms")
 
 
-def test_a_limit_in_the_middle_makes_all_beyond_it_uncertain() -> None:
-    """The second longest may be the longest without its limit: then the longest is known to be too short."""
-    found = [timing(name, "search", 0.1) for name in "ab"]
-    found += [timing("a", "other", 1.0, status="unknown", cost=None), timing("b", "other", 2.0)]
-    (row,) = rows_of(ratios(found))
-    assert (row["least"], row["95 %"]) == (">= 10 x", ">= 20 x")
-
-
 def test_calls_that_the_search_did_not_prove_are_no_base() -> None:
     found = [timing("a", "search", 0.1), timing("b", "search", 0.1, status="feasible")]
     found += [timing("a", "other", 0.2), timing("b", "other", 9.0)]
@@ -166,13 +139,6 @@ def test_calls_that_the_search_did_not_prove_are_no_base() -> None:
     assert (row["calls"], row["95 %"]) == ("1 of 2", "2.00 x")
     (row,) = rows_of(ratios([found[1], found[3]]))
     assert (row["calls"], row["95 %"]) == ("0 of 1", "")
-
-
-def test_outside_processes_have_rows_of_their_own() -> None:
-    found = [timing("a", "search", 0.1), timing("a", "other", 0.2)]
-    found[1] = replace(found[1], process_seconds=3.0)
-    assert [row["contender"] for row in rows_of(times(found))] == ["search", "other", "other, process"]
-    assert [row["least"] for row in rows_of(ratios(found))] == ["2.00 x", "30 x"]
 
 
 def test_what_a_solver_works_counts_though_it_is_a_process_of_its_own(

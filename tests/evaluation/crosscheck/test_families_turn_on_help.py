@@ -7,7 +7,7 @@ import pytest
 
 from serendipity import UsageError, plan
 from serendipity.evaluation.crosscheck import PlanCall, random_call
-from serendipity.testing.generator.families import FAMILIES, family_task
+from serendipity.testing.generator.families import FAMILIES
 from serendipity.testing.oracle import human_plans
 
 
@@ -61,13 +61,3 @@ def test_all_that_is_asked_of_others_is_asked_of_families(calls: list[PlanCall])
     assert {call.options["mode"] for call in calls} == {call.options["mode"] for call in others}
     assert any(call.options.get("horizon") == "inf" for call in calls)
     assert sum(call.human_plan is not None for call in calls) >= 0.1 * len(calls)
-
-
-@pytest.mark.parametrize("family", FAMILIES)
-def test_families_come_in_any_size(family: str) -> None:
-    for size in (3, 6, 9):
-        task = family_task(family, 1, size)
-        assert task == family_task(family, 1, size)
-        assert task != family_task(family, 2, size)
-        assert len(task.actions) < len(family_task(family, 1, size + 3).actions)
-        assert len(family_task(family, 1, size, agents=3).agents) == 3

@@ -179,14 +179,6 @@ def test_command_on_random_calls(capsys: pytest.CaptureFixture[str]) -> None:
     assert capsys.readouterr().out == "3 calls, search, automata: 0 disagreements\n"
 
 
-def test_command_without_a_seed_draws_one_and_says_it(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr("secrets.randbelow", lambda most: most - 7)
-    assert main(["crosscheck", "--count", "1", "--judges", "search"]) == 0
-    assert capsys.readouterr().out == "seed 999999993\n1 calls, search: 0 disagreements\n"
-
-
 def test_command_with_an_unknown_judge(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["crosscheck", "--judges", "search,oracle"]) == 2
     known = "search, automata, paper, cbc, program, exhaustive, false-certificates"

@@ -14,14 +14,6 @@ def test_a_power_is_found_exactly() -> None:
     assert fit.at(4) == pytest.approx(24)
 
 
-def test_scatter_shows_in_the_error() -> None:
-    """By hand: logarithms (0, 0), (1, 1), (1, -1) in base ten have slope 0, error sqrt(2 / (2 / 3))."""
-    fit = power_law([(1, 1), (10, 10), (10, 0.1)])
-    assert fit is not None
-    assert fit.exponent == pytest.approx(0)
-    assert fit.error == pytest.approx(3**0.5)
-
-
 @pytest.mark.parametrize("points", [[], [(1, 1), (2, 2)], [(3, 1), (3, 2), (3, 4)]])
 def test_too_little_to_fit(points: list[tuple[float, float]]) -> None:
     assert power_law(points) is None

@@ -7,7 +7,6 @@ import pytest
 
 from serendipity.evaluation.measuring.record import Record
 from serendipity.evaluation.measuring.running import measured
-from serendipity.evaluation.measuring.tables import as_markdown, grouped, spreads, table
 from serendipity.model.errors import InputError
 
 
@@ -38,12 +37,3 @@ def test_another_file_is_refused(tmp_path: Path) -> None:
     file.write_text("seconds,answer\n1,2\n")
     with pytest.raises(InputError, match="a record of what was measured"):
         Record(file)
-
-
-def test_tables() -> None:
-    rows = [("a", 1), ("b", 2), ("a", 3)]
-    grid = table(("name",), grouped(rows, lambda row: row[:1]), {"sum": lambda of: sum(n for _, n in of)})
-    assert grid.rows == [["a", "4"], ["b", "2"]]
-    spread = spreads(rows, {"n": lambda row: row[1]}, digits=1)
-    assert spread.rows == [["n", "2.0", "3.0", "3.0"]]
-    assert as_markdown([grid]) == "| name | sum |\n| --- | --- |\n| a | 4 |\n| b | 2 |\n"

@@ -13,7 +13,6 @@ from search.classical.planner import ClassicalPlanner
 from search.human import individual_planner
 from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from serendipity import Task
 from serendipity.model import Deadline, LimitReachedError
@@ -94,36 +93,6 @@ def test_an_interrupted_search_keeps_its_plan(monkeypatch: pytest.MonkeyPatch) -
     assert kept
     for plan in plans:
         assert assert_leads_to_goal(packed, packed.init, plan) >= cost
-
-
-def test_the_clock_is_looked_at_before_each_question(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Most are answered in less than a slice, and there may be thousands."""
-    packed = packed_of(CORRIDOR)
-    planner, clock, asked = planner_of(packed), Countdown(10**6), []
-    cheapest = planner.cheapest
-
-    def noted(state: int, deadline: Deadline, *rest: object, **more: object) -> int:
-        asked.append(clock.left_over[0])
-        return cheapest(state, deadline, *rest, **more)  # type: ignore[arg-type]
-
-    monkeypatch.setattr(planner, "cheapest", noted)
-    canonical_plan(planner, packed.init, clock)
-    assert len(asked) > 3
-    assert len({*asked}) == len(asked)
-
-
-def test_operators_that_have_nothing_to_do_with_each_other_are_sorted() -> None:
-    def op(asks: int, sets: int, forbids: int = 0) -> Operator:
-        return Operator(asks, 0, ~sets, sets, ((forbids, forbids),) if forbids else (), 0, 1, 0)
-
-    free = [op(0b0001, 0b0001), op(0b0010, 0b0010), op(0b0100, 0b0100)]
-    assert in_order(free, [2, 1, 0], Deadline()) == [0, 1, 2]
-    for other in (
-        op(0b0010, 0b0001),  # asks for what 1 sets
-        op(0, 0b0010),  # sets it, too
-        op(0, 0b0001, 0b0010),  # must not find it
-    ):
-        assert in_order([other, *free[1:]], [2, 1, 0], Deadline()) == [1, 0, 2]
 
 
 def test_the_clock_is_looked_at_while_a_long_plan_is_put_together() -> None:

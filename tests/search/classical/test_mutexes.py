@@ -7,7 +7,6 @@ import pytest
 from search.classical.mutexes import ReachablePairs
 from search.packed.operators import Operator, applicable
 from serendipity.model.resources.deadline import Deadline
-from serendipity.testing.builders import task as build
 from tests.search.small_tasks import of_a_family, packed_of, reached
 
 
@@ -27,25 +26,3 @@ def test_what_can_happen_in_a_state_is_not_excluded(seed: int) -> None:
         able = [op for op in (*packed.own, *packed.others) if applicable(op, state)]
         assert _may_hold(pairs, packed.all_ones, state)
         assert all(pairs.may_share_a_state(a, b) for a in able for b in able)
-
-
-def test_a_lamp_is_not_left_on_behind_a_closed_door() -> None:
-    task = build(
-        goal="seen sealed burnt",
-        actions={
-            "open h": "!open -> open",
-            "light h": "open -> lamp",
-            "see h": "lamp -> seen",
-            "quench h": "lamp -> !lamp",
-            "close h": "open !lamp -> !open",
-            "seal h": "!open -> sealed",
-            "burn h": "lamp !open -> burnt",
-        },
-    )
-    packed = packed_of(task)
-    pairs = ReachablePairs(packed, Deadline())
-    door, lamp = (packed.fact_bits[task.facts.index(fact)] for fact in ("open", "lamp"))
-    both = door[0] | lamp[0]
-    held = {state: _may_hold(pairs, both, state) for state in (0, door[1], lamp[1], door[1] | lamp[1])}
-    assert not _may_hold(pairs, packed.goal.need_mask, packed.goal.need), "it can't burn"
-    assert held == {0: True, door[1]: True, lamp[1]: False, door[1] | lamp[1]: True}

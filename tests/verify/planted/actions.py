@@ -15,10 +15,6 @@ from serendipity.model.task.actions import GroundAction, conflicting
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 
-def _without_agents(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
-    return conflicting(replace(a, participants=(99,)), b, strict=strict)
-
-
 def _without_double_deletes(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
     both = set(a.delete) & set(b.delete)
     return conflicting(replace(a, delete=tuple(f for f in a.delete if f not in both)), b, strict=strict)
@@ -94,13 +90,6 @@ BUGS = (
         "applicable",
         "negative preconditions are forgotten, by everybody",
         replaced(lambda self, state: all(f in state for f in self.pre)),
-    ),
-    Bug(
-        actions,
-        "conflicting",
-        "an agent may act twice in an epoch",
-        replaced(_without_agents),
-        survives="a set of actions has one of each agent by how it is put together",
     ),
     Bug(actions, "conflicting", "two actions may delete the same fact", replaced(_without_double_deletes)),
     Bug(actions, "conflicting", "one may delete what another adds", replaced(_without_adds)),

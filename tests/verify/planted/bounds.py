@@ -6,12 +6,11 @@ from search.bounds import first_interaction
 from search.bounds.achiever_automaton import AchieverAutomaton
 from search.bounds.achiever_costs import AchieverCosts
 from search.bounds.achievers import Achievers
-from search.bounds.first_interaction import FirstInteraction, _Promise
+from search.bounds.first_interaction import _Promise
 from search.bounds.interactions import Interactions
 from search.bounds.prefix_bounds import FirstInteractionOnTheWay
 from search.bounds.private_distances import PrivateDistances
 from search.human import pattern_database
-from search.human.individual_planner import IndividualPlanner
 from search.packed.cost_vector import INFINITE_KEY
 from search.robots.transition_graphs import TransitionGraph
 from search.spaces import factory
@@ -20,10 +19,6 @@ from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 def _doubled(original: Any, *arguments: Any) -> dict[int, int]:
     return {state: 2 * key for state, key in original(*arguments).items()}
-
-
-def _zero(original: Any, *arguments: Any) -> dict[int, int]:
-    return dict.fromkeys(original(*arguments), 0)
 
 
 def _own_moves(original: Any, fields: Any, forms: Any, *arguments: Any) -> Any:
@@ -81,12 +76,6 @@ def _own_interactions(original: Any, self: Any, action: int) -> bool:
     return original(self, action) and alone
 
 
-def _limit_is_exact(original: Any, self: Any, start: int, limit: int) -> int:
-    found: int = original(self, start, limit)
-    self._known[start] = found
-    return found
-
-
 def _dear(original: Any, self: Any, *arguments: Any) -> Any:
     found = original(self, *arguments)
     for provided in found.values():
@@ -100,20 +89,9 @@ def _too_dear_soon(original: Any, self: Any, need: int, slack: int) -> Any:
     return original(self, need, slack // 2)
 
 
-_SLOWER = "a weaker bound is still a bound: the search only takes longer"
-
 BUGS = (
     Bug(pattern_database, "backward", "doubled", wrapped(_doubled)),
-    Bug(pattern_database, "backward", "all zero", wrapped(_zero), survives=_SLOWER),
-    Bug(FirstInteraction, "__call__", "says nothing", replaced(always(0)), survives=_SLOWER),
     Bug(pattern_database, "_transitions", "joint actions are forgotten", wrapped(_own_moves)),
-    Bug(
-        IndividualPlanner,
-        "_search",
-        "a value beyond the limit is taken for exact",
-        wrapped(_limit_is_exact),
-        crashes="AssertionError",
-    ),
     Bug(Interactions, "is_interaction", "a joint action is none", wrapped(_own_interactions)),
     Bug(PrivateDistances, "explore", "the goal is two actions further", wrapped(_far_goal)),
     Bug(_Promise, "__init__", "help has to come two epochs earlier", wrapped(_too_late)),

@@ -22,17 +22,12 @@ class Bug:
         attribute: its name.
         what: what is wrong.
         change: makes it wrong.
-        survives: why no certificate can refute it; empty where one has to.
-        crashes: the error that the planner dies of, or with which its answer is refused; empty
-            where it is refuted.
     """
 
     owner: Any
     attribute: str
     what: str
     change: Change
-    survives: str = ""
-    crashes: str = ""
 
     @property
     def name(self) -> str:

@@ -6,7 +6,7 @@ from typing import Any
 from search.engine.dominance import ParetoFront
 from search.human.individual_planner import PlanGraph
 from search.human.suffix_rules import Preserved, Replan, Subplan
-from search.packed.cost_vector import INFINITE_KEY, CostLayout, Weights
+from search.packed.cost_vector import INFINITE_KEY, Weights
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 
@@ -55,10 +55,6 @@ def _any_state(self: Any, state: int, epochs: int, start: int) -> list[int]:
     return [j for j in range(first, steps + 1) if self._works(state, j)]
 
 
-def _any_end(original: Any, self: Any, state: int, epochs: int, start: int) -> Any:
-    return original(self, state, epochs, 1)
-
-
 def _by_key_alone(self: Any, labels: Any, epoch: int, key: int, idle: Any) -> bool:
     return any(k <= key for _, k, _ in labels)
 
@@ -81,30 +77,11 @@ def _largest(self: Any) -> Any:
     return last
 
 
-def _not_announced(original: Any, self: Any, key: int) -> int:
-    return key
-
-
-def _prefer_early(original: Any, self: Any, start: int, horizon: int) -> Any:
-    return start << self.start_shift
-
-
-_TIES = "a tie: 'optimal' stands for objective and cost, not for the order beyond (semantics 3.1)"
-
 BUGS = (
     Bug(Weights, "__init__", "epochs of the window are free", wrapped(_free_windows)),
     Bug(Weights, "__init__", "robots get no discount", wrapped(_undiscounted)),
     Bug(Weights, "__init__", "the human is discounted too", wrapped(_discount_for_all)),
     Bug(Weights, "team", "communication is free", replaced(_unannounced)),
-    Bug(CostLayout, "announce", "communication is free", wrapped(_not_announced)),
-    Bug(
-        CostLayout,
-        "of_action",
-        "actions are not counted",
-        replaced(lambda self, cost: self.of_cost(cost)),
-        crashes="AssertionError: asked for plans where there are none",
-    ),
-    Bug(CostLayout, "of_start", "an earlier window is preferred", wrapped(_prefer_early), survives=_TIES),
     Bug(ParetoFront, "_covered", "later but cheaper dominates", replaced(_by_key_alone)),
     Bug(ParetoFront, "_covered", "earlier but dearer dominates", replaced(_by_epoch_alone)),
     Bug(ParetoFront, "_covered", "busy robots dominate idle ones", replaced(_never_busy)),
@@ -114,12 +91,5 @@ BUGS = (
     Bug(Subplan, "key", "it may pass T", wrapped(_all_steps)),
     Bug(Subplan, "__init__", "the robots' goal is forgotten", wrapped(_any_goal)),
     Bug(Preserved, "_fitting", "any state is preserved", replaced(_any_state)),
-    Bug(
-        Preserved,
-        "_fitting",
-        "the rest may start before the window",
-        wrapped(_any_end),
-        survives="such a plan does steps of pi_H twice, so it costs no less than pi_H",
-    ),
     Bug(PlanGraph, "canonical", "the last in string order", replaced(_largest)),
 )

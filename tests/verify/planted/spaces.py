@@ -104,8 +104,6 @@ BUGS = (
     Bug(Windowed, "__init__", "horizon: an epoch more", wrapped(_longer_horizon)),
     Bug(CostLayout, "exceeds", "it never does", replaced(_never_dear)),
     Bug(CostLayout, "exceeds", "the limit itself does", replaced(_dear_at_the_limit)),
-    Bug(Unrestricted, "__init__", "horizon: an epoch less", wrapped(_shorter_horizon)),
-    Bug(Unrestricted, "__init__", "horizon: an epoch more", wrapped(_longer_horizon)),
     Bug(Unrestricted, "__init__", "the robots' goal is forgotten", wrapped(_own_goal)),
     Bug(FixedHumanPlan, "__init__", "the robots' goal is forgotten", wrapped(_own_goal)),
     Bug(windows, "best_first", "the first plan found is called optimal", wrapped(_first_is_best)),

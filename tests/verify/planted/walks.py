@@ -2,7 +2,6 @@
 
 from typing import Any
 
-from search.packed import successor_generator
 from search.robots.decoupled import Decoupled, DecoupledSuccessors
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
@@ -24,13 +23,6 @@ def _stays(original: Any, self: Any, node: Any) -> Any:
 
 
 BUGS = (
-    Bug(
-        successor_generator,
-        "in_time",
-        "robots need no time to walk",
-        replaced(always(True)),
-        crashes="InputError",
-    ),
     Bug(Decoupled, "ways", "a step shorter", wrapped(_short_cut)),
     Bug(Decoupled, "ways", "nothing is in reach", replaced(always([]))),
     Bug(DecoupledSuccessors, "rested", "what they do takes no time", wrapped(_take_no_time)),

@@ -186,11 +186,9 @@ def _leaf_text(text: str) -> Doctor:
 DOCTORED: Final[dict[str, Doctored]] = {
     # numbers of a program
     "limit raised by one": Doctored("help", lambda p: _set(limit=_first(p)["limit"] + 1)(p)),
-    "limit raised by one, branched": Doctored("branched", lambda p: _set(limit=_first(p)["limit"] + 1)(p)),
     "limit lowered": Doctored("help", _lower_limit),
     "limit lowered, without the solution": Doctored("help", _lower_limit_without_solution, alone=False),
     "limit left out": Doctored("help", lambda p: _first(p).pop("limit") and None),
-    "limit taken for none": Doctored("help", _set(limit=None)),
     "limit given where there is none": Doctored("no plan", _set(limit=10), alone=False),
     "a row loosened": Doctored("branched", _loosen),
     "a row that is needed changed": Doctored("help", lambda p: _used_row(p).update(right=10**6), alone=False),
@@ -205,14 +203,12 @@ DOCTORED: Final[dict[str, Doctored]] = {
         lambda p: _unused_row(p)["terms"][0].__setitem__(0, len(_first(p)["columns"]) - 1),
         alone=False,
     ),
-    "a row's family renamed": Doctored("help", lambda p: _used_row(p).update(family="eq. 0"), alone=False),
     "every sense turned": Doctored("branched", _flip_sense),
     "a row without a sense": Doctored("help", lambda p: _used_row(p).pop("sense") and None),
     "rows of a family left out": Doctored("branched", _drop_every("cover")),
     "robots free in the suffix": Doctored("help", _drop_every("eq. 8"), alone=False),
     "the goal dropped": Doctored("no help", _drop_every("eq. 3"), alone=False),
     "a contradiction added": Doctored("help", _more_rows, alone=False),
-    "a contradiction added to an infeasible program": Doctored("no plan", _more_rows, alone=False),
     "a column left out": Doctored("help", lambda p: _first(p)["columns"].pop() and None, alone=False),
     "a column with a fraction": Doctored("help", lambda p: _first(p)["columns"].append([0, 0.5])),
     "all columns fixed": Doctored("help", _tighter_columns, alone=False),
@@ -222,32 +218,23 @@ DOCTORED: Final[dict[str, Doctored]] = {
     # the tree
     "a multiplier's sign": Doctored("branched", _flip_inequality),
     "multipliers halved": Doctored("branched", lambda p: _scale(p, "1/2", objective=False)),
-    "multipliers raised": Doctored("branched", lambda p: _scale(p, "3", objective=False)),
     "the limit counted less": Doctored("branched", lambda p: _scale(p, "1/7", objective=True)),
     "the limit's sign": Doctored("branched", lambda p: _scale(p, "-1", objective=True)),
     "a multiplier with a denominator of zero": Doctored("branched", _leaf_text("1/0")),
     "a multiplier that is a float": Doctored("branched", _leaf_text("1.5")),
-    "a multiplier of infinity": Doctored("branched", _leaf_text("inf/1")),
     "a leaf emptied": Doctored("branched", _empty_leaf),
-    "a leaf emptied, without branches": Doctored("help", _empty_leaf),
     "a leaf dropped": Doctored("branched", _drop_side),
     "one side for the whole": Doctored("branched", _without_branch),
     "one side twice": Doctored("branched", _same_side_twice),
     "both sides changed": Doctored("branched", _sides_changed),
     "a branch's value raised": Doctored("branched", _move_branch(0, 1)),
-    "a branch's value lowered": Doctored("branched", _move_branch(0, -1)),
     "a branch's column shifted": Doctored("branched", _move_branch(1, 0)),
     "a branch on no column": Doctored("branched", _move_branch(10**6, 0)),
     "a multiplier for no row": Doctored("branched", lambda p: _multiply(p, 10**6, "1/1")),
-    "a multiplier for row -2": Doctored("branched", lambda p: _multiply(p, -2, "1/1")),
     "the limit where there is none": Doctored("no plan", lambda p: _multiply(p, -1, "1/1")),
     "no tree": Doctored("help", _set(tree={})),
-    "a tree of another kind": Doctored("help", _set(tree={"trust": "me"})),
     # the whole
     "a program missing": Doctored("two programs", lambda p: p["programs"].pop() and None, alone=False),
-    "the first program missing": Doctored(
-        "two programs", lambda p: p["programs"].pop(0) and None, alone=False
-    ),
     "programs swapped": Doctored("two programs", _swap_programs, alone=False),
     "a program twice": Doctored("help", lambda p: p["programs"].append(_first(p)), alone=False),
     "no programs": Doctored("help", _top(programs=[])),
@@ -255,7 +242,6 @@ DOCTORED: Final[dict[str, Doctored]] = {
     "another claim": Doctored("help", _top(claim="no_opportunity"), alone=False),
     "a claim that nobody makes": Doctored("help", _top(claim="beautiful")),
     "another encoding": Doctored("help", _top(encoding="paper"), alone=False),
-    "an encoding that there is not": Doctored("help", _top(encoding="enigma"), alone=False),
     "another unit": Doctored("help", _set(unit="1/1"), alone=False),
     "another name": Doctored("help", _set(name="some windows"), alone=False),
     "another task's": Doctored("help", _another_proof("suffixes"), alone=False),
@@ -268,11 +254,5 @@ DOCTORED: Final[dict[str, Doctored]] = {
     ),
     "a suffix from another epoch": Doctored(
         "suffixes", lambda p: _first(p)["suffixes"][0].update(epoch=3), alone=False
-    ),
-    "a suffix from another state": Doctored(
-        "suffixes", lambda p: _first(p)["suffixes"][0].update(state=["p"]), alone=False
-    ),
-    "a suffix from no state": Doctored(
-        "suffixes", lambda p: _first(p)["suffixes"][0].update(state=[["?"]]), alone=False
     ),
 }

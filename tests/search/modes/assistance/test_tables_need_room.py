@@ -6,13 +6,11 @@ import pytest
 import serendipity
 from search.modes.assistance.distances import closure
 from search.modes.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
-from search.modes.assistance.distances.layers import Layers
 from search.modes.assistance.distances.perimeter import PackedPlaces, ball_around
 from search.packed.cost_vector import ACTIONS_BITS
 from search.packed.packed_task import PackedGoal
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.testing.cases import case_5
-from serendipity.testing.countdown import Countdown
 
 
 class Full(Deadline):
@@ -56,28 +54,6 @@ def test_a_ball_asks_for_all_it_may_touch() -> None:
     assert ball_around(arcs, goal, [mask], values, 0, Deadline()) is not None
     assert ball_around(arcs, goal, [mask], values, 0, Full()) is None
     assert PackedPlaces(arcs, [mask], values, 0, Deadline()).item == np.dtype(np.uint32).itemsize
-
-
-def test_layers_ask_before_they_sort(monkeypatch: pytest.MonkeyPatch) -> None:
-    arcs, goal, mask = line(40)
-    Layers(arcs, goal, [mask], 0, 1000, Full())  # little is not asked for
-    monkeypatch.setattr("search.modes.assistance.distances.arrays._LARGE", 0)
-    with pytest.raises(LimitReachedError):
-        Layers(arcs, goal, [mask], 0, 1000, Full())
-
-
-def test_the_clock_is_looked_at_between_sorts() -> None:
-    _, goal, mask = line(40)
-    deadline = Countdown(100)
-    Layers([], goal, [mask], 0, 1000, deadline)
-    assert deadline.left_over[0] < 95
-
-
-def test_edges_are_in_order_of_their_targets() -> None:
-    arcs, goal, mask = line(40)
-    layers = Layers(arcs, goal, [mask], 0, 1000, Deadline())
-    values = np.random.default_rng(1).integers(0, 1 << 20, 5000).astype(np.int32)
-    assert (layers._ordered(values) == np.argsort(values, kind="stable")).all()
 
 
 @pytest.mark.parametrize("ties", ["optimistic", "robust", "expected"])

@@ -6,8 +6,6 @@ from typing import Any
 import pytest
 
 import serendipity
-from search.classical.planner import ClassicalPlanner
-from search.kernel.library import library
 from serendipity import UsageError
 from serendipity.testing.builders import task
 from serendipity.testing.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8
@@ -135,23 +133,3 @@ def test_what_keeps_him_busy_for_nothing_is_a_help(model: str, chat: str) -> Non
     )
     result = proved(built, human_model=model)
     assert (result.cost, result.opportunity) == (2.0, True)
-
-
-@pytest.mark.skipif(library() is None, reason="there is no kernel here")
-@pytest.mark.parametrize("model", MODELS)
-def test_the_humans_optimum_is_proved_once(model: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A local human's own packing, in which they may be wrong, is told what the prediction has proved."""
-    cheapest, provers = ClassicalPlanner.cheapest, list[ClassicalPlanner]()
-
-    def watched(self: ClassicalPlanner, state: int, *given: Any, **named: Any) -> int:
-        found = cheapest(self, state, *given, **named)
-        if found == self.amount(range(4)):  # all that the human can do
-            provers.append(self)
-        return found
-
-    monkeypatch.setattr(ClassicalPlanner, "cheapest", watched)
-    deeds = {f"do{i} {agent}": f"-> done{i} @ 3" for i in range(4) for agent in ("h", "r")}
-    built = task(goal="done0 done1 done2 done3", actions=deeds)
-    result = serendipity.plan(built, human_model=model, discount="0.5")
-    assert (result.status, result.human_cost) == ("optimal", 12)
-    assert provers and all(planner is provers[0] for planner in provers)

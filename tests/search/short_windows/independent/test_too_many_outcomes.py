@@ -34,16 +34,6 @@ def test_the_clock_is_looked_at() -> None:
         outcomes(all_set(), 0, FIELDS, sum(FIELDS), {}, Deadline(time_limit=0))
 
 
-@pytest.mark.parametrize("seed", range(20))
-def test_each_column_is_there_once_in_order(seed: int) -> None:
-    dice = np.random.default_rng(seed)
-    rows, amounts = dice.integers(0, 3, (3, 60)).astype(np.uint64), dice.integers(0, 4, 60)
-    columns = [tuple(map(int, column)) for column in rows.T]
-    least = {column: min(amounts[i] for i in range(60) if columns[i] == column) for column in columns}
-    kept = cheapest(rows, amounts, Deadline())
-    assert [(columns[i][::-1], amounts[i]) for i in kept] == sorted((c[::-1], a) for c, a in least.items())
-
-
 def test_the_clock_is_looked_at_word_by_word() -> None:
     for looks in range(3):
         with pytest.raises(LimitReachedError):

@@ -5,11 +5,8 @@ from random import Random
 
 import pytest
 
-from search.packed.cost_vector import FAR
-from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
 from search.short_windows.independent import timeline
-from search.short_windows.independent.provision import detours, leaves
 from serendipity.model import Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import best
@@ -17,7 +14,7 @@ from tests.search.short_windows.independent.test_bounds_are_admissible import (
     admissible_bound,
     bound_and_cost,
 )
-from tests.search.small_tasks import ONE_EPOCH, packed_of
+from tests.search.small_tasks import ONE_EPOCH
 
 _CHORES = {f"a_chore_{i} h": f"-> chore_{i} @ 1" for i in range(5)}
 _DONE = " ".join(f"chore_{i}" for i in range(5))
@@ -47,20 +44,8 @@ def _gate() -> Task:
     return build(agents="h r s", goal=f"{_DONE} one two", actions=_CHORES | own | help_)
 
 
-def _parcel(packed: PackedTask) -> int:
-    """The field that robots set and the goal asks for."""
-    (field,) = (
-        f for f in packed.fields if f & packed.goal.mask and any(f & ~op.keep for op in packed.others)
-    )
-    return field
-
-
 def _none(packed: PackedTask) -> list[int]:
     return packed.fields[:0]
-
-
-def _ten(op: Operator) -> int:
-    return 10 * (op.agents > 0)
 
 
 def test_a_parcel_that_is_handed_over() -> None:
@@ -80,32 +65,6 @@ def test_what_both_robots_need_is_paid_once() -> None:
     assert best(_gate(), _HELP).cost == Fraction("5.3")
     found = bound_and_cost(_gate(), _HELP)
     assert found[0] == Fraction("5.3")
-
-
-def test_only_what_nothing_else_depends_on_is_a_leaf() -> None:
-    relay, gate = packed_of(_relay()), packed_of(_gate())
-    parcel = [
-        field for field in relay.fields if field & relay.others[0].need_mask and field & relay.goal.mask
-    ]
-    assert set(parcel) <= set(leaves(relay))
-    opened = next(op for op in gate.others if not op.need_mask)
-    assert not gate.all_ones & ~opened.keep & sum(leaves(gate))
-
-
-def test_the_cheapest_way_of_others() -> None:
-    packed = packed_of(_relay())
-    parcel = _parcel(packed)
-    shift = (parcel & -parcel).bit_length() - 1
-    names = {packed.task.actions[op.action].name.strip("()").split()[0]: op for op in packed.others}
-    start = packed.init & parcel
-    loaded, dropped = names["load_r"].put & parcel, names["drop_r"].put & parcel
-    robots = {name: op.agents for name, op in names.items()}
-    by_first = detours(packed, parcel, robots["load_s"], _ten)
-    assert by_first[start >> shift, dropped >> shift] == 20
-    assert by_first[loaded >> shift, dropped >> shift] == 10
-    assert by_first[dropped >> shift, dropped >> shift] == 0
-    by_second = detours(packed, parcel, robots["load_r"], _ten)
-    assert by_second[start >> shift, dropped >> shift] == FAR
 
 
 def _hand_overs(dice: Random) -> Task:
