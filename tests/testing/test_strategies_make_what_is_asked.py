@@ -31,7 +31,7 @@ FEW = settings(max_examples=settings.default.max_examples // 4)
 @given(strips_tasks(facts=(4, 4), robots=(1, 1), costs=("7",)))
 def test_sizes_and_costs_are_those_asked_for(task: Task) -> None:
     assert len(task.facts) <= 4
-    assert task.agents == ("h", "r")
+    assert task.agents == ("hum", "rob")
     assert {action.cost for action in task.actions if task.human in action.participants} <= {7}
 
 

@@ -1,5 +1,6 @@
 """Random small tasks: walks with short cuts, errands, plain STRIPS, families; equal dice give equal tasks."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations, pairwise
 from random import Random
@@ -9,7 +10,7 @@ from serendipity.testing.builders import Builder
 from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
 from verify.base.optimal_plans import OptimalPlans
 
-_COSTS = ("1", "1", "1", "2", "3", "0", "0.5", "0.1", "2.5")
+COSTS = ("1", "1", "1", "2", "3", "0", "0.5", "0.1", "2.5")
 _LONGEST = 6
 """Actions of the human's plan in a task of a family."""
 
@@ -24,14 +25,18 @@ def random_task(dice: Random, family: str = "") -> Task:
     if family:
         task = _of_family(dice, family)
     else:
-        task = dice.choice((_corridor, _corridor, _corridor, _strips, _strips, _errands))(dice)
-    for _ in range(dice.choice((0, 0, 0, 0, 1, 2))):
-        task = _with_variants(dice, task)
-    if dice.random() < (0.08 if family else 0.25):
-        task = _with_robot_goal(dice, task)
+        task = dice.choice((corridor, corridor, corridor, strips, strips, errands))(dice)
+    task = varied(dice, task, robots_want=0.08 if family else 0.25)
     if dice.random() < (0.02 if family else 0.05):
         task = replace(task, init=task.init.union(task.goal.positive).difference(task.goal.negative))
     return task
+
+
+def varied(dice: Random, task: Task, *, robots_want: float = 0.25) -> Task:
+    """The task, now and then with actions in variants, and with a goal of the robots' own."""
+    for _ in range(dice.choice((0, 0, 0, 0, 1, 2))):
+        task = _with_variants(dice, task)
+    return _with_robot_goal(dice, task) if dice.random() < robots_want else task
 
 
 def _of_family(dice: Random, family: str) -> Task:
@@ -104,7 +109,7 @@ def _with_robot_goal(dice: Random, task: Task) -> Task:
     return replace(task, robot_goal=Condition((fact,), ()) if true else Condition((), (fact,)))
 
 
-def _corridor(dice: Random) -> Task:
+def corridor(dice: Random) -> Task:
     """A walk between places; robots open shortcuts, block ways, or take part in a carry."""
     agents = ("hum", "rob", "bot")[: dice.choice((2, 2, 3))]
     builder = Builder(agents)
@@ -119,7 +124,7 @@ def _corridor(dice: Random) -> Task:
     for k in range(dice.randint(1, 3)):
         i, j = sorted(dice.sample(range(len(places)), 2))
         builder.action(
-            f"jump{k}", (0,), f"{places[i]} open{k}", f"{places[j]} !{places[i]}", dice.choice(_COSTS)
+            f"jump{k}", (0,), f"{places[i]} open{k}", f"{places[j]} !{places[i]}", dice.choice(COSTS)
         )
         robot = dice.randrange(1, len(agents))
         needs = dice.choice(("", "ready", "!tired", "!shut"))
@@ -128,19 +133,19 @@ def _corridor(dice: Random) -> Task:
             (robot,),
             needs,
             f"open{k} {dice.choice(('', 'tired', '!ready'))}",
-            dice.choice(_COSTS),
+            dice.choice(COSTS),
         )
     for robot in range(1, len(agents)):
         effects = dice.choice(("ready", "shut", "!shut", "ready tired", "!open0"))
-        builder.action("prepare", (robot,), "", effects, dice.choice(_COSTS))
+        builder.action("prepare", (robot,), "", effects, dice.choice(COSTS))
     if dice.random() < 0.5:
         i, j = sorted(dice.sample(range(len(places)), 2))
         team = tuple(sorted((0, dice.randrange(1, len(agents)))))
-        builder.action("carry", team, places[i], f"{places[j]} !{places[i]}", dice.choice(_COSTS))
+        builder.action("carry", team, places[i], f"{places[j]} !{places[i]}", dice.choice(COSTS))
     return builder.task(f"{places[0]} {dice.choice(('', 'ready', 'tired'))}", places[-1])
 
 
-def _errands(dice: Random) -> Task:
+def errands(dice: Random) -> Task:
     """Robots walk about a building of their own, and do in its rooms what helps or hinders."""
     agents = ("hum", "rob", "bot")
     builder = Builder(agents)
@@ -150,7 +155,7 @@ def _errands(dice: Random) -> Task:
     rooms = range(dice.randint(2, 4))
     start = []
     for robot in (1, 2):
-        step = dice.choice(_COSTS)
+        step = dice.choice(COSTS)
         start.append(f"{agents[robot]}{dice.choice(rooms)}")
         for i, j in pairwise(rooms):
             for here, there in ((i, j), (j, i)):
@@ -160,42 +165,54 @@ def _errands(dice: Random) -> Task:
             needs = dice.choice(("", "", "ready", "!tired", "box"))
             effects = dice.choice(("open0", "open0", "open1", "ready", "box !ready", "open1 tired", "!open0"))
             room = f"{agents[robot]}{dice.choice(rooms)}"
-            builder.action(f"deed{k}", (robot,), f"{room} {needs}", effects, dice.choice(_COSTS))
+            builder.action(f"deed{k}", (robot,), f"{room} {needs}", effects, dice.choice(COSTS))
     for k in range(2):
         i, j = sorted(dice.sample(range(len(places)), 2))
         jump = f"{places[j]} !{places[i]} {dice.choice(('', '', '!ready'))}"
-        builder.action(f"jump{k}", (0,), f"{places[i]} open{k}", jump, dice.choice(_COSTS))
+        builder.action(f"jump{k}", (0,), f"{places[i]} open{k}", jump, dice.choice(COSTS))
     if dice.random() < 0.3:
         start.append(_pushed(dice, builder, rooms))
     if dice.random() < 0.4:
         both = " ".join(f"{agents[robot]}{dice.choice(rooms)}" for robot in (1, 2))
         effects = dice.choice(("open0", "open1", "box ready"))
-        builder.action("lift", (1, 2), both, effects, dice.choice(_COSTS))
+        builder.action("lift", (1, 2), both, effects, dice.choice(COSTS))
     if dice.random() < 0.4:
         i, j = sorted(dice.sample(range(len(places)), 2))
         robot = dice.choice((1, 2))
         met = f"{places[i]} {agents[robot]}{dice.choice(rooms)} {dice.choice(('', '', 'box'))}"
-        builder.action("carry", (0, robot), met, f"{places[j]} !{places[i]}", dice.choice(_COSTS))
+        builder.action("carry", (0, robot), met, f"{places[j]} !{places[i]}", dice.choice(COSTS))
     init = " ".join((places[0], *start, *dice.sample(("ready", "tired", "box"), dice.randint(0, 2))))
     return builder.task(init, places[-1])
 
 
 def _pushed(dice: Random, builder: Builder, rooms: range) -> str:
     """A crate that both robots move together, and what it is good for; returns where it is."""
-    step = dice.choice(_COSTS)
+    step = dice.choice(COSTS)
     for i, j in pairwise(rooms):
         for here, there in ((i, j), (j, i)):
             builder.action(f"push{here}{there}", (1, 2), f"crate{here}", f"crate{there} !crate{here}", step)
     needs = f"crate{dice.choice(rooms)} {dice.choice(('', 'ready', 'box'))}"
-    builder.action("climb", dice.choice(((1,), (2,), (1, 2))), needs, "open0", dice.choice(_COSTS))
+    builder.action("climb", dice.choice(((1,), (2,), (1, 2))), needs, "open0", dice.choice(COSTS))
     return f"crate{dice.choice(rooms)}"
 
 
-def _strips(dice: Random) -> Task:
-    """Random actions, negative preconditions and goals included."""
-    agents = ("hum", "rob", "bot")[: dice.choice((2, 2, 3))]
+def strips(
+    dice: Random,
+    sizes: tuple[int, int] = (3, 7),
+    crowds: Sequence[int] = (2, 2, 3),
+    costs: Sequence[str] = COSTS,
+) -> Task:
+    """Random actions, negative preconditions and goals included.
+
+    Args:
+        dice: decides everything.
+        sizes: how many facts, from and to.
+        crowds: how many agents, one of these.
+        costs: what the human's and joint actions may cost.
+    """
+    agents = ("hum", "rob", "bot")[: dice.choice(crowds)]
     builder = Builder(agents)
-    facts = [f"f{i}" for i in range(dice.randint(3, 7))]
+    facts = [f"f{i}" for i in range(dice.randint(*sizes))]
 
     def literals(most: int, negated: float) -> str:
         chosen = dice.sample(facts, dice.randint(0, most))
@@ -203,7 +220,7 @@ def _strips(dice: Random) -> Task:
 
     for k in range(dice.randint(3, 7)):
         builder.action(
-            f"do{k}", (0,), literals(2, 0.25), f"{dice.choice(facts)} {literals(2, 0.6)}", dice.choice(_COSTS)
+            f"do{k}", (0,), literals(2, 0.25), f"{dice.choice(facts)} {literals(2, 0.6)}", dice.choice(costs)
         )
     for k in range(dice.randint(2, 5)):
         robot = dice.randrange(1, len(agents))
@@ -212,7 +229,7 @@ def _strips(dice: Random) -> Task:
             (robot,),
             literals(1, 0.25),
             f"{dice.choice(facts)} {literals(1, 0.6)}",
-            dice.choice(_COSTS),
+            dice.choice(COSTS),
         )
     for k in range(dice.randint(0, 2)):
         team = tuple(sorted(dice.sample(range(len(agents)), 2)))
@@ -221,7 +238,7 @@ def _strips(dice: Random) -> Task:
             team,
             literals(1, 0.25),
             f"{dice.choice(facts)} {literals(1, 0.5)}",
-            dice.choice(_COSTS),
+            dice.choice(costs),
         )
     goal = " ".join(
         ("!" if dice.random() < 0.2 else "") + fact for fact in dice.sample(facts, dice.randint(1, 2))

@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import accumulate
 from typing import Final
 
+from hypothesis import assume
 from hypothesis import strategies as st
 
 from serendipity.model import (
@@ -77,6 +78,7 @@ def bystander_tasks(draw: st.DrawFn) -> Task:
     built = draw(st.one_of(several, timed_tasks(of=several)))
     agent = len(built.agents) - 1
     own = [action for action in built.actions if action.participants == (agent,)]
+    assume(own)
     chosen = draw(st.lists(st.sampled_from(own), min_size=1, max_size=3))
     epoch, plan = 1, list[tuple[int, str]]()
     for action in chosen:
