@@ -4,7 +4,7 @@ import pytest
 
 import serendipity
 from serendipity.execution import Execution, Omniscient, Replanner
-from serendipity.model import Condition, InputError, Task, UsageError
+from serendipity.model import Condition, Task, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.builders import usar
 from tests.execution.living import lived, verdicts
@@ -153,14 +153,3 @@ def test_what_is_impossible_is_tried_in_vain(room2: Task) -> None:
         run.step("fly")
     with pytest.raises(UsageError, match="no action 'move robot room4 hall4' that commx can do alone"):
         run.step("move robot room4 hall4")
-
-
-def test_wrong_arguments_are_refused(room2: Task) -> None:
-    with pytest.raises(UsageError, match="discount: expected a number in"):
-        Execution(room2, discount=2)
-    with pytest.raises(UsageError, match="deadline: expected"):
-        Execution(room2, deadline=-1)
-    with pytest.raises(InputError, match="there is no fact 'nowhere'"):
-        Execution(room2, goals=[{"goal": ["nowhere"]}])
-    with pytest.raises(UsageError, match="there is no fact 'nowhere'"):
-        Execution(room2).change({"nowhere": True})

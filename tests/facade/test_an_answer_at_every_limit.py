@@ -10,13 +10,10 @@ import pytest
 
 import serendipity
 from search import PreparedTask, first_answer
-from search.classical.planner import ClassicalPlanner
-from search.human.individual_planner import IndividualPlanner
 from search.kernel.library import library
 from serendipity import LimitReachedError, Task
 from serendipity.cli.text.answers import plan_report
 from serendipity.model import Deadline, Options, Result
-from serendipity.model.resources.collection import no_collection
 from serendipity.testing.builders import task as build
 from serendipity.testing.countdown import Countdown
 from serendipity.testing.generator.families import family_task
@@ -151,17 +148,6 @@ def test_a_plan_that_takes_too_many_epochs_is_no_answer(options: dict[str, Any])
         assert result.horizon in (None, len(best))
 
 
-def test_nor_is_it_an_error_where_better_ones_are_out_of_reach(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The error was that the horizon is too short."""
-
-    def late(self: IndividualPlanner, state: int) -> None:
-        raise LimitReachedError("time-limit")
-
-    monkeypatch.setattr(IndividualPlanner, "canonical", late)
-    result = serendipity.plan(_switches(), horizon=3)
-    assert result.status == "unknown" or len(result.human_plan or ()) <= 3
-
-
 @pytest.mark.parametrize("options", ALL, ids=str)
 def test_what_was_told_on_the_way_is_not_taken_back(options: dict[str, Any]) -> None:
     """In serendipity mode it was: the answer at hand, where a limit came before the human's optimum."""
@@ -176,19 +162,3 @@ def test_what_was_told_on_the_way_is_not_taken_back(options: dict[str, Any]) -> 
         told = answers[-1].cost is not None
         assert told or all(answer.cost is None for answer in answers)
         assert before or not told
-
-
-def test_the_bound_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its tables stayed for as long as the call."""
-    gone, free = [0], ClassicalPlanner.__del__
-
-    def freed(self: ClassicalPlanner) -> None:
-        gone[0] += 1
-        free(self)
-
-    known = first_answer(PreparedTask(_switches()), Options(), Deadline())
-    monkeypatch.setattr(ClassicalPlanner, "__del__", freed)
-    with no_collection():
-        *_, answer = known.answers()
-        assert answer.lower_bound
-        assert gone[0] == 1

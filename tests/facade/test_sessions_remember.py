@@ -11,7 +11,7 @@ from serendipity import PlanStep, Result, SerendipityError, Session, Task
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.keywords import Ties
 from serendipity.testing.builders import task
-from serendipity.testing.cases import case_1, case_2, usar
+from serendipity.testing.cases import case_1, usar
 from serendipity.testing.generator import PlanCall, random_call
 from tests.endings import endings
 
@@ -134,17 +134,6 @@ def test_what_is_proved_stays_proved_while_all_goes_as_planned() -> None:
         assert now.window is not None and now.window.start == answer.window.start - epoch
 
 
-@pytest.mark.parametrize("case", [case_1, case_2])
-def test_so_it_does_where_nothing_helps(case: object) -> None:
-    session = Session(case(), discount=0)  # type: ignore[operator]
-    answer = session.plan()
-    assert not answer.opportunity
-    for step in (answer.plan or ())[:3]:
-        session.execute([step.action])
-        now = session.plan()
-        assert (now.status, now.opportunity, now.statistics["expanded"]) == ("optimal", False, 0)
-
-
 def _begun() -> Session:
     """Help that is proved, an epoch after it was begun."""
     session = Session(case_1(), discount=0.9)
@@ -169,16 +158,6 @@ def test_a_world_that_is_other_than_planned_is_looked_at_anew() -> None:
     assert serendipity.check(session.task, early).refuted is None
     fresh = serendipity.plan(replace(session.task), human_plan=session.human_plan, discount=0.9)
     assert session.plan().cost == fresh.cost
-
-
-def test_a_robot_that_did_not_do_its_part_spoils_the_rest() -> None:
-    session = Session(case_1(), discount=0.9)
-    answer = session.plan()
-    session.execute([step.action for step in _now(answer) if "h" in step.agents])
-    early = _interrupted(session)
-    assert serendipity.check(session.task, early).refuted is None
-    fresh = serendipity.plan(replace(session.task), human_plan=session.human_plan, discount=0.9)
-    assert (session.plan().cost, session.plan().status) == (fresh.cost, "optimal")
 
 
 def test_another_plan_of_the_human_and_another_goal_are_other_questions() -> None:

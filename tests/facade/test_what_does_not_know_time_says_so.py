@@ -46,13 +46,6 @@ def test_waiting_is_refused_elsewhere() -> None:
         serendipity.simulate(plain(), waiting)
 
 
-def test_waiting_is_kept_and_paid_for_where_a_plan_is_given() -> None:
-    waits = serendipity.plan(plain(), human_plan=[(3, "do h")])
-    assert (waits.cost, waits.horizon) == (1, 3)
-    assert serendipity.plan(plain(), human_plan=[(1, "do h")]).horizon == 1
-    assert serendipity.plan(plain(), waiting_cost=1, mode="composite", horizon=3).cost == 1
-
-
 def test_what_has_a_head_start_is_refused_elsewhere() -> None:
     begun = serendipity.plan(plain(), head_start=2)
     assert (begun.status, begun.horizon) == ("optimal", 3)

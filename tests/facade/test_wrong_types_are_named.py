@@ -14,35 +14,13 @@ from serendipity.testing.builders import task as built
 WRONG: dict[str, tuple[Callable[[Task], Any], str]] = {
     "no task": (lambda _: serendipity.plan(None), "task: expected a Task"),  # type: ignore[arg-type]
     "a task's name": (lambda _: serendipity.plan("room2"), "task: expected a Task.* got 'room2'"),  # type: ignore[arg-type]
-    "a session of a name": (lambda _: Session("room2"), "task: expected a Task"),  # type: ignore[arg-type]
     "a plan as a text": (
         lambda task: serendipity.plan(task, human_plan="move commx room13 hall8"),
         "human plan: expected a list of names, got 'move commx",
     ),
-    "a plan of numbers": (
-        lambda task: serendipity.plan(task, human_plan=[1, 2]),  # type: ignore[list-item]
-        r"human plan: expected a list of names, got \[1, 2\]",
-    ),
-    "an action as a text": (
-        lambda task: Session(task).execute("move commx room13 hall8"),
-        "actions: expected a list of names",
-    ),
-    "what the human follows": (
-        lambda task: Session(task).follow("move"),
-        "human plan: expected a list of names",
-    ),
     "a goal as a text": (
         lambda task: Session(task).set_goal("at commx hall8"),
         "goal: expected a list of names",
-    ),
-    "no folder": (lambda _: serendipity.load(None), "path: expected a path, got None"),  # type: ignore[arg-type]
-    "no result": (
-        lambda task: serendipity.verify(task, None),  # type: ignore[arg-type]
-        "result: expected a Result, such as serendipity.plan gives, got None",
-    ),
-    "a number for goals": (
-        lambda task: serendipity.recognise(task, goals=5),  # type: ignore[arg-type]
-        "goals: expected a file, or a list of goals, got 5",
     ),
     "what can't be shown": (lambda _: serendipity.load(_Hidden()), "path: .* got a value of type _Hidden"),  # type: ignore[arg-type]
 }

@@ -3,12 +3,10 @@
 import re
 import shlex
 from dataclasses import replace
-from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
-import serendipity
 from serendipity.evaluation.crosscheck import JUDGES, PlanCall, compare
 from serendipity.model import Task
 from serendipity.testing import Answer, PlannerError, check_planner, random_call
@@ -120,11 +118,6 @@ def test_bad_options_are_told_in_a_line(words: list[str], why: str, pytester: py
     )
 
 
-def test_nothing_changes_where_no_planner_is_named(pytester: pytest.Pytester) -> None:
-    pytester.makepyfile(test_mine="def test_mine():\n    pass\n")
-    pytester.runpytest_inprocess("-p", "serendipity.testing.plugin").assert_outcomes(passed=1)
-
-
 def idle(task: Task, options: object, human_plan: list[str] | None) -> list[str] | None:
     """A planner that never helps."""
     if task.robot_goal:
@@ -138,23 +131,6 @@ def test_a_function_is_checked_in_a_test_of_ones_own(tmp_path: Path) -> None:
         check_planner(idle, cases=tmp_path)
     assert "it leaves the human alone, where help makes the objective" in str(raised.value)
     assert (tmp_path / "idle-brute-force-serendipity" / "commands.txt").exists()
-
-
-def joint(task: Task, discount: Fraction) -> list[str] | None:
-    """A planner of joint plans."""
-    result = serendipity.plan(task, mode="composite", horizon="inf", interference="strict", discount=discount)
-    return None if result.plan is None else [step.action for step in result.plan]
-
-
-def free_robots(task: Task, discount: Fraction) -> list[str] | None:
-    """One that takes robots to be free."""
-    return joint(task, Fraction(1))
-
-
-def test_a_planner_of_joint_plans_is_asked_for_these() -> None:
-    check_planner(joint, count=8)
-    with pytest.raises(PlannerError, match="is the least"):
-        check_planner(free_robots)
 
 
 def test_who_knows_help_is_a_judge_of_crosscheck_in_every_mode() -> None:

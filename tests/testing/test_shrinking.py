@@ -29,17 +29,6 @@ def test_halves_are_left_out_first() -> None:
     assert len(asked) < len(FACTS), "one by one it would be at least as many"
 
 
-def test_it_ends_with_its_time() -> None:
-    asked: list[int] = []
-
-    def slow(call: PlanCall) -> bool:
-        time.sleep(0.02)
-        return False
-
-    assert shrink(CALL, slow, time_limit=0.1, on_try=asked.append) == CALL
-    assert 1 <= len(asked) <= 10
-
-
 STEP = "(refuted: step {} of its plan, '{}', is not applicable)"
 DEAR = "optimal, cost 5 (refuted: its plan costs 5, where 4 is the least)"
 NO_GOAL = "optimal, cost 5 (refuted: its plan misses a goal)"

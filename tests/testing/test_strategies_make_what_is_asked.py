@@ -9,9 +9,7 @@ from serendipity.model import Options, Task
 from serendipity.testing import (
     Call,
     best,
-    by_function,
     calls,
-    family_tasks,
     options,
     plans,
     random_call,
@@ -33,12 +31,6 @@ def test_sizes_and_costs_are_those_asked_for(task: Task) -> None:
     assert len(task.facts) <= 4
     assert task.agents == ("hum", "rob")
     assert {action.cost for action in task.actions if task.human in action.participants} <= {7}
-
-
-@FEW
-@given(family_tasks(families=["switches"], sizes=[(3, 2)]))
-def test_families_are_those_asked_for(task: Task) -> None:
-    assert (task.name, len(task.agents)) == ("switches", 2)
 
 
 @FEW
@@ -78,19 +70,3 @@ def test_a_settled_call_has_its_plan_and_its_horizon() -> None:
     assert (asked.options.horizon, len(asked.human_plan or ())) == (7, 7)
     given_plan = case_3().plan_from_names(CASE_3_PLAN)
     assert settled(Call(case_3(), Options(horizon=9), given_plan)).human_plan == given_plan
-
-
-def two(task: object, discount: object) -> None: ...
-def three(task: object, options: object, human_plan: object) -> None: ...
-def with_default(task: object, options: object, human_plan: object = None) -> None: ...
-def four(task: object, options: object, human_plan: object, more: object) -> None: ...
-
-
-def test_functions_of_two_and_of_three_arguments_are_told_apart() -> None:
-    assert [by_function(function).every_mode for function in (two, three, with_default)] == [
-        False,
-        True,
-        True,
-    ]
-    with pytest.raises(serendipity.UsageError, match="of 4 arguments"):
-        by_function(four)

@@ -1,10 +1,5 @@
 """The engine: who is picked, what is refused, what statuses promise."""
 
-import json
-from collections.abc import Iterator
-from dataclasses import replace
-from typing import Any
-
 import pytest
 from unified_planning.engines import PlanGenerationResult, PlanGenerationResultStatus
 from unified_planning.engines.mixins.anytime_planner import AnytimeGuarantee
@@ -24,8 +19,7 @@ from unified_planning.shortcuts import (
 from unified_planning.test.examples.multi_agent import get_example_problems
 
 import serendipity.up
-from serendipity.model import Result, Task, UsageError
-from serendipity.up import answers
+from serendipity.model import UsageError
 from serendipity.up.engine import SerendipityEngine
 from tests.up.problems import corridor, costs, kitchen
 
@@ -146,54 +140,13 @@ def without_metric(length: int) -> Problem:
     return problem
 
 
-class _NeverBetter:
-    """Stands for a search that has a plan, and would go on for it to be better."""
-
-    def __init__(self, asked: list[str]) -> None:
-        self.asked = asked
-
-    def __call__(self, task: Task, **options: Any) -> Iterator[Result]:
-        options.pop("deadline")
-        best = serendipity.plan(task, **options)
-        self.asked.append("first")
-        yield replace(best, status="feasible", lower_bound=0.0)
-        self.asked.append("better")
-        yield best
-
-
-@pytest.mark.parametrize("metric", [False, True])
-def test_the_first_plan_is_enough_unless_one_is_better(metric: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked: list[str] = []
-    monkeypatch.setattr(answers, "plan_anytime", _NeverBetter(asked))
+def test_the_first_plan_is_enough_unless_one_is_better() -> None:
     problem = without_metric(9)
-    if metric:
-        problem.add_quality_metric(MinimizeSequentialPlanLength())
-    result = solve(problem)
-    assert asked == ["first", "better"][: 1 + metric]
-    assert result.status is (Status.SOLVED_OPTIMALLY if metric else Status.SOLVED_SATISFICING)
-    with FACTORY.PlanValidator(problem_kind=problem.kind, plan_kind=result.plan.kind) as validator:
-        assert validator.validate(problem, result.plan)
-    *_, last = SerendipityEngine().get_solutions(without_metric(9))
-    assert asked[-1] == "better", "an anytime planner goes on"
-    assert len(last.plan.actions) == 4
-
-
-def test_a_plan_is_an_answer_whatever_limit_came(monkeypatch: pytest.MonkeyPatch) -> None:
-    def cut(task: Task, **options: Any) -> Iterator[Result]:
-        options.pop("deadline")
-        yield replace(serendipity.plan(task, **options), status="feasible", reason="time-limit")
-
-    monkeypatch.setattr(answers, "plan_anytime", cut)
-    result = solve(kitchen())
-    assert result.status is Status.SOLVED_SATISFICING
-    assert result.plan is not None
-    assert "time-limit" in [message.message for message in result.log_messages]
-
-
-def test_metrics_of_several_parts_are_json() -> None:
-    metrics = solve(kitchen(), **HELP).metrics
-    assert json.loads(metrics["window"]).keys() == {"start", "end"}
-    assert set(json.loads(metrics["realised"]).values()) <= {True, False}
+    assert solve(problem).status is Status.SOLVED_SATISFICING
+    *_, last = SerendipityEngine().get_solutions(problem)
+    assert len(last.plan.actions) == 4, "an anytime planner goes on"
+    problem.add_quality_metric(MinimizeSequentialPlanLength())
+    assert solve(problem).status is Status.SOLVED_OPTIMALLY
 
 
 def test_a_refusal_names_what_helps() -> None:
