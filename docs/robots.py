@@ -3,10 +3,13 @@
 The paper's III-C and III-D, as clips and as strips of some epochs, and III-C with rubble in a doorway.
 """
 
+import io
 import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
+
+from PIL import Image
 
 import serendipity
 from serendipity.model import Task, UsageError
@@ -54,7 +57,7 @@ def main() -> int:
         except UsageError as error:
             sys.stderr.write(f"Error: {error}\n")
             return 2
-        pictures = {".png": film.strip(log, scene.epochs)}
+        pictures = {".png": strip(film, log, scene.epochs)}
         if scene.clip:
             pictures[".gif"] = film.clip(".gif", log)
         for suffix, picture in pictures.items():
@@ -78,6 +81,19 @@ def filmed(scene: Scene) -> tuple[Film, tuple[dict[str, object], ...]]:
     for line in runs.story():
         sys.stdout.write(f"  {line}\n")
     return film, runs.logs[0]
+
+
+def strip(film: Film, log: tuple[dict[str, object], ...], epochs: tuple[int, ...]) -> bytes:
+    """Moments in the middle of some epochs as one picture, below each other, as PNG."""
+    pages = film.pages(log)
+    of = {epoch: [page for at, page in pages if at == epoch] for epoch in epochs}
+    shown = [frames[len(frames) // 2] for frames in of.values()]
+    picture = Image.new("RGB", (shown[0].width, (shown[0].height + 6) * len(shown) - 6), (96, 100, 110))
+    for number, page in enumerate(shown):
+        picture.paste(page, (0, number * (page.height + 6)))
+    buffer = io.BytesIO()
+    picture.quantize(96, dither=Image.Dither.NONE).save(buffer, "png", optimize=True)
+    return buffer.getvalue()
 
 
 if __name__ == "__main__":

@@ -29,7 +29,9 @@ def test_epoch_by_epoch(task: Task, discount: str, human_model: str) -> None:
         kept = keeping.adviser.advise(keeping.following, now, Deadline())
         other = Hypothesis(task, options, actions, task.init, Deadline(), told=True)
         fresh = other.adviser.advise(keeping.following, now, Deadline())
-        assert kept is not None and fresh is not None
+        if kept is None or fresh is None:  # robots' own goals are out of reach
+            assert kept is fresh and task.robot_goal
+            break
         assert (kept.cost, kept.proved) == (fresh.cost, fresh.proved)
         done = [world.of(step) for step in kept.plan if step.epoch == 1]
         world.state = world.after(done)

@@ -166,7 +166,7 @@ class Film:
         """
         from PIL import Image
 
-        pages = [self._page(frame, log) for frame in self._filmed()]
+        pages = [page for _, page in self.pages(log)]
         times = [_SHOWN] * (len(pages) - 1) + [_LAST]
         first, rest = pages[0], pages[1:]
         form = suffix.lower().removeprefix(".")
@@ -179,35 +179,18 @@ class Film:
         )
         return buffer.getvalue()
 
-    def strip(self, log: Sequence[Mapping[str, Any]], epochs: Sequence[int]) -> bytes:
-        """Moments in the middle of some epochs as one picture, below each other, as PNG.
+    def pages(self, log: Sequence[Mapping[str, Any]]) -> "list[tuple[int, Image.Image]]":
+        """All frames with the words above them, each with its epoch.
 
         Args:
             log: of the run.
-            epochs: which.
 
         Raises:
             UsageError: nothing was recorded.
         """
-        from PIL import Image
-
-        shown = []
-        for epoch in epochs:
-            frames = [frame for frame in self._filmed() if frame.epoch == epoch]
-            shown += frames[len(frames) // 2 :][:1]
-        pages = [self._page(frame, log) for frame in shown]
-        height = sum(page.height for page in pages) + 6 * (len(pages) - 1)
-        strip = Image.new("RGB", (pages[0].width, height), _PALE)
-        for number, page in enumerate(pages):
-            strip.paste(page, (0, number * (page.height + 6)))
-        buffer = io.BytesIO()
-        strip.quantize(_COLOURS, dither=Image.Dither.NONE).save(buffer, "png", optimize=True)
-        return buffer.getvalue()
-
-    def _filmed(self) -> list[_Frame]:
         if not self._frames:
             raise UsageError("clip: nothing was recorded")
-        return self._frames
+        return [(frame.epoch, self._page(frame, log)) for frame in self._frames]
 
     def _page(self, frame: _Frame, log: Sequence[Mapping[str, Any]]) -> "Image.Image":
         from PIL import Image, ImageDraw, ImageFont

@@ -85,9 +85,9 @@ def random_call(seed: int) -> PlanCall:
     return PlanCall(task, options, names, seed)
 
 
-def random_options(dice: Random) -> dict[str, str]:
-    """A mode, and options that it takes."""
-    mode = dice.choice(_MODES)
+def random_options(dice: Random, mode: str = "") -> dict[str, str]:
+    """A mode, if none is given, and options that it takes."""
+    mode = mode or dice.choice(_MODES)
     chosen = {"mode": mode, "discount": dice.choice(_DISCOUNTS)}
     for name, values in _CHOICES.items():
         value = dice.choice(values)

@@ -1,23 +1,27 @@
 """Planning calls: a task, options that are legal for it, and now and then a plan that is given."""
 
-from dataclasses import fields, replace
+from dataclasses import fields
 from itertools import islice
-from typing import Final
+from typing import Any, Final
 
 from hypothesis import strategies as st
 
+from serendipity.facade.call import options_from
 from serendipity.facade.planning import plan as plan_of
 from serendipity.model import HumanPlan, Options, Result, Task
 from serendipity.model.keywords import Horizon, Mode
 from serendipity.testing.call import Call
-from serendipity.testing.oracle import Alone, human_plans, optimal_human_plan
-from serendipity.testing.oracle.epochs import after
-from serendipity.testing.strategies.tasks import tasks
+from serendipity.testing.generator.calls import random_options
+from serendipity.testing.generator.human_plans import plan_after_detour
+from serendipity.testing.oracle import human_plans, optimal_human_plan
+from serendipity.testing.strategies.tasks import DICE, tasks
 
 MODES: Final[tuple[Mode, ...]] = ("serendipity", "individual", "communication", "composite")
-_DISCOUNTS: Final = ("0", "0.25", "0.5", "0.6", "0.9", "1")
-_WEIGHTS: Final = ("1000", "1000", "0", "0", "0.25", "0.75", "1", "2")
-_LONGEST_PLAN: Final = 8
+_TAKEN: Final = {
+    *("mode", "discount", "window_weight", "max_window", "suffix", "preservation", "interference"),
+    *("max_cost", "communication_weight"),
+}
+"""Of the generator's options."""
 _MOST_TIES: Final = 6
 _TIES: Final = ("fixed", "fixed", "optimistic", "robust", "expected")
 
@@ -47,9 +51,7 @@ def calls(
     open_goal = not task.robot_goal.holds(task.init)
     chosen = draw(_options(mode, None if plan is None else len(plan), open_goal=open_goal))
     if ties and given is None and 1 < len(tied) <= _MOST_TIES:
-        chosen = chosen.but(
-            ties=draw(st.sampled_from(["fixed", "fixed", "optimistic", "robust", "expected"]))
-        )
+        chosen = chosen.but(ties=draw(st.sampled_from(_TIES)))
     return Call(task, chosen, given)
 
 
@@ -88,23 +90,11 @@ def results(draw: st.DrawFn, *, of: st.SearchStrategy[Call] | None = None) -> tu
 
 @st.composite
 def _options(draw: st.DrawFn, mode: Mode, length: int | None, *, open_goal: bool) -> Options:
-    keep_prefix = mode == "communication" and length is not None and draw(st.integers(0, 2)) == 0
-    numbers = [str(n / 2) for n in range(17)]
-    limits = [None] * 6 + ["human", draw(st.sampled_from(numbers))]
-    weight = draw(st.sampled_from(["0", "0", "0.25", "1", "2"])) if mode == "communication" else "0"
-    return Options(
-        mode=mode,
-        discount=draw(st.sampled_from(_DISCOUNTS)),
-        horizon=draw(_horizons(mode, length, open_goal=open_goal)),
-        window_weight=draw(st.sampled_from(_WEIGHTS)),
-        max_window=draw(st.sampled_from([None, None, None, 1, 2, 3])),
-        suffix=draw(st.sampled_from(["replan", "replan", "subplan"])),
-        preservation=draw(st.sampled_from(["kernel", "kernel", "kernel", "state"])),
-        interference=draw(st.sampled_from(["paper", "paper", "strict"])),
-        max_cost=draw(st.sampled_from(limits)),
-        communication_weight=weight,
-        keep_prefix=keep_prefix,
-    )
+    chosen = random_options(draw(DICE), mode)
+    found: dict[str, Any] = {name: chosen[name] for name in chosen.keys() & _TAKEN}
+    if length is not None and "keep_prefix" in chosen:
+        found["keep_prefix"] = True
+    return options_from({**found, "horizon": draw(_horizons(mode, length, open_goal=open_goal))})
 
 
 @st.composite
@@ -122,22 +112,6 @@ def _horizons(draw: st.DrawFn, mode: str, length: int | None, *, open_goal: bool
     return draw(st.sampled_from([None, None, *longer, *(["inf"] if mode == "composite" else [])]))
 
 
-@st.composite
-def _other_plans(draw: st.DrawFn, task: Task, plan: HumanPlan) -> HumanPlan:
-    """A plan of the human alone: ``plan``, or one with a detour of at least one action."""
-    if draw(st.integers(0, 2)) == 0:
-        return plan
-    alone = Alone(task)
-    cut = draw(st.integers(0, len(plan)))
-    state = task.init
-    for i in plan[:cut]:
-        state = after(state, [task.actions[i]])
-    ways = list(alone.successors(state))
-    if not ways:
-        return plan
-    i, state = draw(st.sampled_from(ways))
-    if alone.worth(state) is None:
-        return plan
-    rest = next(human_plans(replace(task, init=state)))
-    detour = (*plan[:cut], i, *rest)
-    return detour if len(detour) <= _LONGEST_PLAN else plan
+def _other_plans(task: Task, plan: HumanPlan) -> st.SearchStrategy[HumanPlan]:
+    """Plans of the human alone: ``plan``, and others that begin with a detour of up to three actions."""
+    return st.one_of(st.just(plan), DICE.map(lambda dice: plan_after_detour(dice, task) or plan))

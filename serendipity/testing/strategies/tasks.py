@@ -14,7 +14,7 @@ from serendipity.testing.generator.numbers import oddly_priced
 from serendipity.testing.generator.tasks import COSTS, corridor, errands, strips, varied
 from serendipity.testing.oracle import Alone
 
-_DICE: Final = st.randoms(use_true_random=False)
+DICE: Final = st.randoms(use_true_random=False)
 """They shrink what is made of them."""
 
 
@@ -33,19 +33,19 @@ def strips_tasks(
         robots: how many, from and to; at most 2.
         costs: what the human's and joint actions may cost.
     """
-    dice = draw(_DICE)
+    dice = draw(DICE)
     built = strips(dice, facts, range(robots[0] + 1, robots[1] + 2), costs)
     return varied(dice, draw(_with_goals(built)))
 
 
 def corridor_tasks() -> st.SearchStrategy[Task]:
     """A human who walks between places; robots open shortcuts, block ways or carry them."""
-    return _DICE.map(lambda dice: varied(dice, corridor(dice)))
+    return DICE.map(lambda dice: varied(dice, corridor(dice)))
 
 
 def errand_tasks() -> st.SearchStrategy[Task]:
     """Two robots in a building of their own: they walk, push together, and do what helps or hinders."""
-    return _DICE.map(lambda dice: varied(dice, errands(dice)))
+    return DICE.map(lambda dice: varied(dice, errands(dice)))
 
 
 @st.composite
