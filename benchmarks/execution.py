@@ -166,12 +166,13 @@ def _domains(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
 
 def _goals(stride: int, _seeds: int, deadline: float) -> Iterator[Job]:
     """Jobs with several possible goals, over the buildings."""
-    for count, folder in product(range(1, MOST_GOALS + 1), _buildings(stride)):
-        yield Job((str(count),), folder, "observant", "fixed", 1, count, deadline)
+    people = "observant", "omniscient"
+    for human, count, folder in product(people, range(1, MOST_GOALS + 1), _buildings(stride)):
+        yield Job((human, str(count)), folder, human, "fixed", 1, count, deadline)
 
 
 JOBS = {"people": _people, "domains": _domains, "goals": _goals}
-NAMES = {"people": ("person", "plans"), "domains": ("domain", "person", "plans"), "goals": ("goals",)}
+NAMES = {"people": ("person", "plans"), "domains": ("domain", "person", "plans"), "goals": ("person", "goals")}
 
 
 def _buildings(stride: int) -> list[Path]:

@@ -1,7 +1,8 @@
 """Which goal the person has, from one epoch to the next (semantics 8)."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import Final
 
 from search.modes.goals import Explainer
@@ -57,6 +58,18 @@ class Beliefs:
         others = (actions[i] for i in executed if i != own)
         if any(not self._concern.isdisjoint((*action.add, *action.delete)) for action in others):
             self._disturbed = True
+
+    def rule_out(self, others: Collection[int]) -> None:
+        """Say that the person, who knows the robots' plan, has not done what it has them do for some goals.
+
+        If that leaves none, nothing is known any more.
+        """
+        left = [Fraction(0) if i in others else weight for i, weight in enumerate(self.weights)]
+        if not any(left):
+            left = [candidate.prior for candidate in self.candidates]
+            self._out.clear()
+        self.weights = [weight / sum(left) for weight in left]
+        self._priors, self._observed, self._disturbed = list(self.weights), [], True
 
     def disturbed(self) -> None:
         """The world is other than what actions have made it."""

@@ -57,6 +57,8 @@ class Decided:
         alone: what it costs the person without help.
         proved: whether the plan, or doing nothing, is known to be the best; not where time was up first.
         goals: the posterior of each candidate goal; empty where there is only one.
+        wishes: what the plan has a person do who is told, by the goal that is theirs, where robots don't
+            know it; None: wait.
         seconds: that the decision took.
         because: the reason as a value; None where whoever has decided gives none.
     """
@@ -73,6 +75,7 @@ class Decided:
     alone: float | None = None
     proved: bool = False
     goals: Mapping[str, float] = field(default_factory=dict)
+    wishes: Mapping[str, str | None] = field(default_factory=dict)
     seconds: float = 0.0
     because: Why | None = None
 

@@ -21,6 +21,7 @@ from serendipity.model.table import Tabular
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import canonical_name, several
 from serendipity.recognition import GoalsGiven
+from serendipity.recognition.recognise import candidate_goals
 from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
 
 _TRIES: Final = 3
@@ -64,6 +65,7 @@ class Execution(Tabular):
     Attributes:
         task: where the execution began.
         options: in force.
+        goal: the name of the person's goal among ``goals``; None where it is not one of them.
         events: what has happened, as the lines of a log.
 
     Raises:
@@ -103,6 +105,7 @@ class Execution(Tabular):
         self._robots: Robots = robots or RobotPolicy(
             task, options, goals, beta, told=told, surely=adapter is None
         )
+        self.goal = None if goals is None else _name_of(task, goals)
         self._adapter = adapter
         self._failures: Counter[Order] = Counter()
         self._reports: tuple[Reported, ...] = ()
@@ -313,3 +316,13 @@ class Execution(Tabular):
             raise UsageError(f"adapter: expected one of {', '.join(OUTCOMES)}, got {wrong!r:.50}")
         self._reports = tuple(Reported(*pair) for pair in zip(orders, reports, strict=True))
         return [report.outcome for report in reports]
+
+
+def _name_of(task: Task, goals: GoalsGiven) -> str | None:
+    """What the candidate is called that is the person's goal; None if none is."""
+    literals = {(f, True) for f in task.goal.positive} | {(f, False) for f in task.goal.negative}
+    for candidate in candidate_goals(task, goals):
+        goal = candidate.goal
+        if literals == {(f, True) for f in goal.positive} | {(f, False) for f in goal.negative}:
+            return candidate.name
+    return None

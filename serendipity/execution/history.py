@@ -41,7 +41,7 @@ class HelpHistory:
         offered = any(step.action == expected for step in last.offers)
         if missed:
             self._cause = Cause("missed", last.epoch, missed[0].action)
-        elif last.plan is not None and his != expected:
+        elif last.plan is not None and his != expected and his not in last.wishes.values():
             kind = "missed" if his is None and offered else "elsewhere"
             self._cause = Cause(kind, last.epoch, expected or "wait")
 

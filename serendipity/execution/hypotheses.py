@@ -236,6 +236,12 @@ class Prospect:
         return self.advice is not None and self.pays and not self.advice.by_themselves(self.hypothesis.task)
 
     @property
+    def saving(self) -> Fraction:
+        """What the plan saves; where the person has no plan alone, as much as it costs."""
+        cost = Fraction(0) if self.advice is None else self.advice.cost
+        return cost if self.alone is None else self.alone - cost
+
+    @property
     def alone(self) -> Fraction | None:
         """What the person pays without help; None where they have no plan."""
         return self.hypothesis.following.alone

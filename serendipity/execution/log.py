@@ -16,7 +16,7 @@ from serendipity.robot import Epoch, Report
 
 SCHEMA: Final = "serendipity.execution/1"
 
-_LATER: Final[dict[str, Any]] = {"proved": False, "because": None}
+_LATER: Final[dict[str, Any]] = {"proved": False, "because": None, "wishes": {}}
 """Fields of a decision that logs of the first versions do not have, and what they stand for."""
 
 
@@ -146,6 +146,7 @@ def decision_of(value: dict[str, Any], epoch: int, file: object = None) -> Decid
         alone=value["alone"],
         proved=value.get("proved", _LATER["proved"]),
         goals=value["goals"],
+        wishes=value.get("wishes", _LATER["wishes"]),
         seconds=value["seconds"],
         because=None if value.get("because") is None else Why.from_dict(value["because"]),
     )

@@ -31,13 +31,13 @@ class Moment(NamedTuple):
         state: ids of the facts that are true.
         offers: joint actions that robots are ready for.
         planned: whether robots have a plan.
-        wish: what it has the person do; only somebody who is told of it may look.
+        wish: the name of what it has the person do, None: wait; only who is told of it may look.
     """
 
     state: frozenset[int]
     offers: tuple[PlanStep, ...]
     planned: bool
-    wish: PlanStep | None
+    wish: str | None
 
 
 class Person(Protocol):
@@ -57,7 +57,11 @@ class Person(Protocol):
 def moment_of(run: "Execution") -> Moment:
     """What a person has before them."""
     decided = run.decided
-    return Moment(run.state, decided.offers, decided.plan is not None, decided.expected)
+    name, wishes = run.goal or "", decided.wishes
+    if decided.goals:  # whose part is theirs is for them to know
+        return Moment(run.state, decided.offers, name in wishes, wishes.get(name))
+    wish = None if decided.expected is None else decided.expected.action
+    return Moment(run.state, decided.offers, decided.plan is not None, wish)
 
 
 class Replanner:
@@ -157,7 +161,7 @@ class Omniscient:
         if not moment.planned:
             return self._otherwise.choose(moment)
         self._otherwise.does(moment.state, None)
-        return None if moment.wish is None else moment.wish.action
+        return moment.wish
 
 
 class Noisy:

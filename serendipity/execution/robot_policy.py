@@ -11,6 +11,7 @@ from serendipity.execution.beliefs import Beliefs
 from serendipity.execution.decided import Decided, Outlook
 from serendipity.execution.history import HelpHistory, Untouched
 from serendipity.execution.hypotheses import Hypotheses, Hypothesis, Prospect, best_for_all
+from serendipity.execution.policy_adviser import PolicyAdviser
 from serendipity.execution.why import Why
 from serendipity.model import Deadline, Options, PlanStep, Task
 from serendipity.model.errors import LIMITS
@@ -58,6 +59,12 @@ class RobotPolicy:
         conditions = [task.goal] if self._beliefs is None else [c.goal for c in self._beliefs.candidates]
         tasks = [task if goal == task.goal else task.with_goal(goal) for goal in conditions]
         self._hypotheses = Hypotheses(tasks, options, told=told, surely=surely)
+        sessions = options.human_model == "omniscient" and options.mode == "serendipity"
+        self._watching = (
+            PolicyAdviser(task, options, self._hypotheses.actions, told=told)
+            if sessions and goals is not None and not task.robot_goal
+            else None
+        )
         self._history = HelpHistory(task)
         self._untouched = Untouched(task)
         self._human = task.agents[task.human]
@@ -84,8 +91,17 @@ class RobotPolicy:
         self._history.saw(executed)
         self._untouched.saw(own, executed)
         self._hypotheses.acted(own, executed, tried)
-        if self._beliefs is not None:
+        if self._beliefs is None:
+            return
+        others = None if self._watching is None else self._watching.saw(self._done_by_them(executed, tried))
+        if self._told and others is not None:
+            self._beliefs.rule_out(others)
+        else:
             self._beliefs.saw(own, executed)
+
+    def _done_by_them(self, executed: Sequence[int], tried: int | None) -> str | None:
+        actions = (self._task.actions[i] for i in (*executed, *(() if tried is None else (tried,))))
+        return next((action.name for action in actions if self._task.human in action.participants), None)
 
     def surprised(self) -> None:
         """The world is other than what actions have made it."""
@@ -120,7 +136,8 @@ class RobotPolicy:
         self._untouched.look(state)
         weights = self._weights(state, deadline)
         reachable = self._hypotheses.look(state, weights, deadline)
-        goals = reachable or list(weights)[:1]
+        owes = self._watching.owes if self._watching is not None else lambda _: False
+        goals = [goal for goal in weights if goal in reachable or owes(goal)] or list(weights)[:1]
         gone = frozenset[int]().union(*self._gone.values())
         out = gone | self._failing
         if able.all <= gone or (reachable and able.all <= out):
@@ -132,6 +149,8 @@ class RobotPolicy:
         begun = frozenset(map(outlook.world.of, running))
         now = DecisionPoint(state, out, barred, begun, self._hypotheses.allows(goals, list(begun)))
         likely = {goal: weights[goal] for goal in goals}
+        if watched := self._watched(likely, now, deadline):
+            return self._chosen(outlook, now, watched, running, deadline, watched=True)
         prospects = self._planned(likely, now, deadline.sooner(_TIME_TO_WEIGH))
         if not reachable and prospects[0].advice is None and not running and self._failing - gone:
             prospects = self._planned(likely, replace(now, out=gone, barred=gone), deadline)
@@ -144,14 +163,21 @@ class RobotPolicy:
         prospects: Sequence[Prospect],
         running: Sequence[PlanStep],
         deadline: Deadline,
+        *,
+        watched: bool = False,
     ) -> Decided:
-        """The decision, once it is known what is best for each goal."""
+        """The decision, once it is known what is best for each goal, or, if ``watched``, for all of them."""
         certain = len(prospects) == 1
         if certain and prospects[0].advice is None:
             return self._idle(outlook, self._lost(now, prospects[0].hypothesis, deadline), running)
-        prospect = prospects[0] if certain else best_for_all(prospects, deadline)
+        if watched:
+            prospect: Prospect | None = max(prospects, key=lambda one: one.weight * one.saving)
+        else:
+            prospect = prospects[0] if certain else best_for_all(prospects, deadline)
         if prospect is not None:
             decided = self._following(outlook, prospect, running)
+            if watched:
+                decided = self._for_all(decided, prospects)
             if decided.verdict != "aside":
                 return decided
         elif running:
@@ -161,9 +187,8 @@ class RobotPolicy:
         else:
             done = next((prospect for prospect in prospects if prospect.pays and not prospect.open), None)
             decided = self._following(outlook, done, ()) if done else self._idle(outlook, Why("no-help"))
-        return self._made_up(outlook, now, prospects, deadline) or replace(
-            decided, because=self._why_not(now, decided, prospects, deadline)
-        )
+        made_up = None if watched and self._told else self._made_up(outlook, now, prospects, deadline)
+        return made_up or replace(decided, because=self._why_not(now, decided, prospects, deadline))
 
     def _made_up(
         self, outlook: Outlook, now: DecisionPoint, prospects: Sequence[Prospect], deadline: Deadline
@@ -202,6 +227,33 @@ class RobotPolicy:
             if allows([outlook.world.of(other) for other in (*running, step)]):
                 running.append(step)
         return running
+
+    def _watched(
+        self, weights: dict[int, Fraction], now: DecisionPoint, deadline: Deadline
+    ) -> list[Prospect]:
+        """A prospect for each goal, of a policy for all of them; nothing where none is looked for."""
+        if self._watching is None:
+            return []
+        total = sum(weights.values())
+        shares = {goal: weight / total for goal, weight in weights.items()}
+        known = {goal: self._hypotheses[goal] for goal in weights}
+        policy = self._watching.advise(known, shares, now, deadline.sooner(_TIME_TO_WEIGH))
+        for one in known.values():
+            one.companion.under(deadline)
+        return [Prospect(goal, known[goal], advice, shares[goal]) for goal, advice in policy.items()]
+
+    def _for_all(self, decided: Decided, prospects: Sequence[Prospect]) -> Decided:
+        """A decision with what is to be done with the person, and by them, whichever goal is theirs."""
+        assert self._beliefs is not None, "there are candidates"
+        his = {
+            self._beliefs.candidates[one.goal].name: next(
+                (step for step in one.plan if step.epoch == 1 and self._human in step.agents), None
+            )
+            for one in prospects
+        }
+        offers = (replace(s, epoch=decided.epoch) for s in his.values() if s and len(s.agents) > 1)
+        wishes = {name: None if step is None else step.action for name, step in his.items()}
+        return replace(decided, offers=tuple(dict.fromkeys(offers)), wishes=wishes if self._told else {})
 
     def _planned(
         self, weights: dict[int, Fraction], now: DecisionPoint, deadline: Deadline

@@ -25,7 +25,7 @@ from serendipity.model.numbers import Number
 from serendipity.model.resources.processes import in_processes
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
-from serendipity.recognition.recognise import GoalsGiven, candidate_goals
+from serendipity.recognition.recognise import GoalsGiven
 from serendipity.robot import Durations
 
 SURE: Final = Fraction(9, 10)
@@ -110,8 +110,9 @@ def execute(
         name, persona = human, persona_from(task, human)
     else:
         name, persona = "recorded", Persona("recorded", actions=recorded_actions(task, human))
-    if persona.told and goals is not None:
-        raise UsageError("goals: an omniscient person keeps to the robots' plan, so robots know the goal")
+    if persona.told and goals is not None and (task.robot_goal or options.get("mode") == "communication"):
+        why = "with robots' own goals, or communication, an omniscient person's goal is known"
+        raise UsageError(f"goals: {why}")
     model = human_model or persona.human_model
     if model not in CHOICES["human_model"]:
         known = ", ".join(CHOICES["human_model"])
@@ -126,7 +127,6 @@ def execute(
         adapters=adapters,
         epochs=epochs or 100 + 10 * len(alone.human_plan or ()),
         alone=alone.human_cost,
-        goal=None if goals is None else _name_of(task, goals),
         arguments={"human_model": model, "goals": goals, "told": persona.told, **options},
     )
     series.untimed()  # what is wrong shows before the first run
@@ -150,16 +150,6 @@ def _all_run(
     return sorted(done, key=lambda pair: pair[0].run)
 
 
-def _name_of(task: Task, goals: GoalsGiven) -> str | None:
-    """What the candidate is called that is the person's goal; None if none is."""
-    literals = {(f, True) for f in task.goal.positive} | {(f, False) for f in task.goal.negative}
-    for candidate in candidate_goals(task, goals):
-        goal = candidate.goal
-        if literals == {(f, True) for f in goal.positive} | {(f, False) for f in goal.negative}:
-            return candidate.name
-    return None
-
-
 def _run(assignment: tuple["_Series", int, int]) -> _Finished:
     series, number, seed = assignment
     return series.run(number, seed)
@@ -180,7 +170,6 @@ class _Series:
         adapters: what carries out what robots do.
         epochs: the most of a run.
         alone: what the person pays alone; None where they don't get there.
-        goal: the name of theirs among candidates.
         arguments: of :class:`Execution`.
     """
 
@@ -191,7 +180,6 @@ class _Series:
     adapters: AdapterChoice
     epochs: int
     alone: float | None
-    goal: str | None
     arguments: Mapping[str, Any]
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -246,7 +234,7 @@ class _Series:
             late=verdicts["late"],
             open=sum(d.verdict != "late" and d.plan is not None and not d.proved for d in decided),
             slowest=max((each.seconds for each in decided), default=0.0),
-            **_recognised(run, self.goal),
+            **_recognised(run, run.goal),
         )
         ties = TIES[self.drawn]
         notes = {"run": number, "seed": seed, "policy": self.name, "ties": ties, "faults": asdict(faults)}

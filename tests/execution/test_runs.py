@@ -73,7 +73,10 @@ def test_a_run_ends_at_some_epoch() -> None:
         ({"faults": "fail"}, "faults: expected some of fail=P,slow=P,drop=P, got 'fail'"),
         ({"faults": "fail=x"}, "fail: expected a finite number"),
         ({"human_model": "psychic"}, "human_model: expected one of"),
-        ({"human": "omniscient", "goals": [{"goal": ["at commx room1"]}]}, "goals: an omniscient person"),
+        (
+            {"human": "omniscient", "mode": "communication", "goals": [{"goal": ["at commx room1"]}]},
+            "goals: with robots. own goals, or communication, an omniscient person.s goal is known",
+        ),
         ({"deadline": -1}, "deadline: expected"),
         ({"adapter": "nao"}, "adapter: expected one of simulated.*, got 'nao'"),
         ({"durations": "move"}, "durations: expected some of"),
