@@ -172,7 +172,11 @@ def _goals(stride: int, _seeds: int, deadline: float) -> Iterator[Job]:
 
 
 JOBS = {"people": _people, "domains": _domains, "goals": _goals}
-NAMES = {"people": ("person", "plans"), "domains": ("domain", "person", "plans"), "goals": ("person", "goals")}
+NAMES = {
+    "people": ("person", "plans"),
+    "domains": ("domain", "person", "plans"),
+    "goals": ("person", "goals"),
+}
 
 
 def _buildings(stride: int) -> list[Path]:

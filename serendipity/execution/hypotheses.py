@@ -11,16 +11,19 @@ from collections.abc import Iterable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import inf
 
 from search import PreparedTask
 from search.modes.simulation.companion import Companion
+from search.modes.simulation.simulator import Simulation
 from serendipity.execution.advice import Advice, Adviser, Allows, DecisionPoint, ReactiveAdviser
 from serendipity.execution.guard import Following, RobotActions
 from serendipity.execution.session_adviser import SessionAdviser
 from serendipity.execution.unbound import Unbound
 from serendipity.facade.results import named_steps
-from serendipity.model import Condition, Deadline, Options, PlanStep, Task
+from serendipity.model import Condition, Deadline, Options, PlanStep, Step, Task
 from serendipity.model.numbers import total
+from serendipity.model.options import MAX_EPOCH
 from serendipity.model.task.execution import actions_of, steps_named
 
 
@@ -248,37 +251,108 @@ class Prospect:
 
 
 def best_for_all(prospects: Sequence[Prospect], deadline: Deadline) -> Prospect | None:
-    """The prospect whose robots' part costs least in the mean over all goals; None if none beats idling.
+    """The prospect whose robots' part costs least in the mean over all goals; None if none beats waiting.
 
     Robots' actions are played against the person with each of the goals, by what is known of how they
-    react.  Robots can still change their mind when they know more, so the mean is what a plan is good
-    for at least.
+    react.  Once a person does something else than with the goal that the plan is for, robots go on as it
+    is best for those who do the same: with that plan, with another one, or not at all.
     """
-    best = None
-    least = sum((p.weight * (p.alone or 0) for p in prospects), Fraction(0))
+    played = _Played(prospects, deadline)
+    best: Prospect | None = None
+    least: Fraction | float = sum((p.weight * (p.alone or 0) for p in prospects), Fraction(0))
     for prospect in prospects:
-        if prospect.pays:
-            cost = _mean(prospect, prospects, least, deadline)
-            if cost is not None and cost < least:
-                best, least = prospect, cost
-    return best
+        if prospect.pays and (cost := played.mean(prospect, least)) < least:
+            best, least = prospect, cost
+    return None if best is not None and played.begins(best) and played.waiting() < least else best
 
 
-def _mean(
-    chosen: Prospect, prospects: Sequence[Prospect], least: Fraction, deadline: Deadline
-) -> Fraction | None:
-    """The mean cost of a prospect's robots' part, as far as it is below ``least``; None: a goal is missed."""
-    task = chosen.hypothesis.task
-    steps = steps_named(task, chosen.plan)
-    total = Fraction(0)
-    for other in prospects:
-        companion = other.hypothesis.companion
-        start = other.hypothesis.following.start_of(companion.human)
-        played = companion.played(start, steps, deadline)
-        deadline.check()
-        if not played.goals_hold:
-            return None
-        total += other.weight * played.cost
-        if total >= least:
-            break
-    return total
+_Robots = tuple[Step, ...]
+"""What robots do."""
+
+
+class _Played:
+    """Robots' parts of some plans, played against the person with each goal."""
+
+    def __init__(self, prospects: Sequence[Prospect], deadline: Deadline) -> None:
+        self._prospects = prospects
+        self._deadline = deadline
+        task = prospects[0].hypothesis.task
+        self._parts = [
+            tuple(
+                s for s in steps_named(task, p.plan) if task.actions[s.action].participants != (task.human,)
+            )
+            for p in prospects
+        ]
+        self._known: dict[tuple[int, _Robots], Simulation] = {}
+
+    def begins(self, chosen: Prospect) -> bool:
+        """Whether a prospect's part begins in the epoch that is to come."""
+        return any(step.epoch == 1 for step in self._parts[self._prospects.index(chosen)])
+
+    def mean(self, chosen: Prospect, least: Fraction | float) -> Fraction | float:
+        """What it costs to begin with a prospect's part; anything where that is no less than ``least``."""
+        lead = self._prospects.index(chosen)
+        part = self._parts[lead]
+        like = self._deeds(lead, part)
+        groups: dict[tuple[str | None, ...], list[int]] = {}
+        for i in range(len(self._prospects)):
+            same = self._deeds(i, part)
+            groups.setdefault(same[: _alike(like, same) + 1], []).append(i)
+        total: Fraction | float = Fraction(0)
+        for deeds, group in groups.items():
+            told = len(deeds) if lead not in group else MAX_EPOCH
+            total += self._least(
+                group, (_until(part, told) + _after(p, told) for p in (part, (), *self._parts))
+            )
+            if total >= least:
+                break
+        return total
+
+    def waiting(self) -> Fraction | float:
+        """What it costs to do nothing for an epoch, and then what is best for those who did the same."""
+        groups: dict[str | None, list[int]] = {}
+        for i in range(len(self._prospects)):
+            groups.setdefault(next(iter(self._deeds(i, ())), None), []).append(i)
+        late = [tuple(replace(step, epoch=step.epoch + 1) for step in part) for part in self._parts]
+        parts = [(), *(_after(part, 1) for part in self._parts), *late]
+        return sum((self._least(group, parts) for group in groups.values()), Fraction(0))
+
+    def _least(self, group: Sequence[int], parts: Iterable[_Robots]) -> Fraction | float:
+        """The weight of some goals times the cost of the part that is best for all of them."""
+        return min(sum((self._cost(i, part) for i in group), Fraction(0)) for part in dict.fromkeys(parts))
+
+    def _cost(self, i: int, part: _Robots) -> Fraction | float:
+        played = self._play(i, part)
+        return self._prospects[i].weight * played.cost if played.goals_hold else inf
+
+    def _deeds(self, i: int, part: _Robots) -> tuple[str | None, ...]:
+        """What the person with a goal does, epoch by epoch."""
+        actions = self._prospects[i].hypothesis.task.actions
+        his = (
+            epoch.own if epoch.accepted is None else epoch.accepted for epoch in self._play(i, part).epochs
+        )
+        return tuple(None if action is None else actions[action].name for action in his)
+
+    def _play(self, i: int, part: _Robots) -> Simulation:
+        found = self._known.get((i, part))
+        if found is None:
+            one = self._prospects[i].hypothesis
+            start = one.following.start_of(one.companion.human)
+            found = self._known[i, part] = one.companion.played(start, part, self._deadline)
+            self._deadline.check()
+        return found
+
+
+def _alike(some: Sequence[object], others: Sequence[object]) -> int:
+    """How many epochs begin both."""
+    return next(
+        (i for i, (a, b) in enumerate(zip(some, others, strict=False)) if a != b), min(len(some), len(others))
+    )
+
+
+def _until(part: _Robots, epoch: int) -> _Robots:
+    return tuple(step for step in part if step.epoch <= epoch)
+
+
+def _after(part: _Robots, epoch: int) -> _Robots:
+    return tuple(step for step in part if step.epoch > epoch)

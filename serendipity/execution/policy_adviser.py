@@ -154,7 +154,9 @@ class PolicyAdviser:
             }
             for goal, one in known.items()
         ]
-        result = self._sessions.at(state, removed).plan(plans=plans, deadline=deadline)
+        session = self._sessions.at(state, removed)
+        session.follow(None)  # the last question may have been about a single plan
+        result = session.plan(plans=plans, deadline=deadline)
         if result.status == "unknown":
             raise LimitReachedError("time-limit")
         found, proved = {}, result.status == "optimal"

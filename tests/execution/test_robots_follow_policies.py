@@ -58,6 +58,12 @@ def test_whose_goal_is_none_of_them_goes_on_alone(room2: Task) -> None:
     assert row.reached and row.known is None
 
 
+def test_the_last_goal_is_asked_about_again_and_again(room2: Task) -> None:
+    """It was an error: the session took the only plan of one epoch for the person's in the next."""
+    run = Execution(room2, discount="0.9", human_model="omniscient", goals=GOALS[:1])
+    assert lived(run, Replanner(room2)).done
+
+
 def test_logs_hold_what_everybody_was_to_do(room2: Task) -> None:
     run = told(_for(room2, "room1"), goals=GOALS)
     serendipity.execution.replay(_for(room2, "room1"), as_lines(run))
