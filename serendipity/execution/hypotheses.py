@@ -309,12 +309,14 @@ class _Played:
         return total
 
     def waiting(self) -> Fraction | float:
-        """What it costs to do nothing for an epoch, and then what is best for those who did the same."""
-        groups: dict[str | None, list[int]] = {}
-        for i in range(len(self._prospects)):
-            groups.setdefault(next(iter(self._deeds(i, ())), None), []).append(i)
-        late = [tuple(replace(step, epoch=step.epoch + 1) for step in part) for part in self._parts]
-        parts = [(), *(_after(part, 1) for part in self._parts), *late]
+        """What it costs to do nothing until it is seen what is best for those who have done the same."""
+        deeds = [self._deeds(i, ()) for i in range(len(self._prospects))]
+        told = min((_alike(deeds[0], other) for other in deeds[1:]), default=0) + 1
+        groups: dict[tuple[str | None, ...], list[int]] = {}
+        for i, done in enumerate(deeds):
+            groups.setdefault(done[:told], []).append(i)
+        late = (tuple(replace(step, epoch=step.epoch + told) for step in part) for part in self._parts)
+        parts = [(), *(_after(part, told) for part in self._parts), *late]
         return sum((self._least(group, parts) for group in groups.values()), Fraction(0))
 
     def _least(self, group: Sequence[int], parts: Iterable[_Robots]) -> Fraction | float:

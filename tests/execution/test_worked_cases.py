@@ -100,6 +100,37 @@ def test_what_would_be_in_vain_for_one_goal_and_pays_in_the_mean_is_done() -> No
     assert verdicts == {"0.6": ["unsure", "unsure", "aside"], "0.9": ["unsure", "helps", "helps"]}
 
 
+def _fork(work: int, goal: str = "a11") -> Task:
+    """A way that forks after an epoch; from a6 there is a short cut once the robot has worked at it."""
+    actions = {"go h 0 1": "s0 -> s1 !s0", "slip h": "a6 open -> a11 !a6"}
+    for way in "ab":
+        actions[f"go h {way} 2"] = f"s1 -> {way}2 !s1"
+        actions |= {f"go h {way} {i}": f"{way}{i - 1} -> {way}{i} !{way}{i - 1}" for i in range(3, 12)}
+    for i in range(work):
+        actions[f"work r {i}"] = f"w{i} -> {'open' if i == work - 1 else f'w{i + 1}'}"
+    return build(init="s0 w0", goal=goal, actions=actions)
+
+
+FORK = [{"name": "a", "goal": ["a11"]}, {"name": "b", "goal": ["b11"]}]
+
+
+@pytest.mark.parametrize(
+    ("work", "discount", "begun", "costs"),
+    [(5, "0.4", 2, (10, 11.6)), (4, "0.5", 3, (9, 11))],
+    ids=["it begins, since it can stop", "it waits, since there is time"],
+)
+def test_robots_reckon_with_changing_their_mind(
+    work: int, discount: str, begun: int, costs: tuple[float, float]
+) -> None:
+    """Five epochs of work were not begun: it would be in vain half the time, if it were not stopped."""
+    runs = []
+    for goal in ("a11", "b11"):
+        task = _fork(work, goal)
+        runs.append(lived(Execution(task, discount=discount, goals=FORK), Replanner(task)))
+    first = next(passed.epoch for passed in runs[0].passed if passed.decided.actions)
+    assert (first, *(float(run.cost) for run in runs)) == (begun, *costs)
+
+
 def test_a_plan_may_be_spoilt_where_it_is_dropped_for_a_cheaper_one() -> None:
     task = build(
         init="a blocked",
