@@ -1,7 +1,7 @@
 """Makes docs/images again (``make pictures``): what `show` makes of examples.
 
-Stills of those that are shipped beside the paper's, and photographs of the page for its III-C; and
-one of `play`.
+Stills of those that are shipped beside the paper's, and of a policy; photographs of the page for its III-C,
+and of `play`.
 """
 
 import io
@@ -29,9 +29,10 @@ COLOURS = 256
 
 def main() -> int:
     """Draw the stills, and photograph the page at some epochs."""
-    for name, epoch in STILLS.items():
+    for name, epoch in {**STILLS, "unsure": None}.items():
         still = IMAGES / f"{name}.svg"
-        still.write_text(str(drawn(name, "0.5", ".svg", epoch)), encoding="utf-8")
+        content = unsure() if name == "unsure" else str(drawn(name, "0.5", ".svg", epoch))
+        still.write_text(content, encoding="utf-8")
         sys.stdout.write(f"{still.relative_to(Path.cwd())}\n")
     path = chromium_path()
     if path is None:
@@ -72,6 +73,14 @@ def drawn(name: str, discount: str, suffix: str, epoch: int | None = None) -> st
     """The picture of an example's answer."""
     task = serendipity.example(name)
     return draw(build_scene(task, serendipity.plan(task, discount=discount)), suffix, epoch)
+
+
+def unsure() -> str:
+    """The picture of the policy that docs/howto/unsure.md is about."""
+    task, wanted = serendipity.example("room2"), {"room1": 2, "room3": 1, "room9": 1}
+    named = {room: f"conducted_triage commx {room}" for room in wanted}
+    goals = [{"name": fact, "goal": [fact], "prior": wanted[room]} for room, fact in named.items()]
+    return serendipity.show(task, serendipity.plan(task, discount="0.9", goals=goals)).svg()
 
 
 if __name__ == "__main__":

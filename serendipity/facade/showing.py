@@ -67,7 +67,11 @@ class Drawing:
 
 
 def show(
-    task: Task, answer: Result | InterruptionReport | None = None, *, epoch: int | None = None
+    task: Task,
+    answer: Result | InterruptionReport | None = None,
+    *,
+    epoch: int | None = None,
+    scenario: str | None = None,
 ) -> Drawing:
     """A task, an answer or a report on windows as a picture that a notebook shows.
 
@@ -78,15 +82,18 @@ def show(
         answer: a result, whose plan is played; what :func:`serendipity.interruptions` says, as a heat map;
             None: where everything is at the start.
         epoch: of a still; None for the one that says most, a hand-over for example.
+        scenario: what is played of an answer over scenarios, by its name; None for the most probable.
 
     Raises:
-        UsageError: there is no such epoch.
+        UsageError: there is no such epoch or scenario.
         InputError: the answer is to another task.
     """
     expect(TASK_IN_TIME, task=task)
     if isinstance(answer, InterruptionReport):
-        if epoch is not None or answer.human not in task.agents:
-            raise UsageError("show: a report on windows has no epochs, and is about somebody of the task")
+        if epoch is not None or scenario is not None or answer.human not in task.agents:
+            raise UsageError(
+                "show: a report on windows has no epochs or scenarios, and names somebody of the task"
+            )
         return Drawing(answer)
     human = task.agents[task.human]
     if answer is None:
@@ -94,6 +101,6 @@ def show(
     expect(RESULT_IN_TIME, answer=answer)
     if answer.human != human:
         raise InputError(f"result: is for another task: its human is '{answer.human}'")
-    scene = build_scene(task, answer)
+    scene = build_scene(task, answer, scenario)
     check_epoch(scene, epoch)
     return Drawing(scene, epoch)

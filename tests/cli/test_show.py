@@ -27,6 +27,7 @@ def test_the_ending_chooses_the_form(ending: str, start: bytes, run: Runs, tmp_p
         ("room2 help.json -o help.gif", ["-o", "help.gif"]),
         ("room2 help.json -o help.html --epoch 3", ["--epoch"]),
         ("room2 help.json -o help.svg --epoch 99", ["epoch", "99"]),
+        ("room2 help.json -o help.svg --scenario attic", ["scenario", "none", "attic"]),
         ("room7 help.json -o help.svg", ["help.json", "not applicable"]),
         ("room2 absent.json -o help.svg", ["absent.json"]),
         ("room2 help.json -o absent/help.svg", ["-o", "absent"]),

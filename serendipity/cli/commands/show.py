@@ -20,6 +20,10 @@ def show(
     epoch: Annotated[
         int | None, option("--epoch N", "The epoch of a still; by default that of the first hand-over.")
     ] = None,
+    scenario: Annotated[
+        str | None,
+        option("--scenario NAME", "The scenario that is played; by default the most probable one."),
+    ] = None,
     output_file: Annotated[
         Path | None, option("-o, --output FILE", "A page .html, or a still .svg or .png.")
     ] = None,
@@ -40,7 +44,7 @@ def show(
     from serendipity.pictures import build_scene, draw
 
     with about(answer), progress.working("drawing"):
-        drawn = draw(build_scene(loaded, result), output_file.suffix, epoch)
+        drawn = draw(build_scene(loaded, result, scenario), output_file.suffix, epoch)
     if wrong is not None:
         output.warn(wrong)
     output.write_answer(drawn, output_file)

@@ -13,7 +13,7 @@ from serendipity.pictures.picture import timeline_picture as timeline
 from serendipity.pictures.picture.drawing import Picture, agent_colours, on
 from serendipity.pictures.picture.map_picture import MARGIN, Token, map_picture, tokens, trails
 from serendipity.pictures.scene.crowds import agent_key
-from serendipity.pictures.scene.scene import Frame, Scene, headline, subtitle
+from serendipity.pictures.scene.scene import Frame, Scene, headline, scenario_lines, subtitle
 
 _WIDE: Final = 1200.0
 _SMALLEST: Final = 0.46  # nearly all of a building of nine cells on a phone
@@ -33,6 +33,7 @@ def page(scene: Scene) -> str:
         title=markup(f"{scene.name}: {headline(scene)}"),
         headline=markup(headline(scene)),
         subtitle=markup(subtitle(scene)),
+        scenarios=_scenarios(scene),
         style=_text("style.css"),
         script=_text("play.js"),
         data=data.replace("<", "\\u003c"),  # it can't end the script element it stands in
@@ -104,14 +105,16 @@ def _rows(scene: Scene) -> str:
     """The timeline in rows, for paper, which can't be scrolled."""
     labels = svg(timeline.lane_labels(scene), inline=True)
     printed = int(_PRINTED / timeline.column(scene))
-    ends = [
-        (first, min(first + printed, timeline.columns(scene)) - 1)
-        for first in range(0, timeline.columns(scene), printed)
-    ]
-    return "".join(
-        f"<div>{labels}{svg(timeline.timeline_picture(scene, first, last), inline=True)}</div>"
-        for first, last in ends
+    rows = (
+        timeline.timeline_picture(scene, first, first + printed - 1)
+        for first in range(0, len(scene.frames), printed)
     )
+    return "".join(f"<div>{labels}{svg(row, inline=True)}</div>" for row in rows)
+
+
+def _scenarios(scene: Scene) -> str:
+    lines = scenario_lines(scene)
+    return "".join(f"<p{' class=played' * chosen}>{markup(line)}</p>" for line, chosen in lines)
 
 
 def _legend(scene: Scene) -> str:

@@ -6,7 +6,7 @@ former plan in its dashes, the window in its label.
 """
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -181,3 +181,27 @@ def wrapped(
         if max(map(ems, found)) <= room:
             break
     return tuple(shortened(line, room) for line in found), size
+
+
+def act_style(colour: str, joint: bool) -> Style:
+    """How the box of an action is painted."""
+    return Style(tint(colour), MEETING if joint else colour, 3.5 if joint else 1.5)
+
+
+def box(
+    verb: str, detail: str, width: float, middle: float, height: float, paint: Style, ink: str
+) -> Iterator[Shape]:
+    """A box with an action in two to four lines, the detail, which tells it from others, in bold."""
+    inner = width - 8
+    first, small = wrapped(verb, inner - 4, (13, 12, 11))
+    rest, large = wrapped(detail, inner - 6, (14, 12, 11, 10, 9), 4 - len(first), bold=True)
+    lines = [(line, small, False) for line in first] + [(line, large, True) for line in rest if line]
+    heights = stacked(len(lines), middle, min(16, (height - 4) / len(lines)))
+    yield Rect(4, middle - height / 2, inner, height, paint, round=8)
+    for (line, size, bold), y in zip(lines, heights, strict=True):
+        yield Text(width / 2, y, line, size, ink, bold=bold)
+
+
+def stacked(lines: int, middle: float, step: float) -> list[float]:
+    """Heights of lines about a middle."""
+    return [middle + (i - (lines - 1) / 2) * step for i in range(lines)]

@@ -24,13 +24,17 @@ from serendipity.pictures.picture.drawing import (
     Shape,
     Style,
     Text,
+    act_style,
     agent_colours,
+    box,
     fitted,
+    stacked,
     tint,
     wrapped,
 )
 from serendipity.pictures.picture.map_picture import flag, map_picture
-from serendipity.pictures.scene.scene import Act, Change, Scene, headline, subtitle
+from serendipity.pictures.picture.tree_picture import tree, tree_height, tree_labels
+from serendipity.pictures.scene.scene import Act, Change, Scene, headline, scenario_lines, subtitle
 
 COLUMN: Final = 98.0
 LABELS: Final = 140.0
@@ -49,17 +53,12 @@ _LONG: Final = 36  # letters of a label from which on it has three lines
 _RULE: Final = "#d0d7de"
 
 
-def columns(scene: Scene) -> int:
-    """How many columns the timeline has: the start, and one per epoch."""
-    return len(scene.frames)
-
-
 def column(scene: Scene) -> float:
     """The width of an epoch; in time as narrow as short actions allow, where there are many."""
     if scene.unit is None:
         return COLUMN
     shortest = min((act.duration for act in (*scene.acts, *scene.former_acts)), default=1)
-    return min(COLUMN, max(_NARROWEST, _NARROWEST_ACT / shortest, _ROW / columns(scene)))
+    return min(COLUMN, max(_NARROWEST, _NARROWEST_ACT / shortest, _ROW / len(scene.frames)))
 
 
 def lane_labels(scene: Scene) -> Picture:
@@ -68,6 +67,7 @@ def lane_labels(scene: Scene) -> Picture:
     shapes: list[Shape] = [Text(8, _HEAD / 2, "epoch", 14, FAINT_INK, "start")]
     if scene.unit is not None:
         shapes.append(Text(8, _HEAD, "time", 12, FAINT_INK, "start"))
+    shapes += tree_labels(scene, _HEAD, LABELS)
     tops = _tops(scene)
     for agent in scene.lanes:
         text, size = fitted(scene.title(agent), LABELS - 34, 16, 10, bold=True)
@@ -85,7 +85,7 @@ def lane_labels(scene: Scene) -> Picture:
         text = f"goal: {change.label}" if change.goal else change.label
         lines, size = wrapped(text, LABELS - 12, (12, 11, 10), 3 if len(text) > _LONG else 2)
         colour = INK if change.goal else FAINT_INK
-        heights = _stacked(len(lines), top + _FACT / 2, min(13, _FACT / len(lines)))
+        heights = stacked(len(lines), top + _FACT / 2, min(13, _FACT / len(lines)))
         label = [Text(8, y, line, size, colour, "start") for line, y in zip(lines, heights, strict=True)]
         shapes.append(Group(tuple(label), title=text))
     return Picture(LABELS, _height(scene), tuple(shapes), "Lanes of the timeline")
@@ -98,15 +98,16 @@ def timeline_picture(
 
     Args:
         first: the first epoch; 0 is the start.
-        last: the last epoch; None for the end.
+        last: the last epoch; None, or one after the end, for the end.
         now: the epoch that is marked.
     """
-    end = columns(scene) - 1 if last is None else last
+    end = min(scene.frames[-1].epoch, scene.frames[-1].epoch if last is None else last)
     width = (end - first + 1) * column(scene)
     tops = [top for lane, top in _tops(scene).items() if lane != "facts"]
     tops += [top for _, top in _fact_tops(scene)]
     shapes = [
         *_columns(scene, first, end),
+        *(tree(scene, _HEAD, first, end, column(scene)) if scene.histories else ()),
         *(Polyline(((0, top), (width, top)), Style(stroke=_RULE, width=1)) for top in tops),
         *_marks(scene, first, end),
         *_acts(scene, first, end),
@@ -133,7 +134,7 @@ def _tops(scene: Scene) -> dict[int | str, float]:
     heights: dict[int | str, float] = dict.fromkeys(scene.lanes, _LANE)
     heights["former"] = _FORMER if scene.deviates else 0
     heights |= {"script": _SCRIPT} if scene.marks else {}
-    head = _HEAD if scene.unit is None else _HEAD + _CLOCK
+    head = _HEAD + tree_height(scene) if scene.unit is None else _HEAD + _CLOCK
     return dict(zip((*heights, "facts"), accumulate(heights.values(), initial=head), strict=True))
 
 
@@ -174,7 +175,7 @@ def _marks(scene: Scene, first: int, last: int) -> Iterator[Shape]:
         middle = tops["script"] + _SCRIPT / 2
         x, room = (epoch - first + 1) * column(scene), (epoch - before) * column(scene) - 16
         lines, size = wrapped(", ".join(texts), room, (13, 12, 11, 10, 9), 3)
-        heights = _stacked(len(lines), middle, min(14, _SCRIPT / len(lines)))
+        heights = stacked(len(lines), middle, min(14, _SCRIPT / len(lines)))
         shapes: list[Shape] = [
             Polyline(
                 ((x, tops[scene.human]), (x, _height(scene))), Style(stroke=INK, width=1.5, dash=(3, 4))
@@ -194,12 +195,7 @@ def _acts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
     for act in scene.acts:
         if act.epoch <= last and first <= act.end:
             joint = len(act.agents) > 1
-            paints = {
-                tops[i] + _LANE / 2: Style(
-                    tint(colours[i]), MEETING if joint else colours[i], 3.5 if joint else 1.5
-                )
-                for i in act.agents
-            }
+            paints = {tops[i] + _LANE / 2: act_style(colours[i], joint) for i in act.agents}
             yield _bar(scene, act, range(first, last + 1), paints, _LANE - 8, INK)
     if scene.deviates:
         former = {tops["former"] + _FORMER / 2: Style(PAPER, FORMER, 1.5, (4, 3))}
@@ -217,29 +213,9 @@ def _bar(scene: Scene, act: Act, seen: range, paints: dict[float, Style], height
         bond = Style(stroke=MEETING, width=10)
         shapes.append(Polyline(((width / 2, min(paints)), (width / 2, max(paints))), bond))
     for middle, paint in paints.items():
-        shapes += _label(act, width, middle, height, paint, ink)
+        shapes += box(act.verb, act.detail, width, middle, height, paint, ink)
     x = (start - seen[0]) * column(scene)
     return Group(tuple(shapes), x, 0, {"act": str(act.epoch)}, act.action)
-
-
-def _label(act: Act, width: float, middle: float, height: float, paint: Style, ink: str) -> list[Shape]:
-    """A box with the action in two to four lines, the detail, which tells it from others, in bold."""
-    inner = width - 8
-    verb, small = wrapped(act.verb, inner - 4, (13, 12, 11))
-    detail, large = wrapped(act.detail, inner - 6, (14, 12, 11, 10, 9), 4 - len(verb), bold=True)
-    lines = [(line, small, False) for line in verb] + [(line, large, True) for line in detail if line]
-    heights = _stacked(len(lines), middle, min(16, (height - 4) / len(lines)))
-    shapes: list[Shape] = [Rect(4, middle - height / 2, inner, height, paint, round=8)]
-    shapes += [
-        Text(width / 2, y, line, size, ink, bold=bold)
-        for (line, size, bold), y in zip(lines, heights, strict=True)
-    ]
-    return shapes
-
-
-def _stacked(lines: int, middle: float, step: float) -> list[float]:
-    """Heights of lines about a middle."""
-    return [middle + (i - (lines - 1) / 2) * step for i in range(lines)]
 
 
 def _facts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
@@ -273,22 +249,27 @@ def still(scene: Scene, epoch: int | None = None) -> Picture:
         scene = replace(scene, layout=scene.layout.around(visited))
     city = map_picture(scene, now)
     fitting = _ROW if city is None else max(_ROW, city.width - LABELS)
-    per_row = min(columns(scene), int(fitting / column(scene)))
+    per_row = min(len(scene.frames), int(fitting / column(scene)))
     wide = max(LABELS + per_row * column(scene), 0 if city is None else city.width, _LEAST)
     shapes: list[Shape] = [
         Text(0, 14, headline(scene), 24, INK, "start", bold=True),
         Text(0, 46, subtitle(scene), 16, FAINT_INK, "start"),
-        Text(0, 76, f"Epoch {now}{clock}: {scene.frames[now].caption}", 18, INK, "start"),
     ]
-    y = 100.0
+    y = 74.0
+    for line, bold in scenario_lines(scene):
+        shapes.append(Text(0, y, *fitted(line, _LEAST, 16, 8, bold=bold), INK, "start", bold=bold))
+        y += 24
+    caption = f"Epoch {now}{clock}: {scene.frames[now].caption}"
+    shapes.append(Text(0, y + 2, caption, 18, INK, "start"))
+    y += 26
     if city is not None:
         shapes.append(Group(city.shapes, (wide - city.width) / 2, y))
         y += city.height + 10
         shapes.append(Group(tuple(_legend(scene)), 0, y))
         y += 40
     labels = lane_labels(scene)
-    for first in range(0, columns(scene), per_row):
-        row = timeline_picture(scene, first, min(first + per_row, columns(scene)) - 1, now)
+    for first in range(0, len(scene.frames), per_row):
+        row = timeline_picture(scene, first, first + per_row - 1, now)
         shapes += [Group(labels.shapes, 0, y), Group(row.shapes, LABELS, y)]
         y += row.height + 14
     body = Group(tuple(shapes), _MARGIN, _MARGIN)

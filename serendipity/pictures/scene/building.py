@@ -17,6 +17,7 @@ from serendipity.pictures.map.layout import lay_out
 from serendipity.pictures.map.places import Places, Whereabouts, find_places
 from serendipity.pictures.scene.crowds import cell_size
 from serendipity.pictures.scene.finder import Finder
+from serendipity.pictures.scene.scenarios import find_histories, find_scenario, played
 from serendipity.pictures.scene.scene import Act, Frame, Meeting, Scene, find_changes
 
 
@@ -87,19 +88,29 @@ MOST_EPOCHS: Final = 2_000
 """Epochs of a picture: a second of work, and a page of a megabyte; nobody looks at more."""
 
 
-def build_scene(task: Task, result: Result) -> Scene:
+def build_scene(task: Task, result: Result, scenario: str | None = None) -> Scene:
     """The scene of a result; without a plan, of the human's own plan, or of the initial state.
+
+    Args:
+        task: the task.
+        result: the result.
+        scenario: what is played of an answer over scenarios, by its name or number; None: the most probable.
 
     Raises:
         InputError: the plan does not fit the task, or has more than :data:`MOST_EPOCHS` epochs.
+        UsageError: there is no such scenario.
     """
+    chosen = find_scenario(result, scenario)
+    if chosen is not None:
+        task, result = played(task, result, chosen)
     names = result.human_plan or ()
     usual = PlanTimes(tuple(range(1, len(names) + 1)), (1,) * len(names), len(names))
     times = result.human_plan_times or usual
     begun = zip(times.starts, names, times.durations, strict=True)
     own = [PlanStep(start, (result.human,), name, 0.0, duration) for start, name, duration in begun]
     plan = own if result.plan is None else result.plan
-    last = max([times.epochs, *(step.end for step in plan)])
+    others = chain.from_iterable(entry.plan or () for entry in result.goals or ())
+    last = max([times.epochs, *(step.end for step in (*plan, *others))])
     if last > MOST_EPOCHS:
         raise InputError(f"plan: it has {last} epochs, and at most {MOST_EPOCHS} are drawn")
     places = find_places(task)
@@ -128,6 +139,9 @@ def build_scene(task: Task, result: Result) -> Scene:
             for epoch, some in groupby(task.script.facts, key=lambda one: one.epoch)
             if epoch <= last
         },
+        scenario=chosen,
+        histories=find_histories(result, last),
+        told={step: builder.act(step) for entry in result.goals or () for step in entry.plan or ()},
         unit=task.epoch if task.needs_time or result.in_time else None,
     )
     return replace(scene, layout=lay_out(places, cell_size(scene, places.names))) if places.names else scene
@@ -150,6 +164,7 @@ class _Builder:
         human, spent, former_spent = self.task.human, self._spent(moments), self._spent(former)
         before = moments[0].state
         for epoch, moment in enumerate(moments):
+            other = "with the former plan" if epoch < len(former) else "in other scenarios"
             then = former[min(epoch, len(former) - 1)]
             shown = self.finder.shown(moment.state, moment.going_on())
             former_shown = self.finder.shown(then.state, then.going_on())
@@ -163,7 +178,7 @@ class _Builder:
                     undone=self._facts(before - moment.state),
                     spent=spent[epoch],
                     former_spent=former_spent[then.epoch][human],
-                    caption=self._caption(moment, ended=epoch > end),
+                    caption=self._caption(moment, other if epoch > end else ""),
                     in_window=epoch in self.window,
                 )
             )
@@ -191,6 +206,10 @@ class _Builder:
         human = self.task.human
         ordered = sorted(begun, key=lambda one: (human not in one[1].participants, one[1].participants))
         return [self._act(epoch, action) for epoch, action in ordered]
+
+    def act(self, step: PlanStep) -> Act:
+        """A step by itself, whatever the state."""
+        return self._act(step.epoch, _find(self.task, step, self.task.init))
 
     def meetings(self, moments: Sequence[Snapshot]) -> list[Meeting]:
         """Joint actions as they end, and objects that somebody takes who did not have them last."""
@@ -245,11 +264,11 @@ class _Builder:
     def _facts(self, ids: frozenset[int]) -> tuple[str, ...]:
         return tuple(self.task.facts[f] for f in sorted(ids))
 
-    def _caption(self, moment: Snapshot, *, ended: bool) -> str:
+    def _caption(self, moment: Snapshot, other: str) -> str:
         if moment.epoch == 0:
             return "Before anybody has done anything."
-        if ended:
-            return "All is done; with the former plan there would still be something to do."
+        if other:
+            return f"All is done; {other} there would still be something to do."
         lines = []
         for act in self._acts(moment.going):
             part = f" ({moment.epoch - act.epoch + 1} of {act.duration})" if act.duration > 1 else ""

@@ -1,11 +1,12 @@
 """The scene: all that a picture of a plan shows, epoch by epoch, before it is drawn; and its headline."""
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 
-from serendipity.model import Result, Task
+from serendipity.model import PlanStep, Result, Task
+from serendipity.model.answers.histories import History
 from serendipity.model.numbers import as_written, plain
 from serendipity.model.task.variables import Variable
 from serendipity.pictures.map.layout import MapLayout
@@ -192,6 +193,9 @@ class Scene:
         bystanders: ids of the people whose plans are fixed.
         marks: by epoch the facts that the script changes, ``not`` in front of those that become false.
         unit: of a plan in time, the length of an epoch in the unit of the input; else None.
+        scenario: the place in the result of the scenario that is played; None without scenarios.
+        histories: of all scenarios, where there are several, each before its branches.
+        told: the steps of all scenarios in words.
     """
 
     name: str
@@ -210,6 +214,9 @@ class Scene:
     bystanders: frozenset[int] = frozenset()
     marks: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
     unit: Fraction | None = None
+    scenario: int | None = None
+    histories: tuple[History, ...] = ()
+    told: Mapping[PlanStep, Act] = field(default_factory=dict)
 
     @property
     def lanes(self) -> tuple[int, ...]:
@@ -270,6 +277,9 @@ def headline(scene: Scene) -> str:
         return "The time limit came before any plan"
     if result.plan is None:
         return f"No single plan: figures over all optimal plans of {human}"
+    if result.opportunity and scene.histories:
+        helps = "watch" if result.options.policy == "watching" else "don't watch, but help"
+        return f"The robots {helps} {human}: {_saved(scene)}"
     if result.opportunity and scene.meetings:
         first = scene.meetings[0]
         return f"{first.text[:1].upper()}{first.text[1:]} at epoch {first.epoch}: {_saved(scene)}"
@@ -289,9 +299,9 @@ def subtitle(scene: Scene) -> str:
     turns = result.mode == "assistance"
     if result.options.discount and not turns:
         words.append(f"discount {plain(float(result.options.discount))}")
-    if result.cost is not None and result.human_cost is not None and not turns:
+    if result.cost is not None and result.human_cost is not None and not turns and not scene.histories:
         words.append(f"cost {plain(result.human_cost)} → {plain(result.cost)}")
-    if result.window is not None:
+    if result.window is not None and not scene.histories:
         first, last = result.window.start, result.window.end - 1
         words.append(f"window: epoch {first}" if first == last else f"window: epochs {first} to {last}")
     if result.status == "optimal":
@@ -299,8 +309,19 @@ def subtitle(scene: Scene) -> str:
     return " · ".join(words)
 
 
+def scenario_lines(scene: Scene) -> Iterator[tuple[str, bool]]:
+    """A line for each of several scenarios, and whether it is the one that is played."""
+    for i, entry in enumerate(scene.result.goals or () if scene.histories else ()):
+        window = f", window [{entry.window.start}, {entry.window.end})" if entry.window else ""
+        words = f"probability {entry.probability:.4g}, cost {plain(entry.cost or 0)}{window}"
+        chosen = i == scene.scenario
+        yield f"{i + 1} {entry.name}: {words}{' (played here)' * chosen}", chosen
+
+
 def _saved(scene: Scene) -> str:
     result = scene.result
+    measures = {"mean": "expected cost", "worst": "greatest cost", "regret": "greatest regret"}
+    measure = measures[result.options.risk] if scene.histories else "cost"
     if result.mode == "assistance":
         human = scene.agents[scene.human]
         own = result.agent_costs.get(human, 0)
@@ -309,4 +330,4 @@ def _saved(scene: Scene) -> str:
         return f"{before}{plain(own)} for {human}, {plain(others)} for the others"
     if result.saving is None or result.human_cost is None or result.cost is None:
         return "a plan together"
-    return f"cost {plain(result.human_cost)} → {plain(result.cost)}, {plain(result.saving)} saved"
+    return f"{measure} {plain(result.human_cost)} → {plain(result.cost)}, {plain(result.saving)} saved"

@@ -1,0 +1,99 @@
+"""The histories of an answer over scenarios above a timeline: a bar for each, on the timeline's axis."""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from typing import Final
+
+from serendipity.model.answers.histories import History
+from serendipity.pictures.map.names import ems
+from serendipity.pictures.picture import drawing
+from serendipity.pictures.picture.drawing import INK, PAPER, WALL, Rect, Shape, Style, Text
+from serendipity.pictures.scene.scene import Scene
+
+_WORDS: Final = 22.0
+_ACT: Final = 60.0
+_IDLE: Final = 18.0
+_GAP: Final = 14.0
+_SIZE: Final = 13.0
+
+
+def tree_height(scene: Scene) -> float:
+    """How high all rows are together; 0 where nothing branches."""
+    return sum(_WORDS + bar + _GAP for _, _, bar in _rows(scene, 0))
+
+
+def tree_labels(scene: Scene, top: float, width: float) -> Iterator[Shape]:
+    """Which scenarios the rows are about: the name of one, the numbers of several."""
+    for history, y, bar in _rows(scene, top):
+        one = (scene.result.goals or ())[history.scenarios[0]].name if len(history.scenarios) == 1 else ""
+        text = f"{_numbers(history.scenarios)} {one}" if one else f"may be {_numbers(history.scenarios)}"
+        lines, size = drawing.wrapped(text, width - 12, (13, 12, 11, 10), 3)
+        middles = drawing.stacked(len(lines), y + (_WORDS + bar) / 2, size + 2)
+        label = (Text(8, at, line, size, INK, "start") for line, at in zip(lines, middles, strict=True))
+        yield drawing.Group(tuple(label), title=text)
+
+
+def tree(scene: Scene, top: float, first: int, last: int, column: float) -> Iterator[Shape]:
+    """The rows between two epochs; a line leads from each bar to those that may follow it."""
+    width = (last - first + 1) * column
+    yield Rect(0, top, width, tree_height(scene), Style(PAPER))
+    rows = list(_rows(scene, top))
+    middles = {history.scenarios: y + _WORDS + bar / 2 for history, y, bar in rows}
+    for history, _, _ in rows:
+        x, middle = (history.end - first) * column, middles[history.scenarios]
+        for branch in history.branches if 0 <= x <= width else ():
+            end = middles[branch.scenarios]
+            points = ((x - 2, middle), (x, middle), (x, end), (x + 2, end))
+            yield drawing.Polyline(points, Style(stroke=WALL, width=2))
+    for history, y, bar in rows:
+        start, end = max(first, history.start), min(last + 1, history.end)
+        if start < end:
+            x, long = (start - first) * column, (end - start) * column
+            colour = drawing.HUMAN if scene.scenario in history.scenarios else WALL
+            paint = Style(drawing.tint(colour, 0.1), colour, 1.5)
+            yield Rect(x + 1, y + _WORDS, long - 2, bar, paint, round=8)
+            yield from _words(scene, history, x + 6, y + _WORDS / 2, width)
+            yield from _acts(scene, history, y + _WORDS, range(first, last + 1), column)
+
+
+def _rows(scene: Scene, top: float) -> Iterator[tuple[History, float, float]]:
+    """Each history, where its row begins, and how high its bar is: robots' actions of an epoch are a pile."""
+    for history in scene.histories:
+        bar = max(Counter(step.epoch for step in history.robots).values(), default=0) * _ACT or _IDLE
+        yield history, top, bar
+        top += _WORDS + bar + _GAP
+
+
+def _numbers(scenarios: Iterable[int]) -> str:
+    return ", ".join(str(i + 1) for i in scenarios)
+
+
+def _words(scene: Scene, history: History, x: float, y: float, width: float) -> Iterator[Shape]:
+    """Which scenarios are possible, how probable they are, and what the human did by which that is known."""
+    goals = scene.result.goals or ()
+    may = f"{_numbers(history.scenarios)} · {sum(goals[i].probability for i in history.scenarios):.4g}"
+    steps, seen = goals[history.scenarios[0]].plan or (), history.start - 1
+    acts = (scene.told[s] for s in steps if s.epoch == seen and scene.result.human in s.agents)
+    sign = next((f"seen: {act.verb} {act.detail}" for act in acts), "seen: wait") if seen else ""
+    wide = ems(may) * _SIZE * drawing.BOLD + 10
+    x = max(0.0, min(x, width - wide - ems(sign) * _SIZE))
+    yield Rect(x, y - 9, wide + ems(sign) * _SIZE, 18, Style(PAPER))
+    yield Text(x, y, *drawing.fitted(may, width - x, _SIZE, 9, bold=True), INK, "start", bold=True)
+    if (left := width - x - wide) > 4 * _SIZE:
+        yield Text(x + wide, y, *drawing.fitted(sign, left, _SIZE, 9), drawing.FAINT_INK, "start")
+
+
+def _acts(scene: Scene, history: History, top: float, seen: range, column: float) -> Iterator[Shape]:
+    """What robots do in a bar, and in which scenarios where that is not all; those of an epoch in a pile."""
+    goals = scene.result.goals or ()
+    colours, count = drawing.agent_colours(len(scene.agents), scene.human), Counter[int]()
+    for step in history.robots:
+        act, middle = scene.told[step], top + (count[step.epoch] + 0.5) * _ACT
+        count[step.epoch] += 1
+        if step.epoch in seen:
+            paint = drawing.act_style(colours[max(act.agents, key=scene.human.__ne__)], len(act.agents) > 1)
+            having = [i for i in history.scenarios if step in (goals[i].plan or ())]
+            only = "" if len(having) == len(history.scenarios) else f"{_numbers(having)}: "
+            shapes = drawing.box(only + act.verb, act.detail, column, middle, _ACT - 8, paint, INK)
+            x = (step.epoch - seen[0]) * column
+            yield drawing.Group(tuple(shapes), x, 0, {"act": str(step.epoch)}, act.action)

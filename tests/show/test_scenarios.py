@@ -1,0 +1,113 @@
+"""An answer over scenarios is drawn as the tree of its histories, above what happens in one of them."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import combinations
+
+import pytest
+
+import serendipity
+from serendipity.model import Result, UsageError
+from serendipity.pictures import Scene, build_scene, draw
+from serendipity.pictures.map.names import ems
+from serendipity.pictures.picture.drawing import Group, Rect, Shape, Text
+from serendipity.pictures.picture.timeline_picture import lane_labels, timeline_picture
+from serendipity.pictures.picture.tree_picture import tree, tree_height
+from serendipity.pictures.scene.scene import headline, scenario_lines
+
+ROOMS = ("room1", "room3", "room9", "room6", "room12")
+LONG = "the one who looks after all of the patients in "
+
+
+def policy(rooms: int = 3, name: str = "", **options: str) -> Result:
+    """The answer for a person who may want triage in one of the first rooms."""
+    goals = [{"name": name + room, "goal": [f"conducted_triage commx {room}"]} for room in ROOMS[:rooms]]
+    return serendipity.plan(serendipity.example("room2"), discount="0.9", goals=goals, **options)
+
+
+@pytest.fixture(scope="module")
+def watching() -> Result:
+    return policy()
+
+
+def words(scene: Scene) -> set[str]:
+    return {text.text for text in texts(timeline_picture(scene).shapes)}
+
+
+def scene_of(result: Result, scenario: str | None = None) -> Scene:
+    return build_scene(serendipity.example("room2"), result, scenario)
+
+
+def texts(shapes: tuple[Shape, ...], x: float = 0, y: float = 0) -> Iterator[Text]:
+    """The words of a picture, where they stand on its sheet."""
+    for shape in shapes:
+        if isinstance(shape, Group):
+            yield from texts(shape.shapes, x + shape.x, y + shape.y)
+        elif isinstance(shape, Text) and shape.text:
+            yield replace(shape, x=x + shape.x, y=y + shape.y)
+
+
+def test_a_bar_for_each_history_says_what_may_be_and_by_what_that_is_known(watching: Result) -> None:
+    scene = scene_of(watching)
+    found = [(h.start, h.end, h.scenarios) for h in scene.histories]
+    assert found == [(1, 2, (0, 1, 2)), (2, 11, (0, 2)), (11, 14, (0,)), (11, 14, (2,)), (2, 14, (1,))]
+    assert {"1, 2, 3 · 1", "1, 3 · 0.6667", "seen: go to hall8", "seen: wait"} <= words(scene)
+    rows = tree(scene, 0, 0, 13, 10)
+    bars = [(s.x - 1, s.x + s.width + 1) for s in rows if isinstance(s, Rect) and s.style.stroke]
+    assert bars == [(10 * h.start, 10 * h.end) for h in scene.histories]
+    assert headline(scene) == "The robots watch commx: expected cost 11.66666667 → 10.6, 1.066666667 saved"
+    blind = scene_of(policy(policy="fixed"))
+    assert [h.scenarios for h in blind.histories] == [(0, 1, 2)]
+    assert headline(blind).startswith("The robots don't watch")
+
+
+def test_one_scenario_is_played_below(watching: Result) -> None:
+    for chosen, room, last in ((None, "room1", 13), ("room3", "room3", 11), ("3", "room9", 13)):
+        scene = scene_of(watching, chosen)
+        assert scene.goals == (room,)
+        assert scene.frames[-1].at[scene.human] == room
+        assert scene.frames[-1].epoch == last  # of the former plan, or the other scenarios
+        assert [chosen for _, chosen in scenario_lines(scene)] == [name == room for name in ROOMS[:3]]
+    goals = watching.goals or ()
+    likely = replace(watching, goals=(goals[0], replace(goals[1], probability=0.5), goals[2]))
+    assert scene_of(likely).scenario == 1
+
+
+def test_a_joint_action_of_some_scenarios_names_them(watching: Result) -> None:
+    goals = watching.goals or ()
+    plans = [tuple(s for s in goals[0].plan or () if s.epoch <= last) for last in (6, 5)]
+    some = tuple(replace(g, plan=plan) for g, plan in zip(goals[::2], plans, strict=True))
+    assert {"1: hand", "over"} <= words(scene_of(replace(watching, goals=some)))
+    assert "1: hand" not in words(scene_of(watching))
+
+
+@pytest.mark.parametrize("rooms", [2, 3, 4, 5])
+def test_words_do_not_overlap(rooms: int) -> None:
+    scene = scene_of(policy(rooms, LONG))
+    parts = [(0, None), (0, 5), (6, 6), (7, 10), (11, 12)]
+    for picture in (lane_labels(scene), *(timeline_picture(scene, *part) for part in parts)):
+        found = [text for text in texts(picture.shapes) if text.y < 34 + tree_height(scene)]
+        assert len(found) > 1
+        for one, other in combinations(found, 2):
+            across = min(_sides(one)[1], _sides(other)[1]) - max(_sides(one)[0], _sides(other)[0])
+            assert across < 1 or abs(one.y - other.y) > 0.4 * (one.size + other.size)
+        assert all(-1 <= side <= picture.width + 1 for text in found for side in _sides(text))
+
+
+def _sides(text: Text) -> tuple[float, float]:
+    wide = ems(text.text) * text.size
+    left = {"start": text.x, "middle": text.x - wide / 2, "end": text.x - wide}[text.anchor]
+    return left, left + wide
+
+
+def test_the_page_names_the_scenarios_and_keeps_names_from_being_markup() -> None:
+    page = str(draw(scene_of(policy(2, "</script><b>")), ".html"))
+    assert "<p class=played>1 &lt;/script&gt;&lt;b&gt;room1: probability 0.5, " in page
+    assert "<b>" not in page
+
+
+def test_scenarios_that_are_not_there_are_named(watching: Result, room2: Scene) -> None:
+    with pytest.raises(UsageError, match="expected one of room1, room3, room9; got 'attic'"):
+        serendipity.show(serendipity.example("room2"), watching, scenario="attic")
+    with pytest.raises(UsageError, match="about no scenarios; got 'room1'"):
+        scene_of(room2.result, "room1")
