@@ -251,7 +251,6 @@ def _solver(options: Options) -> Solver:
     from search.modes.assistance import assist
 
     if options.time_limit is not None:  # what only large tasks need takes longer to load than a short limit
-        import_module("search.modes.assistance.distances.layers")
         import_module("search.modes.assistance.distances.perimeter")
     return lambda call: assist(call.prepared, call.options, call.deadline)
 

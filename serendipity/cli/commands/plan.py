@@ -141,7 +141,6 @@ def _modules(given: Mapping[str, Any], unsure: Path | None, *, certify: bool) ->
     if given.get("mode") == "assistance":
         modules += [
             "search.modes.assistance",
-            "search.modes.assistance.distances.layers",
             "search.modes.assistance.distances.perimeter",
             "verify.policy",
         ]

@@ -4,16 +4,11 @@ Where the states that the two can reach together are few, the joint optimum itse
 one table.  Elsewhere a relaxation of it, see :mod:`search.modes.assistance.bounds.relaxed_provision`.
 """
 
-from typing import Final
-
 from search.modes.assistance.bounds.relaxed_provision import RelaxedProvision
-from search.modes.assistance.distances.arcs import Arc, ClosureTooLargeError
-from search.modes.assistance.distances.closure import Closure
+from search.modes.assistance.distances.closure import SMALL, Arc, Closure, ClosureTooLargeError
 from search.modes.assistance.game.game import Game
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedGoal
-
-MAX_JOINT_STATES: Final = 100_000
 
 
 class ValueBound:
@@ -23,7 +18,7 @@ class ValueBound:
         self._unit_bits = game.unit_bits
         self._provision = RelaxedProvision(game)
         heaviest = max(map(game.cost, game.supporter_ops), default=0)
-        self._shift = heaviest.bit_length() + MAX_JOINT_STATES.bit_length()  # a way has no state twice
+        self._shift = heaviest.bit_length() + SMALL.bit_length()  # a way has no state twice
         self._joint: Closure | None = _joint_closure(game, self._shift)
         try:
             self._joint.key(game.init)
@@ -34,11 +29,7 @@ class ValueBound:
         """A value that no policy undercuts from ``state``."""
         if self._joint is None:
             return self._provision(state)
-        try:
-            key = self._joint.key(state)
-        except ClosureTooLargeError:  # a distance that is too large to be told
-            self._joint = None
-            return self._provision(state)
+        key = self._joint.key(state)
         if key >= INFINITE_KEY:
             return INFINITE_KEY
         prime, supporter = divmod(key, 1 << self._shift)
@@ -59,4 +50,4 @@ def _joint_closure(game: Game, shift: int) -> Closure:
             arcs.append(Arc(condition, op.keep, op.put, game.cost(op) << bit))
     fields = game.packed.fields
     values = [game.packed.values(field) for field in fields]
-    return Closure(arcs, game.goal, fields, values, MAX_JOINT_STATES, game.deadline)
+    return Closure(arcs, game.goal, fields, values, SMALL, game.deadline)

@@ -1,30 +1,36 @@
 """Exact distances to a goal for every state of a transition system that is reachable from a query.
 
 A query explores what is reachable from its state, then runs Dijkstra backward over it; so
-a state costs work once.  Small closures are explored state by state, large ones by whole
-layers in arrays.
+a state costs work once.  Where that is much, only what is near the goal is looked at.
 """
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from search.engine.shortest_paths import backward
-from search.modes.assistance.distances.arcs import Arc, ClosureTooLargeError
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.packed_task import PackedGoal
-from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
 if TYPE_CHECKING:
-    from search.modes.assistance.distances.layers import Layers
     from search.modes.assistance.distances.perimeter import Perimeter
 
-SMALL: Final = 3_000
-"""States that are explored one by one before arrays take over."""
-
-MEDIUM: Final = 200_000
+SMALL: Final = 5_000
 """States that are all looked at before only those near the goal are."""
+
+
+class ClosureTooLargeError(Exception):
+    """The closure of a state is larger than the limit."""
+
+
+class Arc(NamedTuple):
+    """A weighted transition: where it applies, what it keeps and puts, its weight."""
+
+    condition: PackedGoal
+    keep: int
+    put: int
+    weight: int
 
 
 class Closure:
@@ -58,7 +64,6 @@ class Closure:
         )
         for arc in self._arcs:
             self._index.add(arc.condition.need_mask, arc.condition.need, arc)
-        self._layers: list[Layers] = []
         self._balls: list[Perimeter] = []
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
@@ -73,21 +78,22 @@ class Closure:
         known = self._known.get(state)
         if known is not None:
             return known
-        for layers in self._layers:
-            distance = layers.distance(state)
-            if distance is not None:
-                self._known[state] = distance
-                return distance
         for ball in self._balls:
             distance = ball.key(state, limit)
             if distance is not None:
                 if distance < limit or distance >= INFINITE_KEY:
                     self._known[state] = distance
                 return distance
-        self._settle(state)
+        few = min(SMALL, self._limit)
+        settled = self._settle(state, few)
+        if few < self._limit:
+            settled = settled or self._grow_ball(state) or self._settle(state, self._limit)
+        if not settled:
+            raise ClosureTooLargeError
         return self.key(state, limit)
 
-    def _settle(self, start: int) -> None:
+    def _settle(self, start: int, most: int) -> bool:
+        """Distances of all that is reachable, unless that is more than so many states."""
         predecessors: dict[int, list[tuple[int, int]]] = {start: []}
         pending = [start]
         seeds: list[tuple[int, int]] = []
@@ -106,10 +112,10 @@ class Closure:
                         before = predecessors[after] = []
                         pending.append(after)
                     before.append((weight, state))
-            if len(predecessors) > min(SMALL, self._limit):
-                self._settle_many(start)
-                return
+            if len(predecessors) > most:
+                return False
         self._spread(seeds, predecessors)
+        return True
 
     def _successors(self, state: int) -> list[tuple[int, int]]:
         """Where arcs lead from a state, and their weights; those that lead nowhere else are left out."""
@@ -129,30 +135,9 @@ class Closure:
         for state in predecessors:
             self._known[state] = distances.get(state, INFINITE_KEY)
 
-    def _settle_many(self, start: int) -> None:
-        """All of them where they are not too many; else what is near the goal; else all of them."""
-        if self._settle_in_layers(start, min(MEDIUM, self._limit)) or self._grow_ball(start):
-            return
-        if self._limit <= MEDIUM or not self._settle_in_layers(start, self._limit):
-            raise ClosureTooLargeError
-
-    def _settle_in_layers(self, start: int, limit: int) -> bool:
-        """Whether it could be done: with too many states, or too little memory for them, it can't."""
-        # Loads numpy: only a task with a large closure pays for it.
-        from search.modes.assistance.distances.layers import Layers
-
-        try:
-            self._layers.append(Layers(self._arcs, self._goal, self._fields, start, limit, self._deadline))
-        except (ClosureTooLargeError, MemoryError):
-            return False
-        except LimitReachedError as limit_reached:
-            if limit_reached.reason != "memory-limit":
-                raise
-            return False
-        return True
-
     def _grow_ball(self, start: int) -> bool:
         """Whether there is a ball now that there was not before."""
+        # Loads numpy: only a task with a large closure pays for it.
         from search.modes.assistance.distances.perimeter import ball_around
 
         if self._balls:

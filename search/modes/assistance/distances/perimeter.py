@@ -10,17 +10,23 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import product
 from math import prod
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from search.engine.shortest_paths import LevelQueue
-from search.modes.assistance.distances.arcs import Arc
-from search.modes.assistance.distances.arrays import Places, Stored, distinct, require_room
+from search.modes.assistance.distances.closure import Arc
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.packed_task import PackedGoal
 from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.resources.deadline import Deadline
+
+Places = NDArray[np.int32]
+"""Indices of states in a table, an ``int32`` each; all arrays here have one axis."""
+
+Stored = NDArray[np.unsignedinteger[Any]]
+"""Distances as they are stored, a ``uint32`` or a ``uint16`` each."""
 
 MAX_BITS: Final = 28
 """Bits of a place's number, which has to fit an ``int32``."""
@@ -41,6 +47,9 @@ _MOST_GOALS: Final = 1_000_000
 
 _SORTING: Final = 16
 """Bytes for each place that is concatenated and sorted, at the least."""
+
+_LARGE: Final = 1 << 20
+"""Bytes; what is smaller is noticed in time when it has been allocated."""
 
 
 class _PerimeterAxis(NamedTuple):
@@ -281,8 +290,10 @@ class Perimeter:
         Of the parts one is left, with what does lie on the level, each once.
         """
         known, minor_mask = self._known, (1 << self._minor_bits) - 1
-        require_room(_SORTING * sum(map(len, parts)), self._deadline)
-        places = distinct(np.concatenate(parts))
+        size = _SORTING * sum(map(len, parts))
+        if size > _LARGE:
+            self._deadline.require(size)
+        places = _distinct(np.concatenate(parts))
         parts[:] = [places[(known[places] - 1 >> self._minor_bits) == level]]
         places = parts[0]
         if int((known[places] - 1 & minor_mask).max(initial=0)) > self._most_minor:
@@ -322,6 +333,14 @@ class Perimeter:
             chosen = places if lowest == highest else places[levels == level]
             if len(chosen):
                 self._queue.push(level, chosen)
+
+
+def _distinct(values: Places) -> Places:
+    """The values in order, each once; numpy's own ``unique`` hashes, slowly on packed states."""
+    values = np.sort(values)
+    first = np.ones(len(values), dtype=bool)
+    first[1:] = values[1:] != values[:-1]
+    return values[first]
 
 
 def ball_around(

@@ -8,16 +8,15 @@ from typing import Final
 
 from search.human.individual_planner import IndividualPlanner, Memory
 from search.human.pattern_database import NOTHING_KNOWN
-from search.modes.assistance.distances.arcs import Arc, ClosureTooLargeError
-from search.modes.assistance.distances.closure import Closure
+from search.modes.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
 from search.modes.assistance.distances.watched import Watched
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.resources.deadline import Deadline
 
-MAX_STATES: Final = 3_000_000
-"""The largest table of one context; beyond it each state is searched by itself."""
+MAX_STATES: Final = 100_000
+"""The largest table of one context, unless it has a ball; beyond it each state is searched by itself."""
 
 
 class OwnCosts:

@@ -20,24 +20,23 @@ from tests.search.modes.assistance.test_search_equals_brute_force import solve
 
 
 @contextmanager
-def everything_is_large(medium: int) -> Iterator[None]:
+def everything_is_large() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(closure, "SMALL", 0)
-        patch.setattr(closure, "MEDIUM", medium)
         yield
 
 
 @pytest.mark.parametrize("ties", ["optimistic", "fixed", "robust"])
-@given(task=games(), no_block=st.booleans(), medium=st.sampled_from([0, 1000]))
-def test_values_do_not_depend_on_the_tables(ties: str, task: Task, no_block: bool, medium: int) -> None:
+@given(task=games(), no_block=st.booleans())
+def test_values_do_not_depend_on_the_tables(ties: str, task: Task, no_block: bool) -> None:
     tree = explore(task, fixed=ties == "fixed", no_block=no_block)
-    with everything_is_large(medium):
+    with everything_is_large():
         assert solve(task, ties, no_block=no_block) == by_rounds(tree, max if ties == "robust" else min)
 
 
-@given(task=games(), medium=st.sampled_from([0, 1000]))
-def test_expected_value_does_not_depend_on_the_tables(task: Task, medium: int) -> None:
-    with everything_is_large(medium):
+@given(task=games())
+def test_expected_value_does_not_depend_on_the_tables(task: Task) -> None:
+    with everything_is_large():
         answer = solve(task, "expected")
     least = mean_over_all_policies(explore(task, fixed=False, no_block=False), 400)
     if least != "too many":

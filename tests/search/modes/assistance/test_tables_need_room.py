@@ -21,14 +21,6 @@ class Full(Deadline):
         raise LimitReachedError("memory-limit")
 
 
-class Late(Deadline):
-    """No time is left."""
-
-    def check(self) -> None:
-        """See :class:`Deadline`."""
-        raise LimitReachedError("time-limit")
-
-
 def line(length: int) -> tuple[list[Arc], PackedGoal, int]:
     """Steps from 0 to ``length - 1``, one after another; the last one is the goal."""
     mask = (1 << length.bit_length()) - 1
@@ -36,16 +28,14 @@ def line(length: int) -> tuple[list[Arc], PackedGoal, int]:
     return arcs, PackedGoal(mask, length - 1, ()), mask
 
 
-def test_without_room_for_layers_there_are_too_many_states(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_room_for_a_ball_all_states_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(closure, "SMALL", 1)
     arcs, goal, mask = line(40)
     values = [list(range(40))]
-    assert Closure(arcs, goal, [mask], values, 1000, Deadline()).key(0) == 39 * ((1 << ACTIONS_BITS) + 1)
-    monkeypatch.setattr("search.modes.assistance.distances.arrays._LARGE", 0)
+    for deadline in (Deadline(), Full()):
+        assert Closure(arcs, goal, [mask], values, 1000, deadline).key(0) == 39 * ((1 << ACTIONS_BITS) + 1)
     with pytest.raises(ClosureTooLargeError):
-        Closure(arcs, goal, [mask], values, 1000, Full()).key(0)
-    with pytest.raises(LimitReachedError):
-        Closure(arcs, goal, [mask], values, 1000, Late()).key(0)
+        Closure(arcs, goal, [mask], values, 39, Full()).key(0)
 
 
 def test_a_ball_asks_for_all_it_may_touch() -> None:
@@ -60,6 +50,6 @@ def test_a_ball_asks_for_all_it_may_touch() -> None:
 def test_answers_are_the_same_without_tables(ties: str, monkeypatch: pytest.MonkeyPatch) -> None:
     full = serendipity.plan(case_5(), mode="assistance", ties=ties)
     monkeypatch.setattr(closure, "SMALL", 1)
-    monkeypatch.setattr("search.modes.assistance.distances.arrays._LARGE", 0)
+    monkeypatch.setattr("search.modes.assistance.distances.perimeter._LARGE", 0)
     answer = serendipity.plan(case_5(), mode="assistance", ties=ties, deadline=Full())
     assert (answer.status, answer.bounds) == (full.status, full.bounds)

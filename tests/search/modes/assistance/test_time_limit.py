@@ -36,12 +36,12 @@ def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: i
     *_, full = assist(PreparedTask(game), options, Deadline())
     with pytest.MonkeyPatch.context() as patch:
         for module in (closure, provision, lao_star, cheapest_run):
-            for name in ("_CHECK_EVERY", "SMALL", "MEDIUM"):
+            for name in ("_CHECK_EVERY", "SMALL"):
                 if hasattr(module, name):
                     patch.setattr(module, name, 1)
         if not tables:
             patch.setattr(ball, "MAX_BITS", -1)
-            patch.setattr(bound, "MAX_JOINT_STATES", 0)
+            patch.setattr(bound, "SMALL", 0)
         *_, answer = assist(PreparedTask(game), options, Countdown(questions))
     if answer.status in ("optimal", "infeasible"):
         assert (answer.status, answer.bounds.upper) == (full.status, full.bounds.upper)
