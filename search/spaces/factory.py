@@ -16,9 +16,9 @@ from search.bounds.private_distances import Corridor
 from search.call.context import SearchContext
 from search.engine.dominance import ParetoFront
 from search.human.pattern_database import NOTHING_KNOWN
+from search.human.plan_suffix import PlanSuffix
 from search.human.strides import StridingPlanner
-from search.human.suffix_rules import Lasting, Preserved, Replan, Subplan, Suffix
-from search.human.suffixes_in_time import SuffixInTime
+from search.human.suffix_rules import Lasting, Replan, Suffix
 from search.packed.cost_vector import INFINITE_KEY, NEVER, CostLayout
 from search.packed.due import Due
 from search.packed.joint_actions import JointAction
@@ -305,26 +305,17 @@ def prefix_rule(context: SearchContext, plan: HumanPlan) -> InLayers:
 
 def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
     """Rule 3 as the options have it."""
-    options, task, packed = context.options, context.task, context.packed
-    steps = context.followed(plan)
-    if packed.idling and (options.suffix == "subplan" or options.preservation == "state"):
+    options, packed = context.options, context.packed
+    due = Due(packed, context.weights.team, strict=options.strict)
+    if options.suffix == "subplan" or options.preservation == "state":
         own = None if options.preservation == "kernel" else _own_facts(packed)
-        due = Due(packed, context.weights.team, strict=options.strict)
-        return SuffixInTime(packed, plan, context.weights.team, due, context.goals, own, context.deadline)
-    if options.preservation == "state":
-        own = human_facts(task)
-        states = task.replay_alone(plan)
-        expected = [packed.condition(Condition(tuple(sorted(own & state)))) for state in states]
-        return Preserved(steps, context.goals, expected)
-    if options.suffix == "subplan":
-        return Subplan(steps, context.goals, context.deadline)
+        return PlanSuffix(packed, plan, context.weights.team, due, context.goals, own, context.deadline)
     lasts = isinstance(context.alone, StridingPlanner) and not context.alone_to_both and not packed.awake
     # Beside a script robots' goals may be reached, or lost, once the human is done: Lasting asks for them.
     theirs = packed.condition(Condition()) if packed.clock_bit and not lasts else packed.robot_goal
     replan = Replan(context.alone, context.alone_to_both, theirs, packed.at_rest, context.keys)
     if lasts or (not packed.clock_bit and not (packed.in_time and (packed.awake or replan.both))):
         return replan
-    due = Due(packed, context.weights.team, strict=options.strict)
     return Lasting(replan, context.goals, due, packed)
 
 
@@ -332,4 +323,4 @@ def _own_facts(packed: PackedTask) -> frozenset[int]:
     """The facts of the human's own domain, but for those that say what is due, and whether they rest."""
     task = packed.task
     progress = {fact for fact, _ in task.due}
-    return human_facts(task) - progress - {*task.actions[packed.idling[0]].pre}
+    return human_facts(task) - progress - {fact for i in packed.idling[:1] for fact in task.actions[i].pre}

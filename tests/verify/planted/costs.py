@@ -5,8 +5,10 @@ from typing import Any
 
 from search.engine.dominance import ParetoFront
 from search.human.individual_planner import PlanGraph
-from search.human.suffix_rules import Preserved, Replan, Subplan
+from search.human.plan_suffix import PlanSuffix
+from search.human.suffix_rules import Replan
 from search.packed.cost_vector import INFINITE_KEY, Weights
+from search.packed.packed_task import PackedGoal
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
 
 
@@ -41,7 +43,7 @@ def _whatever_robots_want(self: Any, state: int, epochs: int, start: int, limit:
 
 
 def _all_steps(original: Any, self: Any, state: int, epochs: int, start: int, limit: int) -> Any:
-    return original(self, state, len(self._steps), start, limit)
+    return original(self, state, len(self._first), start, limit)
 
 
 def _any_goal(original: Any, self: Any, *arguments: Any) -> None:
@@ -49,10 +51,9 @@ def _any_goal(original: Any, self: Any, *arguments: Any) -> None:
     self._goals = self._goals[:1]
 
 
-def _any_state(self: Any, state: int, epochs: int, start: int) -> list[int]:
-    steps = len(self._ops)
-    first = max(start - 1, steps - epochs)
-    return [j for j in range(first, steps + 1) if self._works(state, j)]
+def _any_state(original: Any, self: Any, *arguments: Any) -> None:
+    original(self, *arguments)
+    self._expected = self._expected and [PackedGoal(0, 0, ()) for _ in self._expected]
 
 
 def _by_key_alone(self: Any, labels: Any, epoch: int, key: int, idle: Any) -> bool:
@@ -88,8 +89,8 @@ BUGS = (
     Bug(ParetoFront, "__init__", "they don't count", wrapped(_no_other_order)),
     Bug(Replan, "key", "it may pass T", wrapped(_any_length)),
     Bug(Replan, "key", "the robots' goal is forgotten", replaced(_whatever_robots_want)),
-    Bug(Subplan, "key", "it may pass T", wrapped(_all_steps)),
-    Bug(Subplan, "__init__", "the robots' goal is forgotten", wrapped(_any_goal)),
-    Bug(Preserved, "_fitting", "any state is preserved", replaced(_any_state)),
+    Bug(PlanSuffix, "key", "it may pass T", wrapped(_all_steps)),
+    Bug(PlanSuffix, "__init__", "the robots' goal is forgotten", wrapped(_any_goal)),
+    Bug(PlanSuffix, "__init__", "any state is preserved", wrapped(_any_state)),
     Bug(PlanGraph, "canonical", "the last in string order", replaced(_largest)),
 )

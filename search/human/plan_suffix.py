@@ -1,7 +1,7 @@
-"""Rules for the suffix that keep actions of ``pi_H``, where these take time or the human may wait.
+"""Rules for the suffix that keep actions of ``pi_H`` (semantics 3.1 rule 3, 3.3).
 
-The human ends what they are at.  Then each action that is left is begun at once or after some waiting, which
-makes sense as long as the script goes on, and its epochs follow each other (semantics "Time").
+The human ends what they are at.  Then each action that is left is begun at once or, as long as a script goes
+on, after some waiting, and its epochs follow each other (semantics "Time").
 """
 
 from collections.abc import Callable, Collection, Iterator, Sequence
@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due
-from search.packed.joint_actions import as_option
+from search.packed.joint_actions import NOTHING, JointAction, as_option
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.resources.deadline import Deadline
@@ -41,7 +41,7 @@ class _Way(NamedTuple):
     rest: _Rest
 
 
-class PlanInTime:
+class BegunActions:
     """``pi_H`` as actions, each with the ones of its epochs.
 
     Args:
@@ -67,7 +67,7 @@ class PlanInTime:
                 self.states.append(state)
 
 
-class SuffixInTime:
+class PlanSuffix:
     """A suffix of actions of ``pi_H``: any subsequence (Def. 2.0, eq. 9), or all from one on (Def. 3.1).
 
     Args:
@@ -92,10 +92,11 @@ class SuffixInTime:
         self._due = due
         self._goals = goals
         self._deadline = deadline
-        self._plan = PlanInTime(packed, plan, due)
+        self._plan = BegunActions(packed, plan, due)
         self._first = [as_option(op, weight(op)) for op in map(packed.op, self._plan.actions)]
-        waiting = packed.op(packed.idling[0])
-        self._waiting = as_option(waiting, weight(waiting) if packed.prices_waiting else 0)
+        waiting = map(packed.op, packed.idling[:1])
+        priced = (as_option(op, weight(op) if packed.prices_waiting else 0) for op in waiting)
+        self._waiting = next(priced, NOTHING)
         self._expected = None if own is None else [self._seen(state, own) for state in self._plan.states]
         self._known: dict[_Rest, tuple[int, _Way | None]] = {}
 
@@ -114,7 +115,7 @@ class SuffixInTime:
     def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
         """See :class:`.Suffix`."""
         _, rest = min(self._begins(state, epochs, start), key=lambda begun: self._best(begun[1])[0])
-        found = [self._packed.idling[-1]] * (epochs - rest.left)  # which is told apart by nobody
+        found = [*self._packed.idling[-1:]] * (epochs - rest.left)  # which is told apart by nobody
         while (way := self._best(rest)[1]) is not None:
             found += way.actions
             rest = way.rest
@@ -129,6 +130,8 @@ class SuffixInTime:
             return []
         state, paid = finished[0], sum(one.weight for one in finished[1])
         epochs -= len(finished[1])
+        if not self._packed.in_time:  # then waiting at the end makes no difference
+            epochs = min(epochs, len(self._first))
         if self._expected is None:
             return [(paid, _Rest(0, state, epochs, True))]
         first = sum(first < start for first in self._plan.starts)
@@ -154,26 +157,27 @@ class SuffixInTime:
 
     def _cheapest(self, at: _Rest, ways: list[_Way]) -> tuple[int, _Way | None]:
         best: tuple[int, _Way | None] = INFINITE_KEY, None
-        if (at.skips or at.begun == len(self._first)) and self._lasts(at.state, at.left):
+        if at.begun == len(self._first) and self._lasts(at.state, at.left):
             best = 0, None
         for way in ways:
-            rest, following = self._known[way.rest]
-            waits_for_nothing = way.rest.begun == at.begun and following is None
-            if rest < INFINITE_KEY and way.weight + rest < best[0] and not waits_for_nothing:
-                best = way.weight + rest, way
+            key = way.weight + self._known[way.rest][0]
+            if key < best[0]:
+                best = key, way
         return best
 
     def _lasts(self, state: int, left: int) -> bool:
         return self._due.lasting(state, left, lambda end: all(goal.holds(end) for goal in self._goals))
 
     def _ways(self, at: _Rest) -> Iterator[_Way]:
-        """The actions that may be next, as they can be done; waiting, while the script lasts."""
-        following = range(at.begun, len(self._first))
-        for index in following if at.skips else following[:1]:
-            way = self._done(at, index)
-            if way is not None:
-                yield way
-        if self._due.last(at.state) is not None and at.left > 1 and at.begun < len(self._first):
+        """Leaving an action out, doing it, if that is possible, and waiting, while the script lasts."""
+        if at.begun == len(self._first):
+            return
+        if at.skips:
+            yield _Way(0, (), at._replace(begun=at.begun + 1))
+        way = self._done(at, self._first[at.begun])
+        if way is not None:
+            yield way
+        if self._due.last(at.state) is not None and at.left > 1:
             after = self._wait(at.state)
             if after is not None:
                 rest = at._replace(state=after, left=at.left - 1)
@@ -183,9 +187,8 @@ class SuffixInTime:
         possible = applicable(self._packed.op(self._waiting.actions[0]), state)
         return self._due.after(state, (self._waiting,)) if possible else None
 
-    def _done(self, at: _Rest, index: int) -> _Way | None:
+    def _done(self, at: _Rest, part: JointAction) -> _Way | None:
         """An action from its first epoch to its last."""
-        part = self._first[index]
         if not at.left or not applicable(self._packed.op(part.actions[0]), at.state):
             return None
         begun = self._due.after(at.state, (part,))
@@ -195,4 +198,4 @@ class SuffixInTime:
         state, following = finished
         done = (part, *following)
         weight, actions = sum(one.weight for one in done), tuple(i for one in done for i in one.actions)
-        return _Way(weight, actions, _Rest(index + 1, state, at.left - len(done), at.skips))
+        return _Way(weight, actions, _Rest(at.begun + 1, state, at.left - len(done), at.skips))
