@@ -217,7 +217,7 @@ class IndividualPlanner:
         if self._prices is not None and self._memory.classical is None and not self._packed.clock_bit:
             from search.human.whole_actions import alone_planner  # only here: most calls come by without
 
-            self._memory.classical = alone_planner(self._packed, self._goal, self._mask, self._deadline)
+            self._memory.classical = alone_planner(self._packed, self._goal, self._deadline)
 
     def _rest(self, state: int) -> int | None:
         """The human's optimal key where it is known or a goal is reached; else None."""

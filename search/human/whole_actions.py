@@ -10,7 +10,6 @@ from typing import Final
 
 from search.classical.planner import ClassicalPlanner
 from search.classical.problem import classical_problem
-from search.human import own_problem
 from search.kernel.library import library
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY, own_costs, own_weights
 from search.packed.operators import Operator, applicable, asked_by
@@ -81,10 +80,13 @@ class OwnPlanner:
         chains: these, in the order of its operators.
         shift: bits below the number of epochs in what it adds up, for the number of actions, which decides
             between plans that are equal else.
+
+    Attributes:
+        planner: the same.
     """
 
     def __init__(self, planner: ClassicalPlanner, chains: Chains, packed: PackedTask, shift: int) -> None:
-        self._planner = planner
+        self.planner = planner
         self._shift = shift
         self._chains = chains
         self._weights = own_weights(packed)
@@ -103,37 +105,37 @@ class OwnPlanner:
         if limit < INFINITE_KEY:
             cost, epochs = divmod(limit - self._spent, 1 << ACTIONS_BITS)
             left = (cost << ACTIONS_BITS) + (epochs << self._shift)
-        return self._total(self._planner.cheapest(state, deadline, left))
+        return self._total(self.planner.cheapest(state, deadline, left))
 
     @property
     def least(self) -> int:
         """See :class:`.ClassicalPlanner`."""
-        return self._total(self._planner.least)
+        return self._total(self.planner.least)
 
     def bound(self, state: int, deadline: Deadline) -> int:
         """See :class:`.ClassicalPlanner`."""
         freed = self._chains.freed(state)
         if freed is None:
             return INFINITE_KEY
-        return self._total(self._planner.bound(freed[0], deadline), self._amount(freed[1]))
+        return self._total(self.planner.bound(freed[0], deadline), self._amount(freed[1]))
 
     def first_plan(self, state: int, deadline: Deadline) -> tuple[int, ...] | None:
         """Some plan from a packed state, as ids of actions."""
-        return self._plan(state, lambda free: self._planner.first_plan(free, deadline))
+        return self._plan(state, lambda free: self.planner.first_plan(free, deadline))
 
     def best_so_far(self, state: int) -> tuple[int, ...] | None:
         """The best plan from a packed state that is at hand, as ids of actions."""
-        return self._plan(state, self._planner.best_so_far)
+        return self._plan(state, self.planner.best_so_far)
 
     def canonical(self, state: int, deadline: Deadline) -> tuple[int, ...] | None:
         """The cheapest plan from a packed state with the smallest actions, as ids of actions."""
         from search.classical.canonical import canonical_plan  # only here: most calls come by without
 
-        return self._plan(state, lambda free: canonical_plan(self._planner, free, deadline))
+        return self._plan(state, lambda free: canonical_plan(self.planner, free, deadline))
 
     def counts(self) -> tuple[int, int, int]:
         """See :class:`.ClassicalPlanner`."""
-        return self._planner.counts()
+        return self.planner.counts()
 
     def _plan(self, state: int, found: Callable[[int], Iterable[int] | None]) -> tuple[int, ...] | None:
         freed = self._chains.freed(state)
@@ -154,26 +156,24 @@ class OwnPlanner:
         return found + (self._spent if spent is None else spent)
 
 
-def alone_planner(packed: PackedTask, goal: PackedGoal, mask: int, deadline: Deadline) -> OwnPlanner | None:
+def alone_planner(packed: PackedTask, goal: PackedGoal, deadline: Deadline) -> OwnPlanner | None:
     """The human alone, by the kernel; None without one that could.
 
     Args:
-        mask: the fields that matter.
         deadline: asked for memory.
     """
-    chains = Chains(packed)
-    if not packed.due:
-        planner = own_problem.own_planner(packed, goal, mask, deadline)
-        return None if planner is None else OwnPlanner(planner, chains, packed, 0)
-    kernel, costs = library(), own_costs(packed)
+    kernel, chains, costs = library(), Chains(packed), own_costs(packed)
+    if kernel is None:
+        return None
     operators = [chains.as_one(chain) for chain in chains.whole]
     kept = goal.mask
     for op in operators:
         kept |= asked_by(op) | packed.all_ones & ~op.keep
-    fields = ((field, len(packed.values(field))) for field in packed.fields if field & mask & kept)
+    fields = ((field, len(packed.values(field))) for field in packed.fields if field & kept)
     prices = [sum(costs[op.cost] for op in chain) for chain in chains.whole]
-    sizes = ((len(chain) << _COUNT_BITS) + 1 for chain in chains.whole)
+    shift = _COUNT_BITS if packed.due else 0
+    sizes = ((len(chain) << shift) + bool(shift) for chain in chains.whole)
     problem = classical_problem(fields, operators, prices, goal, sizes)
-    if kernel is None or problem is None:
+    if problem is None:
         return None
-    return OwnPlanner(ClassicalPlanner(kernel, problem, deadline), chains, packed, _COUNT_BITS)
+    return OwnPlanner(ClassicalPlanner(kernel, problem, deadline), chains, packed, shift)

@@ -3,8 +3,8 @@
 import pytest
 from hypothesis import given
 
-import search.human.own_problem
 import search.human.pattern_database
+import search.human.whole_actions
 from search import prepare, solve
 from search.human.pattern_database import partial_graph, private_fields, whole_graph
 from search.kernel.library import library

@@ -10,7 +10,7 @@ from typing import Final
 from search.call.context import SearchContext
 from search.classical.problem import MOST_WEIGHT, ClassicalProblem
 from search.engine.best_first import Progress
-from search.human.own_problem import own_planner
+from search.human.whole_actions import alone_planner
 from search.kernel.library import library
 from search.packed.cost_vector import ACTIONS_BITS, own_costs
 from search.packed.operators import Operator
@@ -123,9 +123,9 @@ def _epochs(context: SearchContext, steps: Iterable[Operator], deadline: Deadlin
     operators = (*packed.own, *packed.joint, *packed.others, *waiting)
     if kernel is None or len(operators) > _MOST_ACTIONS or len(context.task.agents) > _MOST_AGENTS:
         return None
-    after = own_planner(packed, packed.goal, context.relevant, deadline)
+    alone = alone_planner(packed, packed.goal, deadline)
     costs = [context.weights.scaled_cost(op) for op in operators]
-    if after is None or max(costs).bit_length() > _MOST_COST_BITS:
+    if alone is None or max(costs).bit_length() > _MOST_COST_BITS:
         return None
     fields = tuple((field, len(packed.values(field))) for field in packed.fields)
     weights = tuple((cost << ACTIONS_BITS) + 1 for cost in costs)
@@ -133,9 +133,10 @@ def _epochs(context: SearchContext, steps: Iterable[Operator], deadline: Deadlin
     own, lost = own_costs(packed), lost_values(packed)
     dead = b"".join(_flags(field, values, lost.get(field, ())) for field, values in fields)
     ratio = next((context.weights.scaled_cost(op) // own[op.cost] for op in packed.own if own[op.cost]), 1)
-    if (after.problem.unit * ratio).bit_length() > _MOST_COST_BITS:
+    unit = alone.planner.problem.unit * ratio
+    if unit.bit_length() > _MOST_COST_BITS:
         return None
-    return Epochs(kernel, context, problem, after, dead, after.problem.unit * ratio, deadline)
+    return Epochs(kernel, context, problem, alone.planner, dead, unit, deadline)
 
 
 def _flags(field: int, values: int, chosen: Collection[int]) -> bytes:

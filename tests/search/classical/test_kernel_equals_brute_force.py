@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from search.classical import planner as planner_module
 from search.classical.planner import ClassicalPlanner
-from search.human.own_problem import own_planner
+from search.human.whole_actions import alone_planner
 from search.kernel.build import compile_kernel, compiler
 from search.kernel.library import BINARY, SOURCE, library, load
 from search.packed.cost_vector import INFINITE_KEY, own_weights
@@ -29,7 +29,7 @@ pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel he
 
 
 def planner_of(packed: PackedTask) -> ClassicalPlanner:
-    return own_planner(packed, packed.goal, sum(packed.fields), Deadline())
+    return alone_planner(packed, packed.goal, Deadline()).planner
 
 
 def assert_leads_to_goal(packed: PackedTask, state: int, numbers: list[int]) -> int:

@@ -48,7 +48,7 @@ def test_the_kernel_finds_the_canonical_plan_and_what_is_left_in_whole_actions(t
     assume(task.needs_time)
     units = unit_steps(task)
     packed = PackedTask(units.task, frozenset(), Deadline())
-    alone = alone_planner(packed, packed.goal, packed.all_ones, Deadline())
+    alone = alone_planner(packed, packed.goal, Deadline())
     assume(alone is not None)
     plan = optimal_human_plan(task)
     assert alone.canonical(packed.init, Deadline()) == (None if plan is None else units.plan(plan))
