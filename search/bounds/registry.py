@@ -89,7 +89,7 @@ BOUNDS: Final = (
         "search.short_windows.independent.timeline:RobotLayers",
         "decoupled search, Gnad and Hoffmann 2018: other robots provide for nothing what they can",
         "windows of one epoch that leave something behind",
-        "mutexes (h2), the soonest epoch of each value",
+        "the soonest epoch of each value",
         "robots-apart",
     ),
     LowerBound(

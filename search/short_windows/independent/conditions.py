@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from search.classical.mutexes import ReachablePairs
 from search.packed.operators import Operator, asked_by
 from search.packed.packed_task import PackedTask
 from search.short_windows.independent.rows import Rows, column
@@ -22,15 +21,8 @@ def are_apart(packed: PackedTask, deadline: Deadline, *, strict: bool) -> bool:
     """
     if packed.joint or any(op.agents & op.agents - 1 for op in packed.others):
         return False
-    if strict:
-        return True
-    pairs = None
-    for own, other in _in_the_way(packed, deadline):
-        if packed.compatible(own.action, other.action, strict=False):
-            pairs = pairs or ReachablePairs(packed, deadline)
-            if pairs.may_share_a_state(own, other):
-                return False
-    return True
+    pairs = () if strict else _in_the_way(packed, deadline)
+    return not any(packed.compatible(own.action, other.action, strict=False) for own, other in pairs)
 
 
 def lost_values(packed: PackedTask) -> dict[int, set[int]]:

@@ -9,19 +9,6 @@ from serendipity.testing.builders import task as build
 from tests.search.small_tasks import packed_of
 
 
-def test_who_drives_is_not_told_by_one_variable() -> None:
-    """A robot drives the van away only if it is in it; then the human does not get in."""
-    actions = {}
-    for agent in ("h", "r"):
-        actions[f"in_{agent} {agent}"] = f"empty -> drives_{agent} !empty"
-        actions[f"out_{agent} {agent}"] = f"drives_{agent} -> empty !drives_{agent}"
-        for here, there in (("a", "b"), ("b", "a")):
-            actions[f"go_{agent}_{there} {agent}"] = f"drives_{agent} van_{here} -> van_{there} !van_{here}"
-        actions[f"load_{agent} {agent}"] = f"drives_{agent} van_b -> loaded"
-    packed = packed_of(build(init="empty van_a", goal="loaded van_a", actions=actions))
-    assert are_apart(packed, Deadline(), strict=False)
-
-
 def test_two_values_of_a_field_that_must_not_be() -> None:
     """The field is asked for once: a sum of its masks is another field."""
     places = "abcd"
