@@ -6,9 +6,10 @@ from fractions import Fraction
 from functools import partial
 from typing import Final, TypeVar
 
+from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.modes.assistance.bounds.bound import ValueBound
-from search.modes.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
+from search.modes.assistance.bounds.relaxed import joint_lower_bound
 from search.modes.assistance.game.game import Game
 from search.modes.assistance.game.rules import Mean, Worst
 from search.modes.assistance.game.solution import ZERO, Costs, GameSolution
@@ -110,7 +111,8 @@ def _without_his_optimum(game: Game, upper: int, limit: str) -> Iterator[Answer]
         return
     if upper >= INFINITE_KEY:
         with suppress(*LIMITS):
-            upper = upper_bound_alone(game)
+            plan = SearchContext(game.prepared, Options(), game.deadline).alone.first_plan(game.init)
+            upper = INFINITE_KEY if plan is None else game.value_alone(plan)
     if upper >= INFINITE_KEY:
         yield _said(game.task, "unknown", PolicyBounds(lower, None), reason=limit)
     else:

@@ -1,1 +1,1 @@
-"""Values that no policy undercuts, and values that some plan attains."""
+"""Values that no policy undercuts."""

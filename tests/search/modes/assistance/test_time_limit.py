@@ -11,7 +11,7 @@ from search import PreparedTask
 from search.modes.assistance import assist
 from search.modes.assistance.bounds import bound
 from search.modes.assistance.bounds import relaxed_provision as provision
-from search.modes.assistance.bounds.relaxed import joint_lower_bound, upper_bound_alone
+from search.modes.assistance.bounds.relaxed import joint_lower_bound
 from search.modes.assistance.distances import closure
 from search.modes.assistance.distances import perimeter as ball
 from search.modes.assistance.game.game import Game
@@ -77,11 +77,10 @@ def test_no_time_and_no_plan_alone_is_unknown() -> None:
 
 
 @pytest.mark.parametrize("case", [case_5, case_6])
-def test_relaxed_bounds_enclose_the_optimum(case) -> None:
+def test_the_relaxed_bound_is_below_the_optimum(case) -> None:
     game = Game(PreparedTask(case()), Deadline())
     optimum = by_rounds(explore(case(), fixed=False, no_block=False), min)
     assert game.pair(joint_lower_bound(game, Deadline())) <= optimum
-    assert game.pair(upper_bound_alone(game)) >= (2, 0)
 
 
 def test_a_goal_out_of_reach_has_no_bound() -> None:
