@@ -16,13 +16,10 @@ from typing import NamedTuple
 from search.human.individual_planner import FoundPlan, IndividualPlanner, TakenOverError
 from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.due import Due
+from search.packed.due import Due, as_one
 from search.packed.operator_index import OperatorIndex, by_most_asked
 from search.packed.operators import Operator, set_by
-from search.packed.packed_task import PackedTask
-
-_Condition = tuple[int, int, tuple[tuple[int, int], ...]]
-"""Fields of the script, what has to be in them, and what must not."""
+from search.packed.packed_task import PackedGoal, PackedTask
 
 
 class Stride(NamedTuple):
@@ -43,7 +40,7 @@ class Stride(NamedTuple):
     put: int
     weight: int
     ops: tuple[int, ...]
-    script: tuple[tuple[int, int, _Condition], ...]
+    script: tuple[tuple[int, int, PackedGoal], ...]
 
 
 class Script:
@@ -66,7 +63,7 @@ class Script:
             self.fields |= packed.all_ones & ~op.keep & ~self.clock
         self._changing = sorted(v for v, op in self._ticks.items() if ~op.keep & self.fields)
         self._courses: dict[tuple[int, int], list[int]] = {}
-        self._runs: dict[tuple[int, int, _Condition], list[int]] = {}
+        self._runs: dict[tuple[int, int, PackedGoal], list[int]] = {}
 
     def epoch(self, state: int) -> int:
         """The epochs that are over in a packed state."""
@@ -93,15 +90,13 @@ class Script:
             self._courses[course] = found
         return found
 
-    def runs(self, course: tuple[int, int], condition: _Condition) -> list[int]:
+    def runs(self, course: tuple[int, int], condition: PackedGoal) -> list[int]:
         """By epoch for how many epochs on a condition holds; more than matter, where it does for good."""
         found = self._runs.get((*course, condition))
         if found is None:
-            mask, need, forbidden = condition
             found, following = [], 0
             for place, value in enumerate(reversed(self._values(course))):
-                holds = value & mask == need and all(value & field != bad for field, bad in forbidden)
-                following = 0 if not holds else following + 1 if place else 1 << 62
+                following = 0 if not condition.holds(value) else following + 1 if place else 1 << 62
                 found.append(following)
             found.reverse()
             self._runs[*course, condition] = found
@@ -162,38 +157,22 @@ class StridingPlanner(IndividualPlanner):
         return found
 
     def _begun_by(self, ops: Sequence[Operator]) -> Iterator[Stride]:
-        for op in ops:
-            stride = self._stride(op) if self._packed.counted(op.action) else None
-            if stride is not None:
-                yield stride
+        return (self._stride(op) for op in ops if self._packed.counted(op.action))
 
-    def _stride(self, first: Operator) -> Stride | None:
-        """An action from its first op on; None where no state allows all of it."""
+    def _stride(self, first: Operator) -> Stride:
+        """An action from its first op on; no state allows it where none allows all of it."""
         packed, script = self._packed, self._script.fields | self._script.clock
-        ops, asked = packed.chain(first), list[_Condition]()
-        need_mask = need = 0
-        forbidden: list[tuple[int, int]] = []
-        keep, put = packed.all_ones, 0
+        ops = packed.chain(first)
+        asked, own = list[PackedGoal](), list[Operator]()
         for op in ops:
-            known = packed.all_ones & ~keep
-            if put & known & op.need_mask != op.need & known:
-                return None
-            left = op.need_mask & ~known & ~script
-            if (need ^ op.need) & need_mask & left:
-                return None
-            need_mask, need = need_mask | left, need | op.need & left
-            for field, value in op.forbidden:
-                if field & known:
-                    if put & field == value:
-                        return None
-                elif not field & script and (field, value) not in forbidden:
-                    forbidden.append((field, value))
-            bad = tuple((field, value) for field, value in op.forbidden if field & script)
-            asked.append((op.need_mask & script, op.need & script, bad))
-            keep, put = keep & op.keep, put & op.keep | op.put
+            condition = PackedGoal(op.need_mask, op.need, op.forbidden)
+            asked.append(condition.within(script))
+            theirs = condition.within(~script)
+            own.append(op._replace(need_mask=theirs.need_mask, need=theirs.need, forbidden=theirs.forbidden))
+        whole = as_one(packed, own)
         weight = sum(map(self._memory.weight, ops))
         actions = tuple(op.action for op in ops)
-        return Stride(need_mask, need, tuple(forbidden), keep, put, weight, actions, tuple(_together(asked)))
+        return Stride(*whole[:2], whole.forbidden, *whole[2:4], weight, actions, tuple(_together(asked)))
 
     def _onward(self, label: _Label, course: tuple[int, int]) -> Iterator[_Label]:
         """What may be done next, each as soon as it can be done to its end."""
@@ -353,12 +332,12 @@ def _order(label: _Label) -> tuple[int, int, tuple[tuple[int, int], ...]]:
     return label.weight, len(label.begun), label.begun
 
 
-def _together(asked: Sequence[_Condition]) -> Iterator[tuple[int, int, _Condition]]:
+def _together(asked: Sequence[PackedGoal]) -> Iterator[tuple[int, int, PackedGoal]]:
     """Conditions by epoch, those together that go on."""
     first = 0
     for epoch, condition in enumerate(asked):
         if epoch + 1 == len(asked) or asked[epoch + 1] != condition:
-            if condition[0] or condition[2]:
+            if condition.mask:
                 yield first, epoch + 1 - first, condition
             first = epoch + 1
 

@@ -137,3 +137,22 @@ class Due:
     def _in(options: _Options, state: int) -> Iterator[list[JointAction]]:
         for field, by_value in options.items():
             yield from by_value.get(state & field, {}).values()
+
+
+def as_one(packed: PackedTask, ops: Sequence[Operator]) -> Operator:
+    """Ops of the human's that follow on each other, as one; one that no state allows where they can't."""
+    first, *rest = ops
+    need_mask, need, keep, put, forbidden = first[:5]
+    for op in rest:
+        asked = op.need_mask & keep
+        ruled_out = any(put & field == value for field, value in op.forbidden if not field & keep)
+        if ruled_out or (put ^ op.need) & op.need_mask & ~keep or (need ^ op.need) & need_mask & asked:
+            field = next(packed.split(first.need_mask))  # it asks for a human who is free
+            return first._replace(forbidden=((field, first.need & field),))
+        forbidden += tuple((field, value) for field, value in op.forbidden if field & keep)
+        need_mask, need = need_mask | asked, need | op.need & keep
+        keep, put = keep & op.keep, put & op.keep | op.put
+    for field in packed.split(need_mask & packed.all_ones & ~keep) if rest else ():
+        if (need ^ put) & field == 0:  # the human is free again
+            keep, put = keep | field, put & ~field
+    return first._replace(need_mask=need_mask, need=need, keep=keep, put=put, forbidden=forbidden)
