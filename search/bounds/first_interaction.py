@@ -39,20 +39,6 @@ class Timed(Protocol):
         """
 
 
-class Choice(NamedTuple):
-    """One way on from a packed state before the first touch.
-
-    Attributes:
-        total: least key increment.
-        steps: least number of epochs in which robots act first.
-        latest: the last epoch by which they must have.
-    """
-
-    total: int
-    steps: int
-    latest: int
-
-
 def survivors(costs: dict[int, int], limit: int, total: Callable[[int, int], int]) -> list[int] | None:
     """Needs whose touch may still pay; None if they are too many to look at one by one.
 
@@ -89,7 +75,6 @@ class FirstInteraction:
             _Promise(ways, need, provided, total, horizon)
             for need, provided, total in sorted(needs, key=itemgetter(2))
         ]
-        self._cheap: dict[int, list[tuple[int, Provided, int]]] = {}
 
     @cached_property
     def _without(self) -> dict[int, int]:
@@ -113,31 +98,18 @@ class FirstInteraction:
                 least = total
         return least
 
-    def choices(self, state: int) -> list[Choice]:
-        """All that the bound is the least of, ascending; none has a cheaper one that is never later."""
-        at = state & self._mask
-        least = self._without.get(at, INFINITE_KEY)
-        found = []
-        for cost, provided, latest in self._from(at, least):
-            total = cost + provided.cost(state)
-            if total < least:
-                found.append((total, provided.epochs(state, ()), latest))
-        found.sort()
-        kept: list[Choice] = []
-        soonest = NEVER
-        for total, steps, latest in (*found, (least, 0, NEVER)):
-            if steps < soonest or all(k.steps > steps or k.latest < latest for k in kept):
-                kept.append(Choice(total, steps, latest))
-                soonest = min(soonest, steps)
-        return kept
+    def choices(self, state: int) -> list[tuple[int, int, int]]:
+        """All that the bound is the least of, ascending: totals from a packed state before the first touch.
 
-    def _from(self, at: int, least: int) -> list[tuple[int, Provided, int]]:
-        """What costs the human less than doing without, from a projected state."""
-        known = self._cheap.get(at)
-        if known is None:
-            costs = ((p.way.get(at, INFINITE_KEY), p.provided, p.latest) for p in self._promises)
-            known = self._cheap[at] = [entry for entry in costs if entry[0] < least]
-        return known
+        With each the number of epochs in which robots act first, and the last epoch by which they must have.
+        """
+        at = state & self._mask
+        least, found = self._without.get(at, INFINITE_KEY), []
+        for promise in self._promises:
+            cost, provided = promise.way.get(at, INFINITE_KEY), promise.provided
+            if cost < least and (total := cost + provided.cost(state)) < least:
+                found.append((total, provided.epochs(state, ()), promise.latest))
+        return [*sorted(found), (least, 0, NEVER)]
 
 
 class _Promise:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 
-from search.bounds.first_interaction import Bounds, Choice
+from search.bounds.first_interaction import Bounds
 from search.bounds.prefix_bounds import FirstInteractionOnTheWay
 from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node
@@ -48,7 +48,7 @@ class Weighed:
         # It is not about what has been done, and in time only the last node of a window is its end.
         self._helped = None if self.successors.in_time else along.off_plan
         self.bounds = Bounds(context.bound, context.steps, touches=context.interactions)
-        self._choices: dict[int, list[Choice]] = {}
+        self._choices: dict[int, list[tuple[int, int, int]]] = {}
 
     def untouched(self, epoch: int, state: int, until: int) -> int:
         """Least key increment before the first touch in the window, if robots act up to ``until``."""
@@ -57,7 +57,7 @@ class Weighed:
         choices = self._choices.get(state)
         if choices is None:
             choices = self._choices[state] = self._helped.choices(state)
-        return next(c.total for c in choices if epoch + c.steps <= min(until, c.latest))
+        return next(total for total, steps, latest in choices if epoch + steps <= min(until, latest))
 
 
 class FixedWindow:
