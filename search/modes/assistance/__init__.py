@@ -6,6 +6,6 @@ move; *alone* - the prime's optimal costs with an idle supporter; *value* - both
 one integer.
 """
 
-from search.modes.assistance.answer import assist, joint_optimum
+from search.modes.assistance.answer import assist
 
-__all__ = ["assist", "joint_optimum"]
+__all__ = ["assist"]

@@ -54,8 +54,12 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
     most = _most_alone(game)
     if most < INFINITE_KEY:
         yield _left_alone(game, ZERO, most)
-    late = _limit_of(partial(game.alone, game.init))
-    if late is not None:
+    late = None
+    try:
+        game.alone(game.init)
+    except LIMITS as limit:
+        late = limit_reason(limit)
+    if late is not None:  # what the work held is free by now
         yield from _without_his_optimum(game, most, late)
         return
     own_deadline.renew(deadline)
@@ -74,15 +78,6 @@ def _most_alone(game: Game) -> int:
 def _left_alone(game: Game, lower: Costs, upper: int) -> Answer:
     """Doing nothing, where all that is known of the prime's optimum is what it is worth at most."""
     return _said(game.task, "feasible", PolicyBounds(lower, game.pair(upper)), policy=Policy((), None))
-
-
-def _limit_of(work: Callable[[], object]) -> str | None:
-    """The limit that stopped some work, or None; what the work held is free on return."""
-    try:
-        work()
-    except LIMITS as limit:
-        return limit_reason(limit)
-    return None
 
 
 def _searched(game: Game, options: Options) -> Iterator[Answer]:
@@ -232,13 +227,3 @@ def _in_time(write: Callable[[], _T]) -> _T | None:
         return write()
     except LIMITS:
         return None
-
-
-def joint_optimum(prepared: PreparedTask, deadline: Deadline | None = None) -> Costs | None:
-    """The bound on every policy from ``I``: both together, without turns, or a relaxation of it.
-
-    None where not even both together reach the goal.
-    """
-    game = Game(prepared, deadline or Deadline())
-    value = ValueBound(game)(game.init)
-    return None if value >= INFINITE_KEY else game.pair(value)

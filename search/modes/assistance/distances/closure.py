@@ -64,7 +64,7 @@ class Closure:
         )
         for arc in self._arcs:
             self._index.add(arc.condition.need_mask, arc.condition.need, arc)
-        self._balls: list[Perimeter] = []
+        self._ball: Perimeter | None = None
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """Distance from ``state`` (only the masked fields set), or ``INFINITE_KEY``.
@@ -78,8 +78,8 @@ class Closure:
         known = self._known.get(state)
         if known is not None:
             return known
-        for ball in self._balls:
-            distance = ball.key(state, limit)
+        if self._ball is not None:
+            distance = self._ball.key(state, limit)
             if distance is not None:
                 if distance < limit or distance >= INFINITE_KEY:
                     self._known[state] = distance
@@ -114,7 +114,10 @@ class Closure:
                     before.append((weight, state))
             if len(predecessors) > most:
                 return False
-        self._spread(seeds, predecessors)
+        ends = (seed for seed in seeds if seed[0] < INFINITE_KEY)
+        distances = backward(ends, [predecessors], self._deadline)
+        for state in predecessors:
+            known[state] = distances.get(state, INFINITE_KEY)
         return True
 
     def _successors(self, state: int) -> list[tuple[int, int]]:
@@ -129,20 +132,12 @@ class Closure:
                     found.append((after, weight))
         return found
 
-    def _spread(self, seeds: list[tuple[int, int]], predecessors: dict[int, list[tuple[int, int]]]) -> None:
-        known = (seed for seed in seeds if seed[0] < INFINITE_KEY)
-        distances = backward(known, [predecessors], self._deadline)
-        for state in predecessors:
-            self._known[state] = distances.get(state, INFINITE_KEY)
-
     def _grow_ball(self, start: int) -> bool:
         """Whether there is a ball now that there was not before."""
         # Loads numpy: only a task with a large closure pays for it.
         from search.modes.assistance.distances.perimeter import ball_around
 
-        if self._balls:
+        if self._ball is not None:
             return False
-        ball = ball_around(self._arcs, self._goal, self._fields, self._values, start, self._deadline)
-        if ball is not None:
-            self._balls.append(ball)
-        return ball is not None
+        self._ball = ball_around(self._arcs, self._goal, self._fields, self._values, start, self._deadline)
+        return self._ball is not None

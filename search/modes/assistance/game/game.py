@@ -11,8 +11,7 @@ from math import lcm
 from typing import Final, NamedTuple
 
 from search.call.prepared_task import PreparedTask
-from search.modes.assistance.distances.watched import Watched
-from search.modes.assistance.game.own import OwnCosts
+from search.modes.assistance.game.own import BY_ACTION, OwnCosts, by_rarest
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY, require_room
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
@@ -64,7 +63,7 @@ class Game:
         require_room(2 * self.unit_bits)
         robot = 1 << task.robots[0]
         self.supporter_ops = tuple(op for op in self.packed.others if op.agents == robot)
-        self._supporter_index = Watched(self.packed, self.supporter_ops, deadline)
+        self._supporter_index = by_rarest(self.packed, self.supporter_ops, deadline)
         self._prime_moves: dict[int, tuple[Move, ...]] = {}
 
     @cached_property
@@ -89,7 +88,7 @@ class Game:
     def supporter(self, state: int) -> list[Move]:
         """What the supporter may do, waiting first; of moves to one state the cheapest."""
         found = {state: Move(0, state, NOOP)}
-        for op in self._supporter_index.candidates(state):
+        for op in sorted(self._supporter_index.candidates(state), key=BY_ACTION):
             if applicable(op, state):
                 after = state & op.keep | op.put
                 cost = self._scaled[op.cost]

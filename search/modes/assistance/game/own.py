@@ -4,19 +4,25 @@ Facts that they do not change themselves are the *context* of their search; for 
 a table over the rest is filled in where it is asked for.
 """
 
+from collections import Counter
+from collections.abc import Sequence
+from operator import attrgetter
 from typing import Final
 
 from search.human.individual_planner import IndividualPlanner, Memory
 from search.human.pattern_database import NOTHING_KNOWN
 from search.modes.assistance.distances.closure import Arc, Closure, ClosureTooLargeError
-from search.modes.assistance.distances.watched import Watched
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
+from search.packed.operator_index import LiteralIndex
 from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.resources.deadline import Deadline
 
 MAX_STATES: Final = 100_000
 """The largest table of one context, unless it has a ball; beyond it each state is searched by itself."""
+
+BY_ACTION: Final = attrgetter("action")
+"""The order of ops."""
 
 
 class OwnCosts:
@@ -33,7 +39,7 @@ class OwnCosts:
         self._changed = packed.changed_by(packed.own)
         self._mask = packed.own_mask | packed.goal.mask
         self._context: dict[int, Closure | None] = {}
-        self._index = Watched(packed, packed.own, deadline)
+        self._index = by_rarest(packed, packed.own, deadline)
         self._single: IndividualPlanner | None = None
         self._too_large = False
 
@@ -59,7 +65,7 @@ class OwnCosts:
         if key >= INFINITE_KEY:
             return []
         found = []
-        for op in self._index.candidates(state):
+        for op in sorted(self._index.candidates(state), key=BY_ACTION):
             if applicable(op, state):
                 after = state & op.keep | op.put
                 rest = key - self._weights[op.cost]
@@ -99,3 +105,16 @@ def _within(condition: PackedGoal, changed: int, context: int) -> PackedGoal | N
     if any(context & field == value for field, value in condition.forbidden if not field & changed):
         return None
     return condition.within(changed)
+
+
+def by_rarest(packed: PackedTask, ops: Sequence[Operator], deadline: Deadline) -> LiteralIndex[Operator]:
+    """Each op under one field and value that it asks for: of these the rarest.
+
+    Where many fields matter (a place each, say), no single field tells ops apart.
+    """
+    asked = [list(packed.assigned(op.need_mask, op.need)) for op in deadline.each(ops)]
+    count = Counter(pair for pairs in asked for pair in pairs)
+    index: LiteralIndex[Operator] = LiteralIndex()
+    for op, pairs in zip(ops, asked, strict=True):
+        index.add(*min(pairs, key=count.__getitem__, default=(0, 0)), op)
+    return index

@@ -7,9 +7,9 @@ import pytest
 import serendipity
 from benchmarks.problems import silent, silent_task
 from search import PreparedTask
-from search.modes.assistance import joint_optimum
 from serendipity import Task
 from serendipity.testing.oracle.assistance import Costs
+from tests.search.modes.assistance.joint_optimum import joint_optimum
 
 PROBLEMS = [
     *(("car_assistance1", n) for n in (2, 12, 17)),

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 import serendipity
 from search import PreparedTask
-from search.modes.assistance import joint_optimum
 from serendipity import Result, Task
 from serendipity.testing.oracle.assistance import Costs, by_rounds, explore, mean_over_all_policies
+from tests.search.modes.assistance.joint_optimum import joint_optimum
 from tests.search.modes.assistance.strategies import games
 
 _MOST_POLICIES = 400
