@@ -90,15 +90,6 @@ class SearchContext:
         """Lower bound on the number of the human's actions to ``G_H``."""
         return self.tables.human.steps(self.deadline)
 
-    @cached_property
-    def _has_kernel(self) -> bool:
-        """Whether the kernel knows more of the human alone than private distances, which can take seconds."""
-        if not self.distances_say_little:
-            return False
-        from search.kernel.library import library  # only here: most calls come by without it
-
-        return library() is not None
-
     @property
     def relevant(self) -> int:
         """The fields that matter to the human alone, or to a goal."""
@@ -111,7 +102,9 @@ class SearchContext:
         if self.weights.announces:
             return self._alone_to(self.packed.goal)
         packed, human = self.packed, self.tables.human
-        bound = NOTHING_KNOWN if self._has_kernel else human.projection(self.deadline)
+        bound = NOTHING_KNOWN
+        if not self.distances_say_little or not _has_kernel():
+            bound = human.projection(self.deadline)
         # What it finds serves calls that weigh otherwise.
         memory = human.memory(strict=self.options.strict)
         if packed.in_time and may_stride(packed):
@@ -164,7 +157,7 @@ class SearchContext:
         """Robots' walks where they can be folded, and it pays: several robots, or walks that take time."""
         if (len(self.task.robots) < 2 and not self.task.due) or self.options.preservation == "state":
             return None
-        walks = self.tables.robots.decoupled(self.deadline)
+        walks = self.tables.decoupled(self.deadline)
         if not walks.foldable or walks.touched_by(map(self.packed.op, plan)):
             return None
         return walks
@@ -255,6 +248,13 @@ class SearchContext:
             ops = [self.packed.op(i) for i in plan]
             known = self._followed[plan] = [(op, as_option(op, self.weights.team(op))) for op in ops]
         return known
+
+
+def _has_kernel() -> bool:
+    """Whether it knows more of the human alone than private distances say, which can take seconds."""
+    from search.kernel.library import library  # only here: most calls come by without it
+
+    return library() is not None
 
 
 def _both(task: Task) -> Condition:

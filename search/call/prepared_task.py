@@ -21,7 +21,8 @@ from search.packed.cost_vector import scaled_costs
 from search.packed.packed_task import PackedTask
 from search.packed.packings import diversions, doubted, human_facts
 from search.packed.table import KeptTable
-from search.robots.tables import RobotTables
+from search.robots.decoupled import Decoupled
+from search.robots.transition_graphs import PositionVariables, TransitionGraphs
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
 from serendipity.model.task.task import Task
@@ -38,7 +39,9 @@ class TaskTables:
         packed: the packed task.
         scaling: its costs as integers, by options.
         human: what the human can do alone.
-        robots: what robots can do.
+        positions: the place of each robot, and what moves it.
+        transitions: what robots' ops do to each variable.
+        decoupled: the walks of robots that can be folded.
         interactions: the human's ops, split at what they mention.
         private_distances: the human's ways backward, from goal and interactions.
     """
@@ -47,7 +50,9 @@ class TaskTables:
         self.packed = packed
         self.scaling = cache(partial(scaled_costs, packed.costs))
         self.human = human or HumanTables(packed)
-        self.robots = RobotTables(packed)
+        self.positions = positions = KeptTable(partial(PositionVariables, packed))
+        self.transitions = KeptTable(lambda deadline: TransitionGraphs(packed, positions(deadline)))
+        self.decoupled = KeptTable(lambda deadline: Decoupled(packed, positions(deadline), deadline))
         self._set_private_distances()
 
     def _set_private_distances(self) -> None:
@@ -190,8 +195,8 @@ def prepare(task: Task, deadline: Deadline | None = None) -> PreparedTask:
     deadline = deadline or Deadline()
     prepared = PreparedTask(task)
     tables = prepared.plain(deadline)
-    transitions = tables.robots.transitions(deadline)
-    for field in shared_fields(tables.packed, tables.robots.positions(deadline)):
+    transitions = tables.transitions(deadline)
+    for field in shared_fields(tables.packed, tables.positions(deadline)):
         transitions.on(field)
     if _most_states(tables.packed) <= len(task.actions):
         tables.human.projection(deadline)

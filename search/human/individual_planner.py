@@ -9,11 +9,12 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 
 from search.engine.astar import AStar
-from search.human.own_options import own_options
+from search.human.own_options import BesideScript
 from search.human.plan_graph import PlanGraph, edges_into
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
+from search.packed.successor_generator import Lookup
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan
@@ -47,7 +48,9 @@ class Memory:
     ) -> None:
         own = own_weights(packed)
         self.weight = weight or (lambda op: own[op.cost])
-        self.lookup = own_options(packed, self.weight, strict=strict)
+        self.lookup = Lookup(packed.own_index, self.weight)
+        if packed.clock_bit:
+            self.lookup = BesideScript(packed, self.weight, strict=strict)
         self.known: dict[int, int] = {}
         self.at_least: dict[int, int] = {}
         self.expanded = 0

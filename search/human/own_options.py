@@ -9,18 +9,6 @@ from search.packed.packed_task import PackedTask
 from search.packed.successor_generator import Lookup
 
 
-def own_options(packed: PackedTask, weight: Callable[[Operator], int], *, strict: bool) -> Lookup:
-    """What the human can do alone in a packed state; with a script also waiting, as long as it runs.
-
-    Args:
-        weight: of one of their own ops.
-        strict: strict interference, which matters beside bystanders.
-    """
-    return (
-        BesideScript(packed, weight, strict=strict) if packed.clock_bit else Lookup(packed.own_index, weight)
-    )
-
-
 class BesideScript(Lookup):
     """The human's options, each with what bystanders do in its epoch, and with what the clock changes.
 

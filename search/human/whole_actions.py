@@ -12,7 +12,6 @@ from search.classical.problem import classical_problem
 from search.kernel.library import library
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY, own_costs, own_weights
 from search.packed.due import Due, as_one
-from search.packed.joint_actions import JointAction
 from search.packed.operators import Operator, asked_by
 from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.options import MAX_EPOCH
@@ -51,7 +50,7 @@ class OwnPlanner:
         if freed is None:
             return INFINITE_KEY
         state, rest = freed
-        self._spent = _amount(rest)
+        self._spent = sum(part.weight for part in rest)
         if limit <= self._spent:
             return limit
         left = limit
@@ -70,7 +69,7 @@ class OwnPlanner:
         freed = self._due.finished(state)
         if freed is None:
             return INFINITE_KEY
-        return self._total(self.planner.bound(freed[0], deadline), _amount(freed[1]))
+        return self._total(self.planner.bound(freed[0], deadline), sum(part.weight for part in freed[1]))
 
     def first_plan(self, state: int, deadline: Deadline) -> tuple[int, ...] | None:
         """Some plan from a packed state, as ids of actions."""
@@ -104,10 +103,6 @@ class OwnPlanner:
         cost, epochs = divmod(amount, 1 << ACTIONS_BITS)
         found = (cost << ACTIONS_BITS) + (epochs >> self._shift)
         return found + (self._spent if spent is None else spent)
-
-
-def _amount(parts: Iterable[JointAction]) -> int:
-    return sum(part.weight for part in parts)
 
 
 def alone_planner(packed: PackedTask, goal: PackedGoal, deadline: Deadline) -> OwnPlanner | None:

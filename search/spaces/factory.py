@@ -252,7 +252,7 @@ class BoundsAlong:
 
 def _achievers(context: SearchContext, weights: Sequence[int], followed: Sequence[Operator]) -> Achievers:
     deadline = context.deadline
-    transitions = context.tables.robots.transitions(deadline)
+    transitions = context.tables.transitions(deadline)
     return Achievers(context.packed, transitions, context.interactions, weights, followed, deadline)
 
 

@@ -91,7 +91,7 @@ def test_a_walk_that_is_about_more_than_a_place_is_a_deed(there, back, distances
     deeds = {"open r b": "at-b -> open", "do h": "open -> done @ 2", "do2 h": "-> done @ 9"}
     task = builders.task(init="at-a", goal="done", actions=moves | deeds)
     tables = PreparedTask(task).plain(Deadline())
-    packed, walks = tables.packed, tables.robots.decoupled(Deadline())
+    packed, walks = tables.packed, tables.decoupled(Deadline())
     a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
     assert walks.foldable
     found = (walks.ways(0, *way) for way in ((a, b), (b, a)))
@@ -103,4 +103,4 @@ def _step_by_step(context, plan):
 
 
 def _foldable(task):
-    return PreparedTask(task).plain(Deadline()).robots.decoupled(Deadline()).foldable
+    return PreparedTask(task).plain(Deadline()).decoupled(Deadline()).foldable
