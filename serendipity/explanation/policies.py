@@ -144,7 +144,7 @@ def _library(result: Result, entries: tuple[GoalAnswer, ...]) -> list[dict[str, 
     for number, entry in enumerate(entries, start=1):
         one: dict[str, Any] = {"name": entry.name or str(number), "plan": list(entry.human_plan or ())}
         one["probability"] = str(as_written(entry.probability))
-        goal = entry.goal or named.get(entry.name)
+        goal = entry.goal or named.get(entry.name) or named.get(entry.name.rpartition(" ")[0])
         found.append(one | ({} if goal is None else {"goal": list(goal)}))
     return found
 

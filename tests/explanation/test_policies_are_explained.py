@@ -3,7 +3,7 @@
 import pytest
 
 import serendipity
-from serendipity.model import UsageError
+from serendipity.model import Condition, UsageError
 
 GOALS = [
     {"name": room, "goal": [f"conducted_triage commx {room}"], "prior": prior}
@@ -30,3 +30,12 @@ def test_it_is_about_several_scenarios() -> None:
     task = serendipity.example("room2")
     with pytest.raises(UsageError, match="several goals or plans"):
         serendipity.explain_policy(task, serendipity.plan(task))
+
+
+def test_each_plan_of_a_goal_is_one_for_it() -> None:
+    task = serendipity.example("parcels")
+    goals = [{"name": "all", "goal": [task.facts[i] for i in task.goal.positive]}]
+    answer = serendipity.plan(task.with_goal(Condition()), discount="0.9", goals=goals, ties="watched")
+    assert [scenario.name for scenario in answer.goals] == ["all 1", "all 2"]
+    found = serendipity.explain_policy(task.with_goal(Condition()), answer)
+    assert found.knowing <= answer.cost <= found.committed
