@@ -5,9 +5,10 @@ part for a goal that is still possible, unless something is found that costs les
 nobody to pay more than was pledged.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from fractions import Fraction
+from typing import Final
 
 from serendipity.execution.advice import Advice, DecisionPoint
 from serendipity.execution.guard import RobotActions
@@ -19,6 +20,9 @@ from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.numbers import as_written, total
 from serendipity.model.task.actions import Condition
 from serendipity.model.task.execution import actions_of, steps_named, variant_named
+
+_BETTER: Final = 0.5
+"""The share of the time for what is better than the rest of a policy."""
 
 Known = Mapping[int, Hypothesis]
 """What is so if a goal is the person's, by goal."""
@@ -70,12 +74,18 @@ class PolicyAdviser:
         return others
 
     def advise(
-        self, known: Known, weights: Mapping[int, Fraction], now: DecisionPoint, deadline: Deadline
+        self,
+        known: Known,
+        able: Collection[int],
+        weights: Mapping[int, Fraction],
+        now: DecisionPoint,
+        deadline: Deadline,
     ) -> Policy:
         """The best policy that is found in time; empty where the person has no plan alone, and none pledged.
 
         Args:
             known: of the goals that are possible.
+            able: those that the person is known to reach alone; other than these are not planned for anew.
             weights: how probable they are.
             now: where things stand.
 
@@ -86,19 +96,24 @@ class PolicyAdviser:
         careful = now.barred.union(*needed)
         removed = now.barred if self._told else careful
         while True:
-            best = self._best(known, weights, now, (removed, removed | careful), deadline)
+            best = self._best(known, able, weights, now, (removed, removed | careful), deadline)
             first = (step for one in best.values() for step in one.plan if step.epoch == 1)
             chosen = (variant_named(self._task, step.action, step.agents, now.state) for step in first)
             robots = [i for i in chosen if self._task.actions[i].participants != (self._task.human,)]
             if now.allows(robots):
                 break
             removed |= {robots[0]}
-        self._pledges = {goal: Pledge.of(self._task, now.state, one) for goal, one in best.items()}
+        self.pledge(now.state, best)
         return best
+
+    def pledge(self, state: frozenset[int], policy: Policy) -> None:
+        """Say what everybody is going to do from a state, by goal."""
+        self._pledges = {goal: Pledge.of(self._task, state, one) for goal, one in policy.items()}
 
     def _best(
         self,
         known: Known,
+        reachable: Collection[int],
         weights: Mapping[int, Fraction],
         now: DecisionPoint,
         removed: tuple[frozenset[int], frozenset[int]],
@@ -106,10 +121,11 @@ class PolicyAdviser:
     ) -> Policy:
         """What is cheapest in the mean of what was pledged and what is found now."""
         rest = self._rest(known, replace(now, out=now.out | (removed[0] - now.barred), barred=removed[0]))
-        able = {goal: one for goal, one in known.items() if not one.following.hopeless}
+        able = {goal: one for goal, one in known.items() if goal in reachable}
         if rest and (len(able) < len(known) or (self._told and all(one.proved for one in rest.values()))):
             return rest
         most = {goal: self._paid(rest[goal]) if rest else one.following.alone for goal, one in able.items()}
+        deadline = deadline.part(_BETTER) if rest else deadline
         for without in dict.fromkeys(removed):
             try:
                 found = self._asked(able, weights, now.state, without, deadline)

@@ -14,7 +14,7 @@ from serendipity.execution.hypotheses import Hypotheses, Hypothesis, Prospect, b
 from serendipity.execution.policy_adviser import PolicyAdviser
 from serendipity.execution.why import Why
 from serendipity.model import Deadline, Options, PlanStep, Task
-from serendipity.model.errors import LIMITS
+from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.numbers import Number
 from serendipity.recognition import GoalsGiven
 
@@ -26,6 +26,9 @@ _TELLING: Final = 1.0
 
 _TIME_TO_WEIGH: Final = 0.4
 """The share of the time that is kept for what comes after planning."""
+
+_TIME_TO_LOOK: Final = 0.4
+"""The share of the time for what the person could do alone, where robots have pledged something."""
 
 _TIME_TO_RECOGNISE: Final = 0.4
 """The share of the time that recognition may take; the posterior of an earlier epoch has to do otherwise."""
@@ -108,6 +111,8 @@ class RobotPolicy:
         self._history.broken("changed")
         self._untouched.forget()
         self._hypotheses.surprised()
+        if self._watching is not None:
+            self._watching.pledge(frozenset(), {})
         if self._beliefs is not None:
             self._beliefs.disturbed()
 
@@ -135,8 +140,8 @@ class RobotPolicy:
         state, able = outlook.world.state, self._hypotheses.actions
         self._untouched.look(state)
         weights = self._weights(state, deadline)
-        reachable = self._hypotheses.look(state, weights, deadline)
         owes = self._watching.owes if self._watching is not None else lambda _: False
+        reachable, in_time = self._reachable(state, weights, deadline, pledged=all(map(owes, weights)))
         goals = [goal for goal in weights if goal in reachable or owes(goal)] or list(weights)[:1]
         gone = frozenset[int]().union(*self._gone.values())
         out = gone | self._failing
@@ -149,12 +154,29 @@ class RobotPolicy:
         begun = frozenset(map(outlook.world.of, running))
         now = DecisionPoint(state, out, barred, begun, self._hypotheses.allows(goals, list(begun)))
         likely = {goal: weights[goal] for goal in goals}
-        if watched := self._watched(likely, now, deadline):
+        if watched := self._watched(likely, reachable, now, deadline):
             return self._chosen(outlook, now, watched, running, deadline, watched=True)
+        if not in_time:
+            raise LimitReachedError("time-limit")
         prospects = self._planned(likely, now, deadline.sooner(_TIME_TO_WEIGH))
         if not reachable and prospects[0].advice is None and not running and self._failing - gone:
             prospects = self._planned(likely, replace(now, out=gone, barred=gone), deadline)
         return self._chosen(outlook, now, prospects, running, deadline)
+
+    def _reachable(
+        self, state: frozenset[int], goals: Iterable[int], deadline: Deadline, *, pledged: bool
+    ) -> tuple[list[int], bool]:
+        """The goals that the person can reach alone, and whether that is known in time.
+
+        Args:
+            pledged: whether robots can go on with what was pledged without knowing it.
+        """
+        if not pledged:
+            return self._hypotheses.look(state, goals, deadline), True
+        try:
+            return self._hypotheses.look(state, goals, deadline.part(_TIME_TO_LOOK)), True
+        except LIMITS:
+            return [], False
 
     def _chosen(
         self,
@@ -178,6 +200,9 @@ class RobotPolicy:
             decided = self._following(outlook, prospect, running)
             if watched:
                 decided = self._for_all(decided, prospects)
+            elif self._told and self._watching is not None and prospect.advice is not None:
+                self._watching.pledge(now.state, {prospect.goal: prospect.advice})
+                decided = self._for_all(decided, [prospect])
             if decided.verdict != "aside":
                 return decided
         elif running:
@@ -187,7 +212,7 @@ class RobotPolicy:
         else:
             done = next((prospect for prospect in prospects if prospect.pays and not prospect.open), None)
             decided = self._following(outlook, done, ()) if done else self._idle(outlook, Why("no-help"))
-        made_up = None if watched and self._told else self._made_up(outlook, now, prospects, deadline)
+        made_up = None if self._told and self._watching else self._made_up(outlook, now, prospects, deadline)
         return made_up or replace(decided, because=self._why_not(now, decided, prospects, deadline))
 
     def _made_up(
@@ -229,7 +254,11 @@ class RobotPolicy:
         return running
 
     def _watched(
-        self, weights: dict[int, Fraction], now: DecisionPoint, deadline: Deadline
+        self,
+        weights: dict[int, Fraction],
+        reachable: Sequence[int],
+        now: DecisionPoint,
+        deadline: Deadline,
     ) -> list[Prospect]:
         """A prospect for each goal, of a policy for all of them; nothing where none is looked for."""
         if self._watching is None:
@@ -237,7 +266,7 @@ class RobotPolicy:
         total = sum(weights.values())
         shares = {goal: weight / total for goal, weight in weights.items()}
         known = {goal: self._hypotheses[goal] for goal in weights}
-        policy = self._watching.advise(known, shares, now, deadline.sooner(_TIME_TO_WEIGH))
+        policy = self._watching.advise(known, reachable, shares, now, deadline.sooner(_TIME_TO_WEIGH))
         for one in known.values():
             one.companion.under(deadline)
         return [Prospect(goal, known[goal], advice, shares[goal]) for goal, advice in policy.items()]
