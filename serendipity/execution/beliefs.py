@@ -18,6 +18,10 @@ _EXACT: Final = 0.7
 """The share of the time that exact likelihoods may take; bounds on them have to do otherwise."""
 
 
+_TIME_TO_RECOGNISE: Final = 0.4
+"""The share of the time that recognition may take; the posterior of an earlier epoch has to do otherwise."""
+
+
 class Beliefs:
     """The posterior over candidate goals.
 
@@ -99,6 +103,24 @@ class Beliefs:
             self._priors, self._observed = list(self.weights), []
             self._explainer = self._explainer.at(state)
             self._disturbed = False
+
+    def weighed(self, state: frozenset[int], deadline: Deadline) -> dict[int, Fraction]:
+        """The goals that the person may have, with their probabilities, the most probable first.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        try:
+            self.update(state, deadline.part(_TIME_TO_RECOGNISE))
+        except LIMITS:
+            deadline.check()  # what was known before still tells something
+        return {goal: self.weights[goal] for goal in sorted(self.possible(), key=lambda g: -self.weights[g])}
+
+    def likely(self, goal: int | None = None) -> tuple[tuple[str, float], ...]:
+        """The names of the most probable goals with their probabilities, or of one of them."""
+        if goal is not None:
+            return ((self.candidates[goal].name, float(self.weights[goal])),)
+        return tuple(sorted(self.named().items(), key=lambda pair: -pair[1])[:3])
 
     def possible(self) -> list[int]:
         """Indices of the goals that can't be ruled out.

@@ -22,6 +22,7 @@ from serendipity.execution.session_adviser import SessionAdviser
 from serendipity.execution.unbound import Unbound
 from serendipity.facade.results import named_steps
 from serendipity.model import Condition, Deadline, Options, PlanStep, Step, Task
+from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import total
 from serendipity.model.options import MAX_EPOCH
 from serendipity.model.task.execution import actions_of, steps_named
@@ -170,6 +171,17 @@ class Hypotheses:
             if not self._known[goal].following.hopeless:
                 found.append(goal)
         return found
+
+    def reachable(
+        self, state: frozenset[int], goals: Iterable[int], deadline: Deadline, *, must: bool
+    ) -> tuple[list[int], bool]:
+        """The same, and whether it is known in time; unless it must be known, there may be none of them."""
+        try:
+            return self.look(state, goals, deadline), True
+        except LIMITS:
+            if must:
+                raise
+            return [], False
 
     def _supposed(self, goal: int, state: frozenset[int], deadline: Deadline) -> Hypothesis:
         if self._useful is None:

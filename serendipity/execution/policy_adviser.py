@@ -5,17 +5,18 @@ part for a goal that is still possible, unless something is found that costs les
 nobody to pay more than was pledged.
 """
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Final
 
 from serendipity.execution.advice import Advice, DecisionPoint
+from serendipity.execution.decided import Decided
 from serendipity.execution.guard import RobotActions
 from serendipity.execution.hypotheses import Hypothesis
 from serendipity.execution.session_adviser import Pledge, RestrictedSessions
 from serendipity.facade.results import named_steps
-from serendipity.model import Deadline, Options, Step, Task
+from serendipity.model import Deadline, Options, PlanStep, Step, Task
 from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.numbers import as_written, total
 from serendipity.model.task.actions import Condition
@@ -109,6 +110,21 @@ class PolicyAdviser:
     def pledge(self, state: frozenset[int], policy: Policy) -> None:
         """Say what everybody is going to do from a state, by goal."""
         self._pledges = {goal: Pledge.of(self._task, state, one) for goal, one in policy.items()}
+
+    def for_all(self, decided: Decided, policy: Mapping[str, Sequence[PlanStep]]) -> Decided:
+        """A decision with what is to be done with the person, and by them, whichever goal is theirs.
+
+        Args:
+            policy: what everybody does, by the goal's name.
+        """
+        human = self._task.agents[self._task.human]
+        his = {
+            name: next((step for step in plan if step.epoch == 1 and human in step.agents), None)
+            for name, plan in policy.items()
+        }
+        offers = (replace(s, epoch=decided.epoch) for s in his.values() if s and len(s.agents) > 1)
+        wishes = {name: None if step is None else step.action for name, step in his.items()}
+        return replace(decided, offers=tuple(dict.fromkeys(offers)), wishes=wishes if self._told else {})
 
     def _best(
         self,

@@ -30,9 +30,6 @@ _TIME_TO_WEIGH: Final = 0.4
 _TIME_TO_LOOK: Final = 0.4
 """The share of the time for what the person could do alone, where robots have pledged something."""
 
-_TIME_TO_RECOGNISE: Final = 0.4
-"""The share of the time that recognition may take; the posterior of an earlier epoch has to do otherwise."""
-
 
 class RobotPolicy:
     """Recognises, plans, and leaves alone what the person may need.
@@ -139,9 +136,10 @@ class RobotPolicy:
     def _decided(self, outlook: Outlook, deadline: Deadline) -> Decided:
         state, able = outlook.world.state, self._hypotheses.actions
         self._untouched.look(state)
-        weights = self._weights(state, deadline)
+        weights = {0: Fraction(1)} if self._beliefs is None else self._beliefs.weighed(state, deadline)
         owes = self._watching.owes if self._watching is not None else lambda _: False
-        reachable, in_time = self._reachable(state, weights, deadline, pledged=all(map(owes, weights)))
+        share = deadline.part(_TIME_TO_LOOK) if (pledged := all(map(owes, weights))) else deadline
+        reachable, in_time = self._hypotheses.reachable(state, weights, share, must=not pledged)
         goals = [goal for goal in weights if goal in reachable or owes(goal)] or list(weights)[:1]
         gone = frozenset[int]().union(*self._gone.values())
         out = gone | self._failing
@@ -163,21 +161,6 @@ class RobotPolicy:
             prospects = self._planned(likely, replace(now, out=gone, barred=gone), deadline)
         return self._chosen(outlook, now, prospects, running, deadline)
 
-    def _reachable(
-        self, state: frozenset[int], goals: Iterable[int], deadline: Deadline, *, pledged: bool
-    ) -> tuple[list[int], bool]:
-        """The goals that the person can reach alone, and whether that is known in time.
-
-        Args:
-            pledged: whether robots can go on with what was pledged without knowing it.
-        """
-        if not pledged:
-            return self._hypotheses.look(state, goals, deadline), True
-        try:
-            return self._hypotheses.look(state, goals, deadline.part(_TIME_TO_LOOK)), True
-        except LIMITS:
-            return [], False
-
     def _chosen(
         self,
         outlook: Outlook,
@@ -198,17 +181,17 @@ class RobotPolicy:
             prospect = prospects[0] if certain else best_for_all(prospects, deadline)
         if prospect is not None:
             decided = self._following(outlook, prospect, running)
-            if watched:
-                decided = self._for_all(decided, prospects)
+            if watched and self._watching is not None:
+                decided = self._watching.for_all(decided, self._named(prospects))
             elif self._told and self._watching is not None and prospect.advice is not None:
                 self._watching.pledge(now.state, {prospect.goal: prospect.advice})
-                decided = self._for_all(decided, [prospect])
+                decided = self._watching.for_all(decided, self._named([prospect]))
             if decided.verdict != "aside":
                 return decided
         elif running:
             return self._idle(outlook, Why("no-help"), running)
         elif self._torn(now, prospects, deadline):
-            return self._idle(outlook, Why("unsure", goals=self._likely()))
+            return self._idle(outlook, Why("unsure", goals=self._guess()))
         else:
             done = next((prospect for prospect in prospects if prospect.pays and not prospect.open), None)
             decided = self._following(outlook, done, ()) if done else self._idle(outlook, Why("no-help"))
@@ -232,17 +215,6 @@ class RobotPolicy:
     def _owed(self, state: frozenset[int], *hypotheses: Hypothesis) -> float:
         """How much dearer the person's way is by what robots have done, at most."""
         return float(max(known.owed(self._untouched.state, state) for known in hypotheses))
-
-    def _weights(self, state: frozenset[int], deadline: Deadline) -> dict[int, Fraction]:
-        """The goals that the person may have, with their probabilities, the most probable first."""
-        if self._beliefs is None:
-            return {0: Fraction(1)}
-        try:
-            self._beliefs.update(state, deadline.part(_TIME_TO_RECOGNISE))
-        except LIMITS:
-            deadline.check()  # what was known before still tells something
-        weights = self._beliefs.weights
-        return {goal: weights[goal] for goal in sorted(self._beliefs.possible(), key=lambda g: -weights[g])}
 
     def _going_on(self, outlook: Outlook, goals: Sequence[int]) -> list[PlanStep]:
         """What was begun and may still be finished."""
@@ -271,18 +243,10 @@ class RobotPolicy:
             one.companion.under(deadline)
         return [Prospect(goal, known[goal], advice, shares[goal]) for goal, advice in policy.items()]
 
-    def _for_all(self, decided: Decided, prospects: Sequence[Prospect]) -> Decided:
-        """A decision with what is to be done with the person, and by them, whichever goal is theirs."""
+    def _named(self, prospects: Iterable[Prospect]) -> dict[str, Sequence[PlanStep]]:
+        """What everybody does, by the name of the goal."""
         assert self._beliefs is not None, "there are candidates"
-        his = {
-            self._beliefs.candidates[one.goal].name: next(
-                (step for step in one.plan if step.epoch == 1 and self._human in step.agents), None
-            )
-            for one in prospects
-        }
-        offers = (replace(s, epoch=decided.epoch) for s in his.values() if s and len(s.agents) > 1)
-        wishes = {name: None if step is None else step.action for name, step in his.items()}
-        return replace(decided, offers=tuple(dict.fromkeys(offers)), wishes=wishes if self._told else {})
+        return {self._beliefs.candidates[one.goal].name: one.plan for one in prospects}
 
     def _planned(
         self, weights: dict[int, Fraction], now: DecisionPoint, deadline: Deadline
@@ -404,13 +368,13 @@ class RobotPolicy:
         cost = sum(step.cost for step in prospect.plan)
         alone = None if prospect.alone is None else float(prospect.alone)
         if running or new:
-            guess = self._likely(prospect.goal)
+            guess = self._guess(prospect.goal)
             return "helps", Why("only-way" if alone is None else "pays", cost, alone, goals=guess)
         later = min((s.epoch for s in prospect.plan if s.agents != (self._human,)), default=None)
         if later is None:
             return "aside", Why("done", cost, alone) if self._history.helped else Why("no-help")
         if self._beliefs is not None and len(self._beliefs.possible()) > 1:
-            return "unsure", Why("unsure", epoch=epoch + later - 1, goals=self._likely())
+            return "unsure", Why("unsure", epoch=epoch + later - 1, goals=self._guess())
         return "waits", Why("later", cost, alone, epoch=epoch + later - 1)
 
     def _idle(self, outlook: Outlook, why: Why, running: Sequence[PlanStep] = ()) -> Decided:
@@ -420,13 +384,9 @@ class RobotPolicy:
             verdict, why = "helps", Why("goes-on", action=running[0].action)
         return Decided(outlook.epoch, verdict, "", actions=tuple(running), goals=self.goals, because=why)
 
-    def _likely(self, goal: int | None = None) -> tuple[tuple[str, float], ...]:
+    def _guess(self, goal: int | None = None) -> tuple[tuple[str, float], ...]:
         """The most probable goals with their probabilities, or one of them; nothing where it is known."""
-        if self._beliefs is None:
-            return ()
-        if goal is not None:
-            return ((self._beliefs.candidates[goal].name, float(self._beliefs.weights[goal])),)
-        return tuple(sorted(self._beliefs.named().items(), key=lambda pair: -pair[1])[:3])
+        return () if self._beliefs is None else self._beliefs.likely(goal)
 
 
 def _leisurely(deadline: Deadline) -> bool:
