@@ -38,13 +38,17 @@ class PolicyAdviser:
     Args:
         actions: what robots can do.
         told: the person keeps to the robots' plan: nothing has to be left alone.
+        surely: whether robots manage whatever is possible.
     """
 
-    def __init__(self, task: Task, options: Options, actions: RobotActions, *, told: bool) -> None:
+    def __init__(
+        self, task: Task, options: Options, actions: RobotActions, *, told: bool, surely: bool
+    ) -> None:
         self._task = task
         self._discount = options.discount
         self._actions = actions
         self._told = told
+        self._surely = surely
         self._sessions = RestrictedSessions(
             task,
             discount=options.discount,
@@ -68,7 +72,8 @@ class PolicyAdviser:
         human, others = self._task.agents[self._task.human], set()
         for goal, pledge in self._pledges.items():
             step = next((step for step in pledge.now if human in step.agents), None)
-            missed = his is None and step is not None and len(step.agents) > 1  # it may be the robots' fault
+            joint = step is not None and len(step.agents) > 1
+            missed = his is None and joint and not self._surely  # it may be the robots' fault
             if not missed and his != (None if step is None else step.action):
                 others.add(goal)
         self._pledges = {goal: known for goal, known in self._pledges.items() if goal not in others}

@@ -61,7 +61,7 @@ class RobotPolicy:
         self._hypotheses = Hypotheses(tasks, options, told=told, surely=surely)
         sessions = options.human_model == "omniscient" and options.mode == "serendipity"
         self._watching = (
-            PolicyAdviser(task, options, self._hypotheses.actions, told=told)
+            PolicyAdviser(task, options, self._hypotheses.actions, told=told, surely=surely)
             if sessions and goals is not None and not task.robot_goal
             else None
         )

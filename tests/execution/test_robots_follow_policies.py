@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.execution import Execution, Omniscient, Replanner
-from serendipity.model import Condition, Task
+from serendipity.execution.hypotheses import Hypotheses
+from serendipity.model import Condition, LimitReachedError, Task
+from serendipity.testing.builders import task as build
 from serendipity.testing.strategies import tasks
 from tests.execution.living import as_lines, live, lived, other_goals, told, verdicts
 from verify.base.optimal_plans import OptimalPlans
@@ -49,6 +51,26 @@ def test_who_leaves_the_tree_is_watched_anew(room2: Task) -> None:
     run.step("move_reverse commx hall8 room13")
     assert set(run.decided.goals.values()) == {1 / 3}, "it is no part of any plan"
     assert lived(run, Omniscient(_for(room2, "room1"))).done
+
+
+def test_what_was_pledged_is_kept_without_time(room2: Task, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Robots did nothing, and the person was left without the plan and without the kit."""
+    task = _for(room2, "room1")
+    run = Execution(task, discount="0.9", goals=GOALS, told=True)
+    lived(run, Omniscient(task), most=4)
+
+    def too_late(*_: object) -> None:
+        raise LimitReachedError("time-limit")
+
+    monkeypatch.setattr(Hypotheses, "look", too_late)
+    assert "late" not in verdicts(lived(run, Omniscient(task))) and float(run.cost) == 11.4
+
+
+def test_goals_that_nobody_reaches_alone_are_tried_one_after_the_other() -> None:
+    doors = {f"open {way} r": f"-> open_{way}" for way in "ab"}
+    ways = {f"go h {way}": f"s open_{way} -> {way} !s" for way in "ab"}
+    task = build(init="s", goal="b", actions={**doors, **ways})
+    assert told(task, goals=[{"name": way, "goal": [way]} for way in "ab"]).done
 
 
 def test_whose_goal_is_none_of_them_goes_on_alone(room2: Task) -> None:
