@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import serendipity
-from serendipity.execution import Decided, Passed
+from serendipity.execution import Decided, Passed, moment_of
 from serendipity.execution.decided import account
 from serendipity.execution.log import decision_of
 from serendipity.live.play.labels import DomainLabels, Phrases
@@ -291,7 +291,8 @@ class Round:
         mine = [s for s in decided.plan or () if list(s.agents) != [self.human]]
         if not mine:
             return None
-        wish = "" if decided.expected is None else f" Please {self._words.step(decided.expected)} now."
+        name = moment_of(self.run).wish
+        wish = "" if name is None else f" Please {self._words.action(task.actions[task.named[name][0]])} now."
         said: dict[str, list[str]] = {}
         for step in mine:
             robot = next(i for i in task.robots if task.agents[i] in step.agents)
