@@ -15,7 +15,7 @@ from search.modes.goals import explanations
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade import ties
 from serendipity.facade.call import Request, Solver
-from serendipity.model import Deadline, HumanPlan, Options, Task, UsageError
+from serendipity.model import HumanPlan, Options, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.answers.recognition import Recognition
 from serendipity.model.errors import LIMITS, limit_reason
@@ -108,7 +108,7 @@ def _by_goals(call: Request, unsure: Unsure) -> tuple[list[Candidate], Recogniti
     watched = call.options.ties == "watched"
     if names and watched:
         raise UsageError("ties: 'watched' goes without observed: each goal's plans are all its optimal ones")
-    recognition, plans = _recognised(call.task, candidates, names, strictness(unsure.beta), call.deadline)
+    recognition, plans = _recognised(call, candidates, names, strictness(unsure.beta))
     considered = _considered(candidates, recognition, plans)
     return _shared(call, considered) if watched else considered, recognition
 
@@ -134,22 +134,19 @@ def _shared(call: Request, considered: Sequence[Candidate]) -> list[Candidate]:
 
 
 def _recognised(
-    task: Task,
-    candidates: Sequence[CandidateGoal],
-    observed: tuple[str, ...],
-    beta: float,
-    deadline: Deadline,
+    call: Request, candidates: Sequence[CandidateGoal], observed: tuple[str, ...], beta: float
 ) -> tuple[Recognition, list[HumanPlan | None]]:
     """The posterior, and for each goal the plan of the human's that is considered.
 
     Raises:
         LimitReachedError: the deadline ran out.
     """
+    task, deadline = call.task, call.deadline
     conditions = [candidate.goal for candidate in candidates]
-    found = explanations(task, conditions, observed, deadline)
+    found = explanations(task, conditions, observed, deadline, call.prepared)
     recognition = posterior(task, candidates, observed, found, beta)
     if not recognition.explained:  # the human's plans, as if nothing had been observed
-        found = explanations(task, conditions, (), deadline)
+        found = explanations(task, conditions, (), deadline, call.prepared)
     return recognition, [explanation.plan for explanation in found]
 
 
@@ -178,7 +175,8 @@ def _refuse(task: Task, options: Options) -> None:
 
 def _about(call: Request, candidate: Candidate, recognition: Recognition | None) -> Request:
     """The call of section 3 for one scenario, with the plan that explains the observations, or is given."""
-    prepared = call.prepared.with_goal(candidate.goal)
+    same = candidate.goal == call.task.goal
+    prepared = call.prepared if same else call.prepared.with_goal(candidate.goal)
     if recognition is not None and not (recognition.observed and recognition.explained):
         fixed = call.options.but(ties="fixed") if call.options.ties == "watched" else call.options
         return replace(call, prepared=prepared, options=fixed)

@@ -84,11 +84,16 @@ class Explainer:
     Args:
         task: the task; robots idle, its own goal plays no part.
         goals: the candidate goals.
+        prepared: the task, made ready, for its own goal if that is among them; None to make that ready, too.
     """
 
-    def __init__(self, task: Task, goals: Sequence[Condition]) -> None:
+    def __init__(self, task: Task, goals: Sequence[Condition], prepared: PreparedTask | None = None) -> None:
         nothing = Condition()
-        self._prepared = [PreparedTask(task.with_goal(goal, nothing)) for goal in goals]
+        known = prepared if task.robot_goal == nothing else None
+        self._prepared = [
+            known if known and goal == task.goal else PreparedTask(task.with_goal(goal, nothing))
+            for goal in goals
+        ]
         self._last: list[tuple[tuple[str, ...], Likelihood] | None] = [None] * len(goals)
 
     def explain(
@@ -148,10 +153,14 @@ class Explainer:
 
 
 def explanations(
-    task: Task, goals: Sequence[Condition], observed: Sequence[str], deadline: Deadline | None = None
+    task: Task,
+    goals: Sequence[Condition],
+    observed: Sequence[str],
+    deadline: Deadline | None = None,
+    prepared: PreparedTask | None = None,
 ) -> list[Likelihood]:
     """One explanation for each goal; see :class:`Explainer`."""
-    return Explainer(task, goals).explain(observed, deadline)
+    return Explainer(task, goals, prepared).explain(observed, deadline)
 
 
 def _explanation(
