@@ -135,8 +135,13 @@ class PreparedTask:
     def with_goal(self, goal: Condition, robot_goal: Condition | None = None) -> "PreparedTask":
         """The task with another goal of the human's and, unless that is None, of the robots'.
 
-        What matters to the goals is packed anew.
+        What matters to the goals is packed anew, unless they are those of the task.
         """
+        if goal == self.task.goal and robot_goal in (None, self.task.robot_goal):
+            return self
+        return self._made_for(goal, robot_goal)
+
+    def _made_for(self, goal: Condition, robot_goal: Condition | None = None) -> "PreparedTask":
         other = PreparedTask(self.task.with_goal(goal, robot_goal))
         other.surroundings.known = self.surroundings.known
         return other
@@ -152,7 +157,7 @@ class PreparedTask:
         """
         asked = facts.union(*((*goal.positive, *goal.negative) for goal in goals))
         packed = self.including(asked, deadline).packed
-        found = [self.with_goal(goal) for goal in goals]
+        found = [self._made_for(goal) for goal in goals]
         for other in found:
             other.plain.known = other.with_human_facts.known = (TaskTables(packed.for_goal(other.task)),)
         return found

@@ -5,6 +5,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Final
 
+from search import PreparedTask
 from search.modes.goals import Explainer
 from serendipity.model import Deadline, Task
 from serendipity.model.errors import LIMITS
@@ -44,7 +45,7 @@ class Beliefs:
     def __init__(self, task: Task, goals: GoalsGiven, beta: Number) -> None:
         self.candidates = candidate_goals(task, goals)
         self._task = task
-        self._explainer = Explainer(task, [candidate.goal for candidate in self.candidates])
+        self._explainer = Explainer(PreparedTask(task), [candidate.goal for candidate in self.candidates])
         self._beta = strictness(beta)
         self._priors = [candidate.prior for candidate in self.candidates]
         self._observed: list[str] = []

@@ -71,7 +71,7 @@ def settled(call: Request, unsure: Unsure) -> tuple[Request, Solver]:
         return call, lambda _: iter((nothing._replace(recognition=recognition),))
     if len(considered) == 1:
         only = considered[0]
-        own = None if recognition or only.goal == call.task.goal else _literals(call.task, only)
+        own = _unsaid(call.task, only, recognition)
         plain = recognition is None and own is None
         solver = ties.answers if plain else partial(_certain, only, recognition, own)
         return _about(call, only, recognition), solver
@@ -85,11 +85,10 @@ def asked_about(task: Task, unsure: Unsure) -> Hashable:
     Raises:
         InputError: a file or an entry of it is wrong.
     """
-    plans = None if unsure.plans is None else plan_library(task, unsure.plans)
     if unsure.goals is None:
-        return plans
+        return None if unsure.plans is None else plan_library(task, unsure.plans)
     names = observed_actions(task, unsure.observed)
-    return candidate_goals(task, unsure.goals), names, strictness(unsure.beta), plans
+    return candidate_goals(task, unsure.goals), names, strictness(unsure.beta)
 
 
 def _by_goals(call: Request, unsure: Unsure) -> tuple[list[Candidate], Recognition]:
@@ -143,10 +142,10 @@ def _recognised(
     """
     task, deadline = call.task, call.deadline
     conditions = [candidate.goal for candidate in candidates]
-    found = explanations(task, conditions, observed, deadline, call.prepared)
+    found = explanations(call.prepared, conditions, observed, deadline)
     recognition = posterior(task, candidates, observed, found, beta)
     if not recognition.explained:  # the human's plans, as if nothing had been observed
-        found = explanations(task, conditions, (), deadline, call.prepared)
+        found = explanations(call.prepared, conditions, (), deadline)
     return recognition, [explanation.plan for explanation in found]
 
 
@@ -175,8 +174,7 @@ def _refuse(task: Task, options: Options) -> None:
 
 def _about(call: Request, candidate: Candidate, recognition: Recognition | None) -> Request:
     """The call of section 3 for one scenario, with the plan that explains the observations, or is given."""
-    same = candidate.goal == call.task.goal
-    prepared = call.prepared if same else call.prepared.with_goal(candidate.goal)
+    prepared = call.prepared.with_goal(candidate.goal)
     if recognition is not None and not (recognition.observed and recognition.explained):
         fixed = call.options.but(ties="fixed") if call.options.ties == "watched" else call.options
         return replace(call, prepared=prepared, options=fixed)
@@ -199,13 +197,14 @@ def _expected(
     considered: Sequence[Candidate], recognition: Recognition | None, call: Request
 ) -> Iterator[Answer]:
     """Several scenarios are left."""
-    own = [None if recognition or c.goal == call.task.goal else _literals(call.task, c) for c in considered]
+    own = [_unsaid(call.task, candidate, recognition) for candidate in considered]
     for answer in solve_scenarios(call.prepared, call.options, considered, call.deadline):
         served = zip(answer.goals or (), own, strict=True)
         goals = tuple(replace(one, goal=goal) for one, goal in served)
         yield answer._replace(recognition=recognition, goals=goals)
 
 
-def _literals(task: Task, candidate: Candidate) -> tuple[str, ...]:
-    goal = candidate.goal
-    return (*(task.facts[i] for i in goal.positive), *(f"!{task.facts[i]}" for i in goal.negative))
+def _unsaid(task: Task, candidate: Candidate, recognition: Recognition | None) -> tuple[str, ...] | None:
+    """The literals of a scenario's goal, where neither the task nor a recognition says them."""
+    is_said = recognition is not None or candidate.goal == task.goal
+    return None if is_said else candidate.goal.literals(task.facts)

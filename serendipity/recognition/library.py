@@ -125,7 +125,7 @@ def _plan(task: Task, item: Any, number: int, ids: Mapping[str, int]) -> Library
     if probability < 0:
         raise InputError(f"probability: expected a number of at least 0, got {item['probability']}")
     goal = item.get("goal")
-    literals, wanted = (_own(task), task.goal) if goal is None else literals_of(goal, ids)
+    literals, wanted = (task.goal.literals(task.facts), task.goal) if goal is None else literals_of(goal, ids)
     actions = item.get("plan")
     if not isinstance(actions, list | tuple) or not all(isinstance(text, str) for text in actions):
         raise InputError(f"plan: expected a list of actions, got {actions!r:.50}")
@@ -133,9 +133,3 @@ def _plan(task: Task, item: Any, number: int, ids: Mapping[str, int]) -> Library
     lines = plan_lines("\n".join(" ".join(action.split()) for action in actions), None)
     plan = aimed.plan_from_names(entries(lines, aimed, None))
     return LibraryPlan(name, probability, wanted, plan, literals)
-
-
-def _own(task: Task) -> tuple[str, ...]:
-    """The literals of the task's goal."""
-    positive, negative = ([task.facts[i] for i in ids] for ids in (task.goal.positive, task.goal.negative))
-    return (*positive, *(f"!{fact}" for fact in negative))

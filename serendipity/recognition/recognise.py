@@ -12,6 +12,7 @@ from fractions import Fraction
 from os import PathLike
 from typing import Any
 
+from search import PreparedTask
 from search.modes.goals import Explainer, Likelihood, Prices, Reading
 from serendipity.model import Condition, Deadline, InputError, Task, UsageError, exact
 from serendipity.model.answers.recognition import Errors, GoalPosterior, Recognition
@@ -257,7 +258,7 @@ def recognise(
     rates = Noise.parse(noise) if isinstance(noise, str) else noise
     expect_or_none(Kind("Noise, or a text", lambda value: isinstance(value, Noise)), noise=rates)
     strict = strictness(beta)
-    explainer = Explainer(task, [candidate.goal for candidate in candidates])
+    explainer = Explainer(PreparedTask(task), [candidate.goal for candidate in candidates])
     with no_collection():  # beside a large task a collection takes longer than a short deadline
         found = explainer.explain(names, limits)
         noisy = rates if rates and (rates.miss or rates.wrong) else None

@@ -40,7 +40,7 @@ def _action(action: GroundAction, facts: list[str]) -> str:
 
 
 def _literals(condition: Condition, facts: list[str]) -> str:
-    return " ".join([*(facts[f] for f in condition.positive), *(f"!{facts[f]}" for f in condition.negative)])
+    return " ".join(condition.literals(facts))
 
 
 def _number(cost: Fraction) -> str:

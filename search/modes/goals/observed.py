@@ -82,18 +82,12 @@ class Explainer:
     """Explanations of observations by each of several goals; tables are kept from question to question.
 
     Args:
-        task: the task; robots idle, its own goal plays no part.
+        prepared: the task; robots idle, its own goal plays no part.
         goals: the candidate goals.
-        prepared: the task, made ready, for its own goal if that is among them; None to make that ready, too.
     """
 
-    def __init__(self, task: Task, goals: Sequence[Condition], prepared: PreparedTask | None = None) -> None:
-        nothing = Condition()
-        known = prepared if task.robot_goal == nothing else None
-        self._prepared = [
-            known if known and goal == task.goal else PreparedTask(task.with_goal(goal, nothing))
-            for goal in goals
-        ]
+    def __init__(self, prepared: PreparedTask, goals: Sequence[Condition]) -> None:
+        self._prepared = [prepared.with_goal(goal, Condition()) for goal in goals]
         self._last: list[tuple[tuple[str, ...], Likelihood] | None] = [None] * len(goals)
 
     def explain(
@@ -153,14 +147,13 @@ class Explainer:
 
 
 def explanations(
-    task: Task,
+    prepared: PreparedTask,
     goals: Sequence[Condition],
     observed: Sequence[str],
     deadline: Deadline | None = None,
-    prepared: PreparedTask | None = None,
 ) -> list[Likelihood]:
     """One explanation for each goal; see :class:`Explainer`."""
-    return Explainer(task, goals, prepared).explain(observed, deadline)
+    return Explainer(prepared, goals).explain(observed, deadline)
 
 
 def _explanation(

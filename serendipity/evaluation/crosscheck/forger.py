@@ -93,7 +93,7 @@ def _asked(call: PlanCall, dice: Random) -> _Asked:
         } | {name: dice.choice(CHOICES[name]) for name in ("policy", "risk")}
         fact = dice.randrange(len(task.facts))
         prior = dice.choice((Fraction(1, 2), Fraction(1, 3), Fraction(9, 10)))
-        own = [task.facts[f] for f in task.goal.positive] + [f"!{task.facts[f]}" for f in task.goal.negative]
+        own = [*task.goal.literals(task.facts)]
         other = f"!{task.facts[fact]}" if fact in task.init else task.facts[fact]
         goals = {"own": (own, prior), other: ([other], 1 - prior)}
         given = tuple({"name": name, "goal": goal, "prior": str(p)} for name, (goal, p) in goals.items())

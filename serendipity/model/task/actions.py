@@ -1,6 +1,6 @@
 """Conditions and ground actions over integer fact ids."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -28,6 +28,10 @@ class Condition:
     def holds(self, state: State) -> bool:
         """Whether every literal is true in ``state``."""
         return all(f in state for f in self.positive) and not any(f in state for f in self.negative)
+
+    def literals(self, facts: Sequence[str]) -> tuple[str, ...]:
+        """The literals by the names of facts, ``!`` in front of those that must be false."""
+        return (*(facts[f] for f in self.positive), *(f"!{facts[f]}" for f in self.negative))
 
     def without(self, other: "Condition") -> "Condition":
         """What is left without the literals of another, ascending."""

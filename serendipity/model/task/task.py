@@ -117,9 +117,8 @@ class Task(Told):
         if self.needs_time:
             yield Line(self._time_told())
         for who, goal in ((human, self.goal), ("robots", self.robot_goal)):
-            literals = [self.facts[i] for i in goal.positive] + [f"!{self.facts[i]}" for i in goal.negative]
-            if literals:
-                yield Line(f"goal of {who}: {', '.join(literals)}")
+            if goal:
+                yield Line(f"goal of {who}: {', '.join(goal.literals(self.facts))}")
         yield from map(Line, self.warnings)
 
     def _time_told(self) -> str:
