@@ -10,6 +10,7 @@ from serendipity.model import Deadline, Result, Task, UsageError
 from serendipity.model.answers.answer import Status
 from serendipity.model.answers.fields import Written, written
 from serendipity.model.answers.histories import History, histories
+from serendipity.model.answers.over_scenarios import goal_of
 from serendipity.model.answers.result_parts import GoalAnswer
 from serendipity.model.arguments import RESULT, TASK, expect
 from serendipity.model.numbers import as_written, plain
@@ -133,27 +134,24 @@ def explain_policy(
         result,
         as_written(committed.cost or 0) if committed.status == "optimal" else None,
         sum(costs, Fraction(0)) if all(found.status == "optimal" for found in known) else None,
-        tuple(_signs(tree, entries, result.human)) if result.options.policy == "watching" else (),
+        tuple(_signs(tree, result.human)) if result.options.policy == "watching" else (),
     )
 
 
 def _library(result: Result, entries: tuple[GoalAnswer, ...]) -> list[dict[str, Any]]:
     """The scenarios as a library of plans."""
-    named = {} if result.recognition is None else {g.name: list(g.goal) for g in result.recognition.goals}
     found = []
     for number, entry in enumerate(entries, start=1):
         one: dict[str, Any] = {"name": entry.name or str(number), "plan": list(entry.human_plan or ())}
         one["probability"] = str(as_written(entry.probability))
-        goal = entry.goal or named.get(entry.name) or named.get(entry.name.rpartition(" ")[0])
+        goal = goal_of(result, entry)
         found.append(one | ({} if goal is None else {"goal": list(goal)}))
     return found
 
 
-def _signs(history: History, entries: tuple[GoalAnswer, ...], human: str) -> Iterator[Sign]:
-    own = {(s.epoch, s.action) for s in history.robots if human not in s.agents}
+def _signs(history: History, human: str) -> Iterator[Sign]:
+    own = any(human not in step.agents for step in history.robots)
     for branch in history.branches:
-        seen = history.end - 1
-        steps = entries[branch.scenarios[0]].plan or ()
-        action = next((s.action for s in steps if s.epoch == seen and human in s.agents), None)
-        yield Sign(seen, action, history.scenarios, branch.scenarios, not own)
-        yield from _signs(branch, entries, human)
+        action = None if branch.seen is None else branch.seen.action
+        yield Sign(branch.start - 1, action, history.scenarios, branch.scenarios, not own)
+        yield from _signs(branch, human)

@@ -17,6 +17,7 @@ class History:
         scenarios: those that are possible, by their places in the answer.
         robots: what robots take part in then, in any of the scenarios.
         branches: the histories that may follow.
+        seen: what the human did in the epoch before, by which it is known; None if they waited, and at first.
     """
 
     start: int
@@ -24,6 +25,7 @@ class History:
     scenarios: tuple[int, ...]
     robots: tuple[PlanStep, ...]
     branches: "tuple[History, ...]"
+    seen: PlanStep | None
 
     def __iter__(self) -> "Iterator[History]":
         """This one and all that may follow, each before its branches."""
@@ -41,7 +43,7 @@ def histories(scenarios: Sequence[GoalAnswer], human: str, horizon: int, *, watc
         horizon: ``T``.
         watching: whether robots tell scenarios apart by what the human does.
     """
-    done = [{step.epoch: step.action for step in s.plan or () if human in step.agents} for s in scenarios]
+    done = [{step.epoch: step for step in s.plan or () if human in step.agents} for s in scenarios]
 
     def from_epoch(start: int, possible: tuple[int, ...]) -> History:
         end = start
@@ -49,7 +51,8 @@ def histories(scenarios: Sequence[GoalAnswer], human: str, horizon: int, *, watc
         while end <= horizon and len(parts) == 1:
             seen: dict[str | None, list[int]] = {}
             for i in possible if watching else ():
-                seen.setdefault(done[i].get(end), []).append(i)
+                step = done[i].get(end)
+                seen.setdefault(None if step is None else step.action, []).append(i)
             parts = [tuple(part) for part in seen.values()] or parts
             end += 1
         robots = {
@@ -60,6 +63,7 @@ def histories(scenarios: Sequence[GoalAnswer], human: str, horizon: int, *, watc
         }
         branches = tuple(from_epoch(end, part) for part in parts) if len(parts) > 1 and end <= horizon else ()
         in_order = sorted(robots, key=lambda step: (step.epoch, step.action))
-        return History(start, end, possible, tuple(in_order), branches)
+        seen_before = done[possible[0]].get(start - 1)
+        return History(start, end, possible, tuple(in_order), branches, seen_before)
 
     return from_epoch(1, tuple(range(len(scenarios))))

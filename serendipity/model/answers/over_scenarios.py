@@ -13,7 +13,19 @@ from serendipity.model.telling import Grid, Line
 if TYPE_CHECKING:
     from serendipity.model.answers.result import Result
 
-_MEASURES: Final = {"mean": "expected cost", "worst": "greatest cost", "regret": "greatest regret"}
+MEASURES: Final = {"mean": "expected cost", "worst": "greatest cost", "regret": "greatest regret"}
+"""What the cost of an answer is, by ``risk``."""
+
+
+def goal_of(result: "Result", entry: GoalAnswer) -> tuple[str, ...] | None:
+    """The literals of a scenario's goal; None for that of the task.
+
+    Args:
+        result: the answer.
+        entry: one of its scenarios, which has the name of its goal, or that and a plan's number.
+    """
+    known = {} if result.recognition is None else {one.name: one.goal for one in result.recognition.goals}
+    return entry.goal or known.get(entry.name) or known.get(entry.name.rpartition(" ")[0])
 
 
 def over_scenarios(result: "Result") -> Iterator[Line | Grid]:
@@ -31,9 +43,7 @@ def over_scenarios(result: "Result") -> Iterator[Line | Grid]:
     weight = plain(result.options.window_weight)
     gap = f"not proved; at least {plain(result.lower_bound)}, with {weight} for each epoch of a window"
     proof = "proved" if result.status == "optimal" else gap
-    what = {"mean": "expected cost", "worst": "greatest cost", "regret": "greatest regret"}[
-        result.options.risk
-    ]
+    what = MEASURES[result.options.risk]
     if not result.opportunity:
         yield Line(f"the robots leave {result.human} alone: {what} {plain(result.cost)} ({proof})")
     else:

@@ -72,9 +72,8 @@ def _words(scene: Scene, history: History, x: float, y: float, width: float) -> 
     """Which scenarios are possible, how probable they are, and what the human did by which that is known."""
     goals = scene.result.goals or ()
     may = f"{_numbers(history.scenarios)} · {sum(goals[i].probability for i in history.scenarios):.4g}"
-    steps, seen = goals[history.scenarios[0]].plan or (), history.start - 1
-    acts = (scene.told[s] for s in steps if s.epoch == seen and scene.result.human in s.agents)
-    sign = next((f"seen: {act.verb} {act.detail}" for act in acts), "seen: wait") if seen else ""
+    act = None if history.seen is None else scene.told[history.seen]
+    sign = "" if history.start == 1 else "seen: wait" if act is None else f"seen: {act.verb} {act.detail}"
     wide = ems(may) * _SIZE * drawing.BOLD + 10
     x = max(0.0, min(x, width - wide - ems(sign) * _SIZE))
     yield Rect(x, y - 9, wide + ems(sign) * _SIZE, 18, Style(PAPER))

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from serendipity.model import Result, Task, UsageError
 from serendipity.model.answers.histories import History, histories
+from serendipity.model.answers.over_scenarios import goal_of
 from serendipity.model.task.facts import Facts
 
 
@@ -33,8 +34,7 @@ def played(task: Task, result: Result, scenario: int) -> tuple[Task, Result]:
         UsageError: the goal names a fact that the task lacks.
     """
     entry = (result.goals or ())[scenario]
-    known = {} if result.recognition is None else {one.name: one.goal for one in result.recognition.goals}
-    goal = entry.goal or known.get(entry.name) or known.get(entry.name.rpartition(" ")[0])  # a plan's number
+    goal = goal_of(result, entry)
     own = replace(result, plan=entry.plan, human_plan=entry.human_plan, window=entry.window)
     there = task if goal is None else task.with_goal(Facts(task.facts).condition(goal))
     return there, replace(own, human_plan_times=entry.human_plan_times)

@@ -7,6 +7,7 @@ from functools import cached_property
 
 from serendipity.model import PlanStep, Result, Task
 from serendipity.model.answers.histories import History
+from serendipity.model.answers.over_scenarios import MEASURES
 from serendipity.model.numbers import as_written, plain
 from serendipity.model.task.variables import Variable
 from serendipity.pictures.map.layout import MapLayout
@@ -320,8 +321,7 @@ def scenario_lines(scene: Scene) -> Iterator[tuple[str, bool]]:
 
 def _saved(scene: Scene) -> str:
     result = scene.result
-    measures = {"mean": "expected cost", "worst": "greatest cost", "regret": "greatest regret"}
-    measure = measures[result.options.risk] if scene.histories else "cost"
+    measure = MEASURES[result.options.risk] if scene.histories else "cost"
     if result.mode == "assistance":
         human = scene.agents[scene.human]
         own = result.agent_costs.get(human, 0)
