@@ -5,13 +5,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from search.call.context import SearchContext
-from search.modes.scenarios.measure import INFINITE_WORTH, Member, Tail, Worths
+from search.modes.scenarios.measure import INFINITE_WORTH, Measure, Member, Tail, Worths
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option, together
 from search.packed.operators import Operator, applicable
 from search.packed.successor_generator import Successors
-from search.spaces.factory import suffix_rule
 from serendipity.model.resources.deadline import Deadline
 
 FOLLOWING, INSIDE, OVER = range(3)
@@ -85,11 +84,10 @@ class Line:
         self._fits = acting.due.fits
         self._worths = worths
         self._context = context
-        self._steps = context.followed(scenario.plan)
-        self._suffix = suffix_rule(context, scenario.plan)
+        self._steps, self._suffix = self.certain.steps, self.certain.suffix
         self._suffixes: dict[tuple[int, int, int], Sequence[tuple[Operator, JointAction]]] = {}
         self._horizon = scenario.horizon
-        self._max_window = options.max_window or scenario.horizon
+        self._max_window = self.certain.max_window
         self._tells_starts = options.preservation == "state" or self._max_window < scenario.horizon
 
     def first(self) -> Member:
@@ -244,6 +242,30 @@ class Line:
         if found is None:
             found = self.certain.remainder(at.state, epoch, _start(at, epoch), deadline)
         return found.least, found.worth
+
+
+class Question(NamedTuple):
+    """What a search over scenarios is asked.
+
+    Attributes:
+        lines: the scenarios' epochs.
+        members: all scenarios, before the first epoch.
+        acting: what agents can do.
+        measure: of worths.
+        horizon: ``T``.
+        deadline: polled.
+    """
+
+    lines: Sequence[Line]
+    members: tuple[Member, ...]
+    acting: Successors
+    measure: Measure
+    horizon: int
+    deadline: Deadline
+
+    def value(self, rests: Sequence[int]) -> int:
+        """What it is worth if each scenario has so much to pay."""
+        return self.measure.value(self.members, rests)
 
 
 def _start(at: Member, epoch: int) -> int:

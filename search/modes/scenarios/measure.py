@@ -83,10 +83,10 @@ class Worths:
         cost = min(worth - (objective << self._bits), (1 << self._keys.cost_bits) - 1)
         return (objective << self._keys.objective_shift) + (cost << self._keys.cost_shift)
 
-    def figures(self, value: int, parts: int) -> tuple[Fraction, Fraction]:
-        """Objective and cost of a value, which counts so many parts of worths."""
+    def figures(self, value: int) -> tuple[Fraction, Fraction]:
+        """Objective and cost of a value, which counts parts of worths."""
         objective = value + (1 << self._bits - 1) >> self._bits  # a cost may be a difference, below 0
-        cost, unit = value - (objective << self._bits), parts * self._keys.scale
+        cost, unit = value - (objective << self._bits), self.scale * self._keys.scale
         return Fraction(objective, unit), Fraction(cost, unit)
 
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.paths import plan_steps
-from search.modes.scenarios.lines import Line
+from search.modes.scenarios.lines import Line, Question
 from search.modes.scenarios.measure import INFINITE_WORTH, Worths, measure_of
 from search.modes.scenarios.played import Played
 from search.modes.scenarios.policies import PolicySearch
@@ -93,7 +93,7 @@ class _ScenarioCall:
         self._options = options
         self._deadline = deadline
         self._candidates = _merged(candidates)
-        self._lines: list[Line] = []
+        self._question: Question | None = None
         self._sequences: SequenceSearch | None = None
         self._policies: PolicySearch | None = None
         self._idle: int | None = None
@@ -107,8 +107,8 @@ class _ScenarioCall:
         """
         scenarios, deadline = self._scenarios(), self._deadline
         context = scenarios[0].context
-        self._measure = measure_of(self._options.risk, [c.weight for c in self._candidates])
-        self._worths = Worths(context.keys, self._measure.parts)
+        measure = measure_of(self._options.risk, [c.weight for c in self._candidates])
+        self._worths = Worths(context.keys, measure.parts)
         acting = context.successors()
         lines = [Line(s, i, acting, self._worths) for i, s in enumerate(scenarios)]
         known = (
@@ -118,15 +118,14 @@ class _ScenarioCall:
         )
         self.is_exact = all(least == worth for least, worth in known)
         ahead = [-least for least, _ in known]
-        members = [line.first()._replace(ahead=a) for line, a in zip(lines, ahead, strict=True)]
-        self._idle = self._measure.value(members, [line.certain.idle(deadline) for line in lines])
-        self._lines = lines
-        self._members = members
-        asked = lines, acting, self._measure, members, self._horizon, deadline
-        self._sequences = SequenceSearch(*asked)
+        members = tuple(line.first()._replace(ahead=a) for line, a in zip(lines, ahead, strict=True))
+        question = Question(lines, members, acting, measure, self._horizon, deadline)
+        self._question = question
+        self._idle = question.value([line.certain.idle(deadline) for line in lines])
+        self._sequences = SequenceSearch(question)
         yield from self._sequences.guided()
         if self._options.policy == "watching":
-            self._policies = PolicySearch(*asked, self._sequences.upper)
+            self._policies = PolicySearch(question, self._sequences.upper)
             yield from self._policies.run()
         else:
             yield from self._sequences.run()
@@ -154,7 +153,6 @@ class _ScenarioCall:
         packed = self._prepared.with_goals(goals, asked, self._deadline)
         return [
             Scenario(
-                own,
                 self._prepared.with_goal(candidate.goal),
                 SearchContext(own, options, self._deadline),
                 candidate.plan,
@@ -187,13 +185,13 @@ class _ScenarioCall:
         return self._told(status, baseline, (baseline, baseline, bound), saving_alone=baseline - idle)
 
     def _figures(self, value: int) -> tuple[Fraction, Fraction]:
-        return self._worths.figures(value, self._measure.parts)
+        return self._worths.figures(value)
 
     def _baseline(self) -> Fraction:
         """What it costs to leave the human alone; for regret at most so much, before more is known."""
-        if self._sequences is not None:
-            alone = [line.certain.alone(0) for line in self._lines]
-            return self._figures(self._measure.value(self._members, alone))[1]
+        if self._question is not None:
+            alone = [line.certain.alone(0) for line in self._question.lines]
+            return self._figures(self._question.value(alone))[1]
         costs = [(c.weight, self._prepared.task.cost_of(c.plan)) for c in self._candidates]
         if self._options.risk == "mean":
             return sum((weight * cost for weight, cost in costs), Fraction(0))
@@ -219,7 +217,8 @@ class _ScenarioCall:
         """
         cost, objective, bound = figures or (baseline, baseline, Fraction(0))
         happens = played or {}
-        counted = [*(line.certain for line in self._lines), *self._searches()]
+        lines = () if self._question is None else self._question.lines
+        counted = [*(line.certain for line in lines), *self._searches()]
         return Answer(
             status,
             horizon=self._horizon,

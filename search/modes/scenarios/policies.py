@@ -11,12 +11,10 @@ from dataclasses import dataclass, field
 from heapq import heapify, heapreplace
 from typing import Final, NamedTuple
 
-from search.modes.scenarios.lines import FOLLOWING, OVER, Guide, Line, Way
-from search.modes.scenarios.measure import INFINITE_WORTH, Measure, Member
+from search.modes.scenarios.lines import FOLLOWING, OVER, Guide, Question, Way
+from search.modes.scenarios.measure import INFINITE_WORTH, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
-from search.packed.successor_generator import Successors
-from serendipity.model.resources.deadline import Deadline
 
 _SHARE: Final = 0.2
 """The share of the time that is left for a first look at each scenario of a group by itself."""
@@ -71,36 +69,19 @@ class PolicySearch:
     """The search for one call.
 
     Args:
-        lines: the scenarios' epochs.
-        acting: what agents can do.
-        measure: of worths.
-        members: all scenarios, before the first epoch.
-        horizon: ``T``.
-        deadline: polled.
+        question: what it is asked.
         known: of a policy that is known; one with a first choice of its own has to be better.
 
     Attributes:
         root: all scenarios, before the first epoch.
     """
 
-    def __init__(
-        self,
-        lines: Sequence[Line],
-        acting: Successors,
-        measure: Measure,
-        members: Sequence[Member],
-        horizon: int,
-        deadline: Deadline,
-        known: int,
-    ) -> None:
-        self._lines = lines
-        self._acting = acting
-        self._measure = measure
-        self._horizon = horizon
-        self._deadline = deadline
+    def __init__(self, question: Question, known: int) -> None:
+        self._lines, self._acting, self._measure = question.lines, question.acting, question.measure
+        self._horizon, self._deadline = question.horizon, question.deadline
         self._groups: dict[tuple[int, tuple[Member, ...]], Group] = {}
         self._looked: set[Group] = set()
-        self.root = self._group(0, tuple(members))
+        self.root = self._group(0, question.members)
         self.root.offer(known, None)
         self.expanded = self.generated = 0
 
@@ -215,11 +196,8 @@ class PolicySearch:
         """A choice, with the groups that it leads to."""
         parts: dict[tuple[str | None, int], list[Way]] = {}
         for way in ways:
-            seen = (
-                self._acting.name(way.part),
-                way.after.state,
-            )  # other variants of a name may do other things
-            parts.setdefault(seen, []).append(way)
+            # Other variants of a name may do other things.
+            parts.setdefault((self._acting.name(way.part), way.after.state), []).append(way)
         branches = []
         for together in parts.values():
             paid, after = self._measure.pay([w.after for w in together], [w.paid for w in together])

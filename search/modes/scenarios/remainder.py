@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 from search.bounds.first_interaction import Bounds, no_bound
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
-from search.engine.best_first import Incumbent, Node, Progress, best_first, solve_space
+from search.engine.best_first import Incumbent, Node, Progress, Space, best_first, solve_space
 from search.engine.dominance import ParetoFront
 from search.engine.paths import path_steps, plan_steps
 from search.human.suffix_rules import Suffix
@@ -63,14 +63,12 @@ class Scenario:
     """A plan of the human's that the robots hold possible.
 
     Attributes:
-        prepared: the task with the goal, packed like those of the other scenarios.
-        plain: the same, packed by itself.
-        context: of the call.
+        plain: the task with the goal, packed by itself.
+        context: of the call, packed like those of the other scenarios.
         plan: the human's.
         horizon: ``T``.
     """
 
-    prepared: PreparedTask
     plain: PreparedTask
     context: SearchContext
     plan: HumanPlan
@@ -83,6 +81,11 @@ class Certain:
     Args:
         scenario: the scenario.
         worths: worths of keys.
+
+    Attributes:
+        steps: the packed actions of the human's plan, and what they do.
+        suffix: rule 3.
+        max_window: most epochs of a window.
     """
 
     def __init__(self, scenario: Scenario, worths: Worths) -> None:
@@ -91,9 +94,9 @@ class Certain:
         self._options = context.options
         self._packed = context.packed
         self._worths = worths
-        self._steps = context.followed(scenario.plan)
-        self._suffix = suffix_rule(context, scenario.plan)
-        self._max_window = self._options.max_window or scenario.horizon
+        self.steps = context.followed(scenario.plan)
+        self.suffix = suffix_rule(context, scenario.plan)
+        self.max_window = self._options.max_window or scenario.horizon
         self._ordinary = self._options.suffix == "replan" and self._options.preservation == "kernel"
         task, bits = context.task, self._packed.fact_bits
         self._facts = [(fact, *found) for fact, found in enumerate(bits) if found is not None]
@@ -132,7 +135,7 @@ class Certain:
             found = self._in_space(state, epoch, 0, deadline), self._mended(state, epoch, deadline)
             best = min(found, key=lambda one: one.worth)
             return best._replace(least=min(one.least for one in found))
-        if epoch >= len(self._steps):
+        if epoch >= len(self.steps):
             return Remainder(self._worths.epoch, self._worths.epoch)
         if self._ordinary:
             return self._by_strategies(state, epoch, deadline)
@@ -144,22 +147,32 @@ class Certain:
         space = FixedHumanPlan(
             initial=state,
             horizon=horizon,
-            steps=self._steps[epoch:],
+            steps=self.steps[epoch:],
             goals=(self._packed.goal,),
             successors=context.successors(),
         )
-        best, progress = Incumbent(INFINITE_KEY), Progress()
-        with suppress(LimitReachedError):
-            for _ in best_first(space, best, progress, deadline):
-                pass
-        least, worth = (self._worths.of_key(key) for key in (min(progress.bound, best.key), best.key))
+        best = Incumbent(INFINITE_KEY)
+        least, worth = self._searched(space, best, deadline)
         steps = path_steps(best.node) if best.node is not None else ()
         window = self._worths.epoch
         return Remainder(min(least + window, INFINITE_WORTH), min(worth + window, INFINITE_WORTH), steps)
 
+    def _searched(
+        self, space: Space[Node, Incumbent], best: Incumbent, deadline: Deadline
+    ) -> tuple[int, int]:
+        """Bound and worth of the best plan of a space that is found by a deadline."""
+        progress = Progress()
+        with suppress(LimitReachedError):
+            for _ in best_first(space, best, progress, deadline):
+                pass
+        self.expanded += progress.expanded
+        self.generated += progress.generated
+        least = min(progress.bound, best.key)  # equal at its end
+        return self._worths.of_key(least), self._worths.of_key(best.key)
+
     def follows(self, state: int, epoch: int) -> bool:
         """Whether the rest of their plan works, and reaches the goal, if nobody does anything else."""
-        for op, _ in self._steps[epoch:]:
+        for op, _ in self.steps[epoch:]:
             if not applicable(op, state):
                 return False
             state = state & op.keep | op.put
@@ -167,7 +180,7 @@ class Certain:
 
     def alone(self, epoch: int) -> int:
         """What the rest of their plan is worth if they are left alone."""
-        return self._worths.epoch + sum(self._worths.of_key(part.weight) for _, part in self._steps[epoch:])
+        return self._worths.epoch + sum(self._worths.of_key(part.weight) for _, part in self.steps[epoch:])
 
     def idle(self, deadline: Deadline) -> int:
         """What the scenario is worth with idle robots; the human may do better than their plan alone.
@@ -205,18 +218,11 @@ class Certain:
     def _in_space(self, state: int, epoch: int, start: int, deadline: Deadline) -> Remainder:
         context = self._scenario.context.under(deadline)
         space = self._space(context, state, epoch, start)
-        left = Incumbent(INFINITE_KEY)
+        best = Incumbent(INFINITE_KEY)
         if not start and self.follows(state, epoch):
-            key = sum(part.weight for _, part in self._steps[epoch:]) + context.keys.epoch_weight
-            left = Incumbent(key + context.keys.of_start(len(self._steps) - epoch, space.horizon))
-        best, progress = Incumbent(left.key), Progress()
-        with suppress(LimitReachedError):
-            for _ in best_first(space, best, progress, deadline):
-                pass
-        least = min(progress.bound, best.key)  # equal at its end
-        self.expanded += progress.expanded
-        self.generated += progress.generated
-        bounds = self._worths.of_key(least), self._worths.of_key(best.key)
+            best.key = sum(part.weight for _, part in self.steps[epoch:]) + context.keys.epoch_weight
+            best.key += context.keys.of_start(len(self.steps) - epoch, space.horizon)
+        bounds = self._searched(space, best, deadline)
         if best.node is None:  # left alone, or no plan at all
             steps = plan_steps(self._scenario.plan[epoch:]) if best.key < INFINITE_KEY else ()
             return Remainder(*bounds, steps)
@@ -229,7 +235,7 @@ class Certain:
         horizon = self._scenario.horizon - epoch
         plan = self._scenario.plan[epoch:] if not start else ()
         options, keys = context.options, context.keys
-        rest = self._max_window - (epoch - start + 1 if start else 0)
+        rest = self.max_window - (epoch - start + 1 if start else 0)
         return (_OpenWindow if start else Windowed)(
             initial=state,
             idle=(),
@@ -242,7 +248,7 @@ class Certain:
             bounds=Bounds(context.bound, context.steps, no_bound, None, context.team_bound),
             prefix=InLayers([[step] for step in context.followed(plan)]),
             on_the_way=PrivateRest(len(plan), context.bound, keys, horizon),
-            suffix=_Later(self._suffix, epoch, start),
+            suffix=_Later(self.suffix, epoch, start),
             labels=ParetoFront(no_worse(keys, options, None)),
             relevant=context.relevant,
         )

@@ -4,7 +4,7 @@ Given what robots do by themselves, scenarios don't depend on each other, so a n
 places that it may have come to, and what it has paid by then.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import count
@@ -12,12 +12,10 @@ from operator import itemgetter
 from typing import Final, NamedTuple
 
 from search.engine.paths import plan_steps
-from search.modes.scenarios.lines import OVER, Line, Way
-from search.modes.scenarios.measure import INFINITE_WORTH, Measure, Member
+from search.modes.scenarios.lines import OVER, Question, Way
+from search.modes.scenarios.measure import INFINITE_WORTH, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
-from search.packed.successor_generator import Successors
-from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.plans import Step
 
 
@@ -66,37 +64,20 @@ class SequenceSearch:
     """The search for one call.
 
     Args:
-        lines: the scenarios' epochs.
-        acting: what agents can do.
-        measure: of worths.
-        members: all scenarios, before the first epoch.
-        horizon: ``T``.
-        deadline: polled.
+        question: what it is asked.
 
     Attributes:
         lower: no sequence is worth less.
         upper: of the best one known, or of leaving everybody alone.
     """
 
-    def __init__(
-        self,
-        lines: Sequence[Line],
-        acting: Successors,
-        measure: Measure,
-        members: Sequence[Member],
-        horizon: int,
-        deadline: Deadline,
-    ) -> None:
-        self._lines = lines
-        self._acting = acting
-        self._measure = measure
-        self._members = members
-        self._horizon = horizon
-        self._deadline = deadline
-        self._floors = [line.least(m, 0) for line, m in zip(lines, members, strict=True)]
+    def __init__(self, question: Question) -> None:
+        self._question = question
+        self._lines, self._horizon, self._deadline = question.lines, question.horizon, question.deadline
+        self._floors = [line.least(m, 0) for line, m in zip(self._lines, question.members, strict=True)]
         self._best: _Sequence | None = None
         self.lower = 0
-        self.upper = measure.value(members, [line.certain.alone(0) for line in lines])
+        self.upper = question.value([line.certain.alone(0) for line in self._lines])
         self.expanded = self.generated = 0
 
     def guided(self) -> Iterator[None]:
@@ -108,8 +89,8 @@ class SequenceSearch:
         for i, line in enumerate(self._lines):
             deadline = self._deadline.part(_SHARE / (len(self._lines) - i + 1))
             self._floors[i], _ = line.known(deadline)
-            self.lower = max(self.lower, self._measure.value(self._members, self._floors))
-            guide = line.guide(self._members[i]._replace(ahead=0), 0, deadline)
+            self.lower = max(self.lower, self._question.value(self._floors))
+            guide = line.guide(line.first(), 0, deadline)
             if guide is not None:
                 epochs = range(1, self._horizon + 1)
                 self._offer({epoch: guide.at(epoch)[0] for epoch in epochs})
@@ -118,7 +99,7 @@ class SequenceSearch:
         yield
 
     def _root(self) -> _Sequence:
-        places = tuple({m._replace(ahead=0): _Label(0)} for m in self._members)
+        places = tuple({line.first(): _Label(0)} for line in self._lines)
         return _Sequence(0, places, NOTHING, 0, None)
 
     def _offer(self, robots: dict[int, JointAction]) -> None:
@@ -157,7 +138,7 @@ class SequenceSearch:
         fewest = min(node.places, key=len)
         offered: dict[tuple[int, ...], JointAction] = {(): NOTHING}
         for state in sorted({m.state for m in fewest if m.phase != OVER}):
-            for option in self._acting.robots(state):
+            for option in self._question.acting.robots(state):
                 offered.setdefault(option.actions, option)
         return offered.values()
 
@@ -194,14 +175,15 @@ class SequenceSearch:
 
     def _limit(self, scenario: int) -> int:
         """What a scenario pays at which a sequence is no better than the best one known."""
-        return self._measure.limit(self._members, self._floors, scenario, self.upper)
+        question = self._question
+        return question.measure.limit(question.members, self._floors, scenario, self.upper)
 
     def _bound(self, node: _Sequence) -> int:
         totals = [
             max(floor, min(label.paid + line.least(m, node.epoch) for m, label in places.items()))
             for floor, line, places in zip(self._floors, self._lines, node.places, strict=True)
         ]
-        return self._measure.value(self._members, totals)
+        return self._question.value(totals)
 
     def _complete(self, node: _Sequence) -> None:
         value = self._bound(node)
