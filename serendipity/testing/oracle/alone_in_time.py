@@ -4,6 +4,7 @@ import heapq
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from typing import NamedTuple
 
 from serendipity.model import Condition, HumanPlan, Script, Task, TimedPlan, UsageError
@@ -91,6 +92,31 @@ class AloneInTime:
         if later is not None:
             yield OwnStep(None, (self.waiting_cost, 1, 0), later, epoch + 1)
 
+    def plans(self, moment: Moment, epoch: int) -> Iterator[tuple[tuple[int, ...], tuple[int, ...], int]]:
+        """All plans of the worth of a moment, the canonical one first: actions, when they begin, the end.
+
+        There may be several of the same names: first the one that acts as early as it can.
+        """
+        seen: set[object] = set()
+        stack: list[tuple[Moment, int, tuple[int, ...], tuple[int, ...], bool]] = [
+            (moment, epoch, (), (), False)
+        ]
+        while stack:
+            now, over, plan, starts, acts = stack.pop()
+            names = tuple(self.task.actions[i].name for i in plan)
+            if (now, over, names, acts) in seen:
+                continue
+            seen.add((now, over, names, acts))
+            resting = self.resting(now, over)
+            if not acts and resting is not None and resting == self.worth(now, over):
+                yield plan, starts, over + resting[1]
+                continue
+            for way in reversed(self.best(now, over)):
+                if way.action is None:
+                    stack.append((way.moment, way.epoch, plan, starts, True))
+                else:
+                    stack.append((way.moment, way.epoch, (*plan, way.action), (*starts, over + 1), False))
+
     def _rest(self, way: OwnStep) -> Worth | None:
         """After waiting there has to be an action: else it was the end of the plan."""
         return (self.acting if way.action is None else self.worth)(way.moment, way.epoch)
@@ -158,27 +184,47 @@ def plans_in_time(
     if now is None or alone.worth(now, head_start) is None:
         return
     known: set[tuple[str, ...]] = set()
-    seen: set[object] = set()
-    stack: list[tuple[Moment, int, tuple[int, ...], tuple[int, ...], bool]] = [
-        (now, head_start, (), (), False)
-    ]
-    while stack:
-        moment, epoch, plan, starts, acts = stack.pop()
-        names = tuple(task.actions[i].name for i in plan)
-        if (moment, epoch, names, acts) in seen:
-            continue
-        seen.add((moment, epoch, names, acts))
-        resting = alone.resting(moment, epoch)
-        if not acts and resting is not None and resting == alone.worth(moment, epoch):
-            if names not in known:
-                known.add(names)
-                yield human_plan(task, plan, starts, epoch + resting[1])
-            continue
-        for way in reversed(alone.best(moment, epoch)):
-            if way.action is None:
-                stack.append((way.moment, way.epoch, plan, starts, True))
-            else:
-                stack.append((way.moment, way.epoch, (*plan, way.action), (*starts, epoch + 1), False))
+    for actions, starts, end in alone.plans(now, head_start):
+        names = tuple(task.actions[i].name for i in actions)
+        if names not in known:
+            known.add(names)
+            yield human_plan(task, actions, starts, end)
+
+
+class CanonicalInTime:
+    """The one suffix that the human takes after a window: the first of their optimal plans that lasts.
+
+    Args:
+        task: the task.
+        last: ``T``.
+        strict: whether interference is strict.
+    """
+
+    def __init__(self, task: Task, last: int, *, strict: bool) -> None:
+        self.alone = AloneInTime(task, strict=strict)
+        self.last = last
+        self.plan = cache(self._plan)
+
+    def _plan(self, moment: Moment, epoch: int) -> tuple[int | None, ...] | None:
+        """What they begin in each epoch, ``epoch`` being over, once they have ended what they are at.
+
+        None where there is none that lasts until ``T``.
+        """
+        world, task, free = self.alone.world, self.alone.task, epoch
+        now: Moment | None = moment
+        while now is not None and world.busy(now, task.human):
+            free += 1
+            now = world.alone(now, free)
+        if now is None or self.alone.worth(now, free) is None:
+            return None
+        for actions, starts, end in self.alone.plans(now, free):
+            begun = dict(zip(starts, actions, strict=True))
+            reached: Moment | None = now
+            for following in range(free + 1, self.last + 1):
+                reached = None if reached is None else world.alone(reached, following, begun.get(following))
+            if end <= self.last and reached is not None and holds(task.goal, reached.state):
+                return tuple(begun.get(following) for following in range(epoch + 1, end + 1))
+        return None
 
 
 def with_predicted(task: Task, goals: Mapping[str, Condition]) -> Task:

@@ -91,9 +91,20 @@ class TimedWorld:
 
     def alone(self, moment: Moment, epoch: int, begun: int | None = None) -> Moment | None:
         """The moment after an epoch in which only one action begins, or none; None where that can't be."""
-        wanted = () if begun is None else (begun,)
-        ends = (onward for chosen, onward in self.sets(moment, epoch, wanted) if chosen == wanted)
-        return next(ends, None)
+        return self.after(moment, epoch, () if begun is None else (begun,))
+
+    def after(self, moment: Moment, epoch: int, begun: tuple[int, ...]) -> Moment | None:
+        """The moment after an epoch in which some actions begin; None where that can't be."""
+        forced = self._forced(moment, epoch)
+        if forced is None:
+            return None
+        parts = [self._parts[i][k] for i, k in forced]
+        for i in begun:
+            part = self._parts[i][0]
+            if not (usable(part, moment.state) and self._fits(part, parts)):
+                return None
+            parts.append(part)
+        return self._outcome(moment, epoch, [*forced, *((i, 0) for i in begun)])
 
     def parts(self, action: int) -> tuple[GroundAction, ...]:
         """What an action of the task asks and does, epoch by epoch."""

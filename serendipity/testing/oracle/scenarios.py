@@ -1,21 +1,23 @@
 """Brute force for semantics 11: every policy of the robots, by recursion over what they have seen.
 
-Where robots can't tell scenarios apart, these are a group: they share what robots do by themselves,
-and so their state.  The recursion is over (epoch, group); what comes of it are vectors with the worth
-of each scenario, since ``risk`` decides only at the end which vector is the least.  Robots that commit
-themselves see nothing, so each scenario has a worth for each sequence of what they do.
+Where robots can't tell scenarios apart, these are a group: they share what robots begin by themselves,
+and so their state, and what is under way in time.  The recursion is over (epoch, group); what comes of it
+are vectors with the worth of each scenario, since ``risk`` decides only at the end which vector is the least.
+Robots that commit themselves see nothing, so each scenario has a worth for each sequence of what they do.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
 from itertools import chain, product
 from typing import NamedTuple, Protocol
 
-from serendipity.model import Condition, GroundAction, HumanPlan, Options, Task, UsageError
+from serendipity.model import Condition, HumanPlan, Options, Task, UsageError
+from serendipity.testing.oracle.alone_in_time import CanonicalInTime
 from serendipity.testing.oracle.answers import smallest_unit
-from serendipity.testing.oracle.epochs import State, action_sets, after, compatible, holds, usable
+from serendipity.testing.oracle.epochs import holds
+from serendipity.testing.oracle.moments import Moment, TimedWorld
 from serendipity.testing.oracle.suffixes import CanonicalSuffix
 
 Worth = tuple[Fraction, Fraction]
@@ -28,6 +30,9 @@ Vector = tuple[Units, ...]
 """One worth for each scenario."""
 
 Vectors = tuple[Vector, ...]
+
+Rest = tuple[int | None, ...]
+"""By epochs what the human begins; None where they wait, or go on."""
 
 
 class PossibleGoal(Protocol):
@@ -81,7 +86,7 @@ def best_policy(
     Raises:
         UsageError: the horizon is shorter than a plan.
     """
-    longest = max(len(scenario.plan) for scenario in scenarios)
+    longest = max(task.epochs_of(scenario.plan) for scenario in scenarios)
     last = longest if horizon is None else horizon
     if last < longest:
         raise UsageError("horizon: shorter than the human's plan")
@@ -109,11 +114,11 @@ class _Situation(NamedTuple):
     """Where a scenario is; without ``since`` and ``rest`` the human has followed their plan so far."""
 
     scenario: int
-    state: State
+    moment: Moment
     since: int | None = None
     """The first epoch of the window that they are in."""
-    rest: HumanPlan | None = None
-    """What is left to do after the window."""
+    rest: Rest | None = None
+    """What they begin after the window, by epochs."""
 
 
 _Group = tuple[_Situation, ...]
@@ -144,19 +149,26 @@ class _Policies:
         self.scenarios = scenarios
         self.unit = smallest_unit(task, options)
         self.weight = int(options.window_weight * self.unit)
-        self.suffixes = [
-            CanonicalSuffix(replace(task, goal=scenario.goal), options, scenario.plan)
-            for scenario in scenarios
-        ]
+        self.world = TimedWorld(task, strict=options.strict)
+        self.starts = [dict(zip(task.starts_of(one.plan), one.plan, strict=True)) for one in scenarios]
+        self.suffixes = [self._suffix(replace(task, goal=one.goal), one.plan) for one in scenarios]
         self.own = [i for i, a in enumerate(task.actions) if robots and task.human not in a.participants]
-        human = [a for a in task.actions if task.human in a.participants and (robots or not a.joint)]
-        self.parts: list[GroundAction | None] = [None, *human]
+        human = [i for i, a in enumerate(task.actions) if task.human in a.participants]
+        self.parts: list[int | None] = [None, *(i for i in human if robots or not task.actions[i].joint)]
         self.front, self.part, self.ways = cache(self._front), cache(self._part), cache(self._ways)
         self.committed = cache(self._committed)
 
+    def _suffix(self, task: Task, plan: HumanPlan) -> Callable[[Moment, int, int], Rest | None]:
+        """The canonical suffix from a moment on, given xi1 and the epochs that are over; None: none fits."""
+        if task.needs_time:
+            in_time = CanonicalInTime(task, self.horizon, strict=self.options.strict)
+            return lambda moment, _xi1, epoch: in_time.plan(moment, epoch)
+        in_turn = CanonicalSuffix(task, self.options, plan)
+        return lambda moment, xi1, epoch: in_turn.plan(moment.state, xi1, self.horizon - epoch)
+
     def vectors(self) -> Iterator[tuple[Worth, ...]]:
         """What policies are worth; those that are no better in any scenario than others may be missing."""
-        start = tuple(_Situation(k, self.task.init) for k in range(len(self.scenarios)))
+        start = tuple(_Situation(k, Moment(self.task.init)) for k in range(len(self.scenarios)))
         vectors = self.front(1, start) if self.options.policy == "watching" else self._in_common(start)
         for vector in vectors:
             yield tuple((Fraction(a, self.unit), Fraction(b, self.unit)) for a, b in vector)
@@ -174,7 +186,7 @@ class _Policies:
             end = self._end(now)
             return {} if end is None else {(): end}
         found: dict[tuple[tuple[int, ...], ...], Units] = {}
-        for robots in self._robots((now,)):
+        for robots in self._robots(epoch, (now,)):
             for way in chain.from_iterable(self.ways(epoch, now, robots).values()):
                 for rest, more in self.committed(epoch + 1, way.now).items():
                     worth = (way.worth[0] + more[0], way.worth[1] + more[1])
@@ -187,7 +199,7 @@ class _Policies:
             ends = [self._end(now) for now in group]
             return (tuple(end for end in ends if end is not None),) if None not in ends else ()
         found: set[Vector] = set()
-        for robots in self._robots(group):
+        for robots in self._robots(epoch, group):
             for told in product(*(self.ways(epoch, now, robots) for now in group)):
                 parts: dict[str | None, list[int]] = {}
                 for k, seen in enumerate(told):
@@ -211,79 +223,75 @@ class _Policies:
                 found.add(tuple((a + more, b + spent) for (a, b), (more, spent) in worths))
         return _undominated(found)
 
-    def _robots(self, group: _Group) -> Iterator[tuple[int, ...]]:
-        """What robots may do by themselves, the same in the whole group."""
+    def _robots(self, epoch: int, group: _Group) -> Iterator[tuple[int, ...]]:
+        """What robots may begin by themselves, the same in the whole group."""
         if any(now.rest is not None for now in group):
             yield ()
             return
-        yield from action_sets(self.task, group[0].state, self.own, strict=self.options.strict)
+        yield from (chosen for chosen, _ in self.world.sets(group[0].moment, epoch, self.own))
 
     def _ways(
         self, epoch: int, now: _Situation, robots: tuple[int, ...]
     ) -> Mapping[str | None, Sequence[_Way]]:
         """Everything that the human may do beside the robots, by what these see of it."""
         found: dict[str | None, list[_Way]] = {}
-        for way in self._human(epoch, now, [self.task.actions[i] for i in robots]):
+        for way in self._human(epoch, now, robots):
             found.setdefault(way.seen, []).append(way)
         return found
 
-    def _human(self, epoch: int, now: _Situation, robots: Sequence[GroundAction]) -> Iterator[_Way]:
+    def _human(self, epoch: int, now: _Situation, robots: tuple[int, ...]) -> Iterator[_Way]:
         """Rules 1 to 3 of semantics 3.1."""
         if now.rest is not None:
-            yield from self._way(now, robots, self._action(now.rest, 0), rest=now.rest[1:])
+            his = now.rest[0] if now.rest else None
+            yield from self._way(epoch, now, robots, his, rest=now.rest[1:])
             return
-        plan, since = self.scenarios[now.scenario].plan, now.since
+        since = now.since
         if since is None:
-            yield from self._way(now, robots, self._action(plan, epoch - 1))
+            yield from self._way(epoch, now, robots, self.starts[now.scenario].get(epoch))
             since = epoch
         most = self.options.max_window or self.horizon
-        if since <= len(plan) and epoch - since < most:
+        if since <= self.task.epochs_of(self.scenarios[now.scenario].plan) and epoch - since < most:
             for his in self.parts:
-                for way in self._way(now, robots, his, since=since):
+                for way in self._way(epoch, now, robots, his, since=since):
                     inside = way._replace(worth=(way.worth[0] + self.weight, way.worth[1]))
                     yield inside
                     yield from self._closed(epoch, inside)
 
     def _way(
         self,
+        epoch: int,
         now: _Situation,
-        robots: Sequence[GroundAction],
-        his: GroundAction | None,
+        robots: tuple[int, ...],
+        his: int | None,
         *,
         since: int | None = None,
-        rest: HumanPlan | None = None,
+        rest: Rest | None = None,
     ) -> Iterator[_Way]:
-        """The epoch with an action of the human's, if they can do that beside the robots."""
-        actions = list(robots)
-        if his is not None:
-            if not all(compatible(his, action, strict=self.options.strict) for action in robots):
-                return
-            actions.append(his)
-        if all(usable(action, now.state) for action in actions):
-            costs = (self.task.team_cost(action, self.options.discount) for action in actions)
+        """The epoch in which the human begins an action, or none, if they can do that beside the robots."""
+        begun = robots if his is None else tuple(sorted((*robots, his)))
+        moment = self.world.after(now.moment, epoch, begun)
+        if moment is not None:
+            costs = (self.task.team_cost(self.task.actions[i], self.options.discount) for i in begun)
             cost = int(sum(costs, Fraction(0)) * self.unit)
-            state = after(now.state, actions)
-            seen = None if his is None else his.name
-            yield _Way(seen, (cost, cost), _Situation(now.scenario, state, since, rest))
+            seen = None if his is None else self.task.actions[his].name
+            yield _Way(seen, (cost, cost), _Situation(now.scenario, moment, since, rest))
 
     def _closed(self, epoch: int, inside: _Way) -> Iterator[_Way]:
-        """The same epoch, as the last one of the window."""
-        scenario, state, since, _ = inside.now
+        """The same epoch, as the last one of the window, by when robots have ended what they began."""
+        scenario, moment, since, _ = inside.now
         assert since is not None
-        rest = self.suffixes[scenario].plan(state, since, self.horizon - epoch)
+        rest = None if self.world.others_busy(moment) else self.suffixes[scenario](moment, since, epoch)
         if rest is not None:
-            yield inside._replace(now=_Situation(scenario, state, None, rest))
+            yield inside._replace(now=_Situation(scenario, moment, None, rest))
 
     def _end(self, now: _Situation) -> Units | None:
         """What comes on top after ``T``; None where it can't end like this."""
         if now.rest is not None:
             return (0, 0)
-        if now.since is not None or not holds(self.scenarios[now.scenario].goal, now.state):
-            return None
-        return (self.weight, 0)
-
-    def _action(self, plan: HumanPlan, index: int) -> GroundAction | None:
-        return self.task.actions[plan[index]] if index < len(plan) else None
+        ends = self.world.plan_is_over(now.moment) and now.since is None
+        return (
+            (self.weight, 0) if ends and holds(self.scenarios[now.scenario].goal, now.moment.state) else None
+        )
 
 
 def _undominated(vectors: set[Vector]) -> Vectors:
