@@ -4,7 +4,7 @@ Ops are looked up under their leader by the value of one field, the one that mos
 of the leader's actions ask for (a position, as a rule).
 """
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import chain
 from typing import Final
 
@@ -120,12 +120,42 @@ class Successors:
         return self._joint.options(state) if self._joint is not None else []
 
     def name(self, part: JointAction) -> str | None:
-        """The name of what the human does; None where they wait."""
-        return self._packed.task.actions[part.actions[0]].name if part.actions else None
+        """The name of what the human begins; None where they wait, or go on."""
+        acts = part.actions and self.begins(part.actions[0])
+        return self._packed.task.actions[part.actions[0]].name if acts else None
 
     def robots(self, state: int) -> list[JointAction]:
         """Every applicable set of actions of the robots without the human, cheapest first."""
         return self._busy.get(state) or self._sets(state, self._busy)
+
+    def begins(self, action: int) -> bool:
+        """Whether somebody begins an action by choice: they neither wait nor go on with it."""
+        return bool(self._packed.counted(action))
+
+    def begun(self, state: int) -> Sequence[JointAction]:
+        """The same without what goes on, and what bystanders do."""
+        if not self._due:
+            return self.robots(state)
+        found = [NOTHING]
+        for due in self._due.others(state):
+            for lookup in self._led:
+                free = [option for option in lookup.options(state) if self._fits(option, due)]
+                found += list(self._extend(found, free))
+            return found
+        return ()
+
+    def with_due(self, begun: JointAction, state: int) -> JointAction | None:
+        """What robots begin, with what goes on and what bystanders do; None where they are in the way."""
+        for due in self._due.others(state):
+            parts = (as_option(self._packed.op(action), 0) for action in begun.actions)
+            if not due.actions or all(self._fits(part, due) for part in parts):
+                return together(due, begun)
+        return None
+
+    def after(self, state: int, done: JointAction) -> int:
+        """The state after an epoch in which all this is done, and the clock goes on."""
+        state_after, last = state & done.keep | done.put, self._due.last(state)
+        return state_after if last is None else state_after & last.keep | last.put
 
     def with_robots(self, first: JointAction, state: int) -> Iterator[JointAction]:
         """``first`` (the human's part) alone and with each set of robots' actions that fits it."""

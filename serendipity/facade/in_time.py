@@ -1,20 +1,32 @@
 """Calls about tasks in which actions take time, or the human waits: asked and answered in single epochs."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
+from typing import Final
 
 from search import PreparedTask, canonical_human_plan, optimal_plans_in_time
+from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade import ties
 from serendipity.facade.call import Request, Solver
-from serendipity.model.answers.answer import Answer
+from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
-from serendipity.model.task.horizon import horizon_of, require_few_epochs
+from serendipity.model.task.actions import Condition
+from serendipity.model.task.horizon import common_horizon, horizon_of, require_few_epochs
 from serendipity.model.task.plans import Step, TimedPlan
+from serendipity.model.task.plans_in_time import outlasts
 from serendipity.model.task.task import HumanPlan, Task
 from serendipity.model.task.unit_steps import UnitSteps, unit_steps
 from serendipity.model.task.whole_actions import whole_actions
+
+_PLAIN: Final[dict[str, object]] = {
+    "head_start": 0,
+    "waiting_cost": 0,
+    "suffix": "replan",
+    "preservation": "kernel",
+}
+"""Options that have one value only, in time, where there are several scenarios."""
 
 
 def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
@@ -52,6 +64,74 @@ def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
         if not number and told.human_plan is not None and horizon is not None:
             horizon_of(call.task, call.options, told.human_plan)  # which says whether what it reaches lasts
         yield told
+
+
+class HumanInTime:
+    """What the human of a call does alone for several goals.
+
+    Raises:
+        LimitReachedError: the deadline came.
+        UsageError: the task has too many epochs.
+    """
+
+    def __init__(self, call: Request) -> None:
+        require_few_epochs(call.task)
+        self._call = call
+        self._units = unit_steps(call.task, call.deadline)
+
+    def canonical(self, goal: Condition) -> HumanPlan | None:
+        """Their canonical plan (semantics 10.3), or None where they have none."""
+        found = canonical_human_plan(self._aimed(goal), self._call.deadline, self._call.options)
+        return None if found is None else self._units.begun(found)
+
+    def optimal(self, goal: Condition) -> Iterator[HumanPlan]:
+        """Their optimal plans that differ in names."""
+        found = optimal_plans_in_time(self._aimed(goal), self._call.deadline, self._call.options)
+        return map(self._units.begun, found)
+
+    def _aimed(self, goal: Condition) -> PreparedTask:
+        return PreparedTask(self._units.task.with_goal(self._units.goal(goal)))
+
+
+def answers_over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[Answer]:
+    """Answers over scenarios in time (semantics 11).
+
+    Args:
+        call: the call.
+        candidates: the scenarios.
+
+    Raises:
+        UsageError: the call asks for something that is not answered in time, or a plan does not last.
+    """
+    options = call.options
+    for name, value in _PLAIN.items():
+        if getattr(options, name) != value:
+            raise UsageError(f"{name}: in time, with several goals or plans, only {value!s} is possible")
+    require_few_epochs(call.task)
+    try:
+        units = unit_steps(call.task, call.deadline)
+    except LIMITS as limit:
+        yield Answer("unknown", reason=limit_reason(limit))
+        return
+    inner = [replace(one, goal=units.goal(one.goal), plan=units.plan(one.plan)) for one in candidates]
+    horizon = common_horizon(options, [one.plan for one in inner])
+    for one in candidates:
+        aimed = call.task.with_goal(one.goal)
+        if broken := outlasts(aimed, one.plan, horizon, strict=options.strict):
+            raise UsageError(f"plan '{one.name}' does not last until epoch {horizon}: {broken}")
+    for answer in solve_scenarios(PreparedTask(units.task), options, inner, call.deadline):
+        goals = tuple(_served(units, one) for one in answer.goals or ())
+        yield _told(units, answer)._replace(goals=goals)
+
+
+def _served(units: UnitSteps, one: ServedGoal) -> ServedGoal:
+    """What happens in a scenario, with the actions of the task itself."""
+    plan, steps = one.human_plan, one.steps
+    return replace(
+        one,
+        human_plan=None if plan is None else units.begun(plan),
+        steps=None if steps is None else units.steps(steps),
+    )
 
 
 def _is_alone(call: Request) -> bool:

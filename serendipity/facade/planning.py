@@ -212,16 +212,14 @@ def _begun(
         call = replace(call, question=memory.question(chosen, visible, about, plan))
     if call.known is not None:
         return call, iter((call.known,))
-    if needs_time(call.task, options=chosen, plan=call.given):
-        if unsure is not None:
-            raise UsageError("goals, plans: are not planned for where actions take time")
-        if memory is not None:
-            refuse_time(options=chosen)
-        return call, answers_in_time(call, solver)
+    if memory is not None:
+        refuse_time(options=chosen)
     if unsure is not None:
         from serendipity.facade.scenarios import settled
 
         call, solver = settled(call, unsure)
+    elif needs_time(call.task, options=chosen, plan=call.given):
+        return call, answers_in_time(call, solver)
     return call, solver(call)
 
 

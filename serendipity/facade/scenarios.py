@@ -8,18 +8,23 @@ from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
+from itertools import islice
 from typing import Final, NamedTuple
 
 from search import optimal_human_plans
-from search.modes.goals import explanations
+from search.modes.goals import Likelihood, explanations
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade import ties
 from serendipity.facade.call import Request, Solver
-from serendipity.model import HumanPlan, Options, Task, UsageError
+from serendipity.facade.in_time import HumanInTime, answers_in_time, answers_over_scenarios
+from serendipity.facade.results import named_plan
+from serendipity.model import Condition, HumanPlan, Options, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.answers.recognition import Recognition
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.numbers import Number
+from serendipity.model.task.gate import needs_time
+from serendipity.model.task.plans import TimedPlan
 from serendipity.recognition.library import LibraryGiven, plan_library
 from serendipity.recognition.recognise import (
     CandidateGoal,
@@ -73,10 +78,17 @@ def settled(call: Request, unsure: Unsure) -> tuple[Request, Solver]:
         only = considered[0]
         own = _unsaid(call.task, only, recognition)
         plain = recognition is None and own is None
-        solver = ties.answers if plain else partial(_certain, only, recognition, own)
+        solver = _answers if plain else partial(_certain, only, recognition, own)
         return _about(call, only, recognition), solver
     _refuse(call.task, call.options)
     return call, partial(_expected, considered, recognition)
+
+
+def _answers(call: Request) -> Iterator[Answer]:
+    """Answers beside one plan of the human's, with time or without."""
+    if needs_time(call.task, options=call.options, plan=call.given):
+        return answers_in_time(call, ties.answers)
+    return ties.answers(call)
 
 
 def asked_about(task: Task, unsure: Unsure) -> Hashable:
@@ -105,6 +117,8 @@ def _by_goals(call: Request, unsure: Unsure) -> tuple[list[Candidate], Recogniti
     if len(candidates) > 1:
         _refuse(call.task, call.options)
     watched = call.options.ties == "watched"
+    if names and call.task.needs_time:
+        raise UsageError("observed: in time the posterior is not known, only the goals' priors")
     if names and watched:
         raise UsageError("ties: 'watched' goes without observed: each goal's plans are all its optimal ones")
     recognition, plans = _recognised(call, candidates, names, strictness(unsure.beta))
@@ -121,15 +135,30 @@ def _shared(call: Request, considered: Sequence[Candidate]) -> list[Candidate]:
     """
     found = []
     for one in considered:
-        graph = optimal_human_plans(call.prepared.with_goal(one.goal), call.deadline)
-        if graph is None:
-            continue
-        ties.require_few(graph.count(), call.options)
-        plans = list(graph.plans())
+        plans = _optimal_plans(call, one.goal)
         for number, plan in enumerate(plans, start=1):
             name = one.name if len(plans) == 1 else f"{one.name or 'plan'} {number}"
             found.append(replace(one, plan=plan, weight=one.weight / len(plans), name=name))
     return found
+
+
+def _optimal_plans(call: Request, goal: Condition) -> list[HumanPlan]:
+    """The human's optimal plans to a goal.
+
+    Raises:
+        LimitReachedError: a limit came first.
+        UsageError: there are more than ``max_ties``.
+    """
+    if call.task.needs_time:
+        most = call.options.max_ties
+        found = list(islice(HumanInTime(call).optimal(goal), most + 1))
+        ties.require_few(len(found), call.options)
+        return found
+    graph = optimal_human_plans(call.prepared.with_goal(goal), call.deadline)
+    if graph is None:
+        return []
+    ties.require_few(graph.count(), call.options)
+    return list(graph.plans())
 
 
 def _recognised(
@@ -142,6 +171,12 @@ def _recognised(
     """
     task, deadline = call.task, call.deadline
     conditions = [candidate.goal for candidate in candidates]
+    if task.needs_time:
+        human = HumanInTime(call)
+        plans = [human.canonical(goal) for goal in conditions]
+        costs = [None if plan is None else task.cost_of(plan) for plan in plans]
+        known = [Likelihood(cost, None, plan) for cost, plan in zip(costs, plans, strict=True)]
+        return posterior(task, candidates, observed, known, beta), plans
     found = explanations(call.prepared, conditions, observed, deadline)
     recognition = posterior(task, candidates, observed, found, beta)
     if not recognition.explained:  # the human's plans, as if nothing had been observed
@@ -179,7 +214,7 @@ def _about(call: Request, candidate: Candidate, recognition: Recognition | None)
         fixed = call.options.but(ties="fixed") if call.options.ties == "watched" else call.options
         return replace(call, prepared=prepared, options=fixed)
     task = prepared.task
-    given = task.plan_from_names(task.actions[i].name for i in candidate.plan)
+    given = task.plan_from_names(named_plan(task, candidate.plan))
     return replace(call, prepared=prepared, given=given, options=call.options.but(ties="fixed"))
 
 
@@ -187,7 +222,7 @@ def _certain(
     candidate: Candidate, recognition: Recognition | None, goal: tuple[str, ...] | None, call: Request
 ) -> Iterator[Answer]:
     """One scenario is left; ``goal``: its literals, where neither task nor recognition has them."""
-    for answer in ties.answers(call):
+    for answer in _answers(call):
         plan = answer.human_plan
         served = ServedGoal(candidate.name, Fraction(1), plan, answer.steps, answer.window, answer.cost, goal)
         yield answer._replace(recognition=recognition, goals=(served,))
@@ -198,10 +233,16 @@ def _expected(
 ) -> Iterator[Answer]:
     """Several scenarios are left."""
     own = [_unsaid(call.task, candidate, recognition) for candidate in considered]
-    for answer in solve_scenarios(call.prepared, call.options, considered, call.deadline):
+    timed = call.task.needs_time or any(isinstance(one.plan, TimedPlan) for one in considered)
+    solve = answers_over_scenarios if timed else _over_scenarios
+    for answer in solve(call, considered):
         served = zip(answer.goals or (), own, strict=True)
         goals = tuple(replace(one, goal=goal) for one, goal in served)
         yield answer._replace(recognition=recognition, goals=goals)
+
+
+def _over_scenarios(call: Request, considered: Sequence[Candidate]) -> Iterator[Answer]:
+    return solve_scenarios(call.prepared, call.options, considered, call.deadline)
 
 
 def _unsaid(task: Task, candidate: Candidate, recognition: Recognition | None) -> tuple[str, ...] | None:

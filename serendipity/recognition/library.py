@@ -3,10 +3,10 @@
 A file is a JSON object, ``{"schema": "serendipity.plans/1", "plans": [...]}``, and a plan in it one, too:
 ``{"name": ..., "probability": ..., "goal": [literals], "plan": [actions], "count": ..., "interval": ...}``.
 ``goal`` is the task's where there is none; ``count`` and ``interval`` inform people.  An action is a line of
-a file of ``--human-plan``, with the time at which it begins or without.
+a file of ``--human-plan``, with the time at which it begins or without, or ``[epoch, action]``.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from os import PathLike
@@ -15,6 +15,7 @@ from typing import Any, Final
 from serendipity.model import Condition, HumanPlan, InputError, PlanError, Task, UsageError, exact
 from serendipity.model.arguments import LIST, TASK_IN_TIME, Kind, expect
 from serendipity.model.schemas import schema_fault
+from serendipity.model.task.plans import PlanEntry, checked_entries
 from serendipity.pddl.parsing.files import read_text
 from serendipity.pddl.parsing.lists import json_value
 from serendipity.pddl.parsing.timed_plans import entries, plan_lines
@@ -126,10 +127,21 @@ def _plan(task: Task, item: Any, number: int, ids: Mapping[str, int]) -> Library
         raise InputError(f"probability: expected a number of at least 0, got {item['probability']}")
     goal = item.get("goal")
     literals, wanted = (task.goal.literals(task.facts), task.goal) if goal is None else literals_of(goal, ids)
-    actions = item.get("plan")
-    if not isinstance(actions, list | tuple) or not all(isinstance(text, str) for text in actions):
-        raise InputError(f"plan: expected a list of actions, got {actions!r:.50}")
     aimed = task.with_goal(wanted)
-    lines = plan_lines("\n".join(" ".join(action.split()) for action in actions), None)
-    plan = aimed.plan_from_names(entries(lines, aimed, None))
-    return LibraryPlan(name, probability, wanted, plan, literals)
+    return LibraryPlan(name, probability, wanted, aimed.plan_from_names(_entries(aimed, item)), literals)
+
+
+def _entries(task: Task, item: Mapping[str, Any]) -> Sequence[PlanEntry]:
+    """The actions of a plan: lines of a plan file, or names with the epochs in which they begin.
+
+    Raises:
+        InputError: they are neither.
+    """
+    actions = item.get("plan")
+    if isinstance(actions, list | tuple) and all(isinstance(text, str) for text in actions):
+        lines = plan_lines("\n".join(" ".join(action.split()) for action in actions), None)
+        return entries(lines, task, None)
+    try:
+        return checked_entries(actions, "plan")  # type: ignore[arg-type]
+    except UsageError:
+        raise InputError(f"plan: expected a list of actions, got {actions!r:.50}") from None

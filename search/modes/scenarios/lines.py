@@ -1,6 +1,6 @@
 """What one scenario may do in an epoch beside robots: rules 1 to 3 of semantics 3.1 (semantics 11)."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -52,12 +52,12 @@ class Guide:
     context: SearchContext
 
     def at(self, epoch: int) -> tuple[JointAction, tuple[int, ...], int]:
-        """What robots do by themselves in an epoch, what the human does, and the phase after it."""
+        """What robots begin by themselves in an epoch, what the human does, and the phase after it."""
         now, packed = epoch - self.epoch, self.context.packed
         ops = [packed.op(step.action) for step in self.remainder.steps if step.epoch == now]
         robots = NOTHING
         for op in ops:
-            if not op.agents & packed.human_bit:
+            if not op.agents & packed.human_bit and packed.counted(op.action):
                 robots = together(robots, as_option(op, self.context.weights.team(op)))
         part = tuple(op.action for op in ops if op.agents & packed.human_bit)
         window = self.remainder.window
@@ -97,30 +97,41 @@ class Line:
     # -- what may happen
 
     def ways(self, at: Member, epoch: int, robots: JointAction, most: int = INFINITE_WORTH) -> Iterator[Way]:
-        """What may happen in an epoch, counted from 1, in which robots do so much by themselves.
+        """What may happen in an epoch, counted from 1, in which robots begin so much by themselves.
 
         Args:
             at: before the epoch.
             epoch: its number.
-            robots: what they do by themselves.
+            robots: what they begin by themselves.
             most: what can't be had for less, from here to the end, may be left out.
         """
+        beside = self._acting.with_due(robots, at.state)
+        if beside is None:
+            return
         if at.phase == OVER:
-            yield from self._end(at, robots)
+            if not robots.actions:
+                yield from self._end(at, beside)
             return
         if at.phase == FOLLOWING:
             part = self._planned(at.state, epoch)
-            if part is not None and self._fits(part, robots):
-                paid, state = self._together(at, part, robots)
+            if part is not None and self._fits(part, beside):
+                paid, state = self._together(at, part, beside)
                 yield Way(part, paid, at._replace(state=state), False)
             if epoch > len(self._steps):
                 return
         opens = at.phase == FOLLOWING
         start = epoch if opens and self._tells_starts else at.start
-        for part in (NOTHING, *self._acting.human(at.state), *self._acting.joint(at.state)):
-            if self._fits(part, robots):
+        for part in self._free(at.state):
+            if self._fits(part, beside):
                 inside = at._replace(start=start, phase=INSIDE)
-                yield from self._within(inside, epoch, part, robots, opens, most)
+                yield from self._within(inside, epoch, part, beside, opens, most)
+
+    def _free(self, state: int) -> Iterable[JointAction]:
+        """What the human may do in a window: go on with what they are at, or anything they can."""
+        going_on = self._acting.going_on(state)
+        if going_on is not None:
+            return going_on
+        return NOTHING, *self._acting.human(state), *self._acting.joint(state)
 
     def _planned(self, state: int, epoch: int) -> JointAction | None:
         """Rule 1; beyond the end of their plan they wait."""
@@ -129,24 +140,22 @@ class Line:
         op, part = self._steps[epoch - 1]
         return part if applicable(op, state) else None
 
-    def _end(self, at: Member, robots: JointAction) -> Iterator[Way]:
-        if robots.actions:
-            return
+    def _end(self, at: Member, beside: JointAction) -> Iterator[Way]:
         assert at.tail is not None, "it has begun"
         part, rest = NOTHING, self._suffix_steps(at.tail)
         if rest:
             op, part = rest[0]
             if not applicable(op, at.state):
                 return
-        paid, state = self._together(at, part, robots)
+        paid, state = self._together(at, part, beside)
         after = at.tail._replace(done=at.tail.done + 1)
         yield Way(part, paid, at._replace(state=state, tail=after), False)
 
     def _within(
-        self, at: Member, epoch: int, part: JointAction, robots: JointAction, opens: bool, most: int
+        self, at: Member, epoch: int, part: JointAction, beside: JointAction, opens: bool, most: int
     ) -> Iterator[Way]:
         """Rules 2 and 3: the window goes on after the epoch, or is over."""
-        paid, state = self._together(at, part, robots)
+        paid, state = self._together(at, part, beside)
         paid += self._worths.epoch
         start, left = at.start or epoch, self._horizon - epoch
         limit = self._worths.key(most - paid) if most < INFINITE_WORTH else INFINITE_KEY
@@ -158,9 +167,9 @@ class Line:
         if may_last and least < most:
             yield Way(part, paid, at._replace(state=state), opens)
 
-    def _together(self, at: Member, part: JointAction, robots: JointAction) -> tuple[int, int]:
-        state = at.state & part.keep & robots.keep | part.put | robots.put
-        return self._worths.of_key(part.weight + robots.weight), state
+    def _together(self, at: Member, part: JointAction, beside: JointAction) -> tuple[int, int]:
+        done = together(part, beside)
+        return self._worths.of_key(done.weight), self._acting.after(at.state, done)
 
     def worth(self, robots: JointAction) -> int:
         """What a set of robots' actions is worth."""
@@ -201,7 +210,7 @@ class Line:
         if known is not None:
             return known.least
         if epoch == self._horizon:
-            done = at.phase == FOLLOWING and self._context.packed.goal.holds(at.state)
+            done = at.phase == FOLLOWING and all(goal.holds(at.state) for goal in self._context.goals)
             return self._worths.epoch if done else INFINITE_WORTH
         rest = self._worths.of_key(self._context.bound(at.state))
         return min(rest + self._worths.epoch, INFINITE_WORTH)

@@ -1,6 +1,6 @@
 """Help for a human of whom only scenarios are known, by robots that watch or not (semantics 11)."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -239,29 +239,36 @@ class _ScenarioCall:
     def _before_told_apart(self, happens: dict[int, Played]) -> tuple[Step, ...]:
         """What robots do by themselves as long as they can't tell any scenarios apart."""
         task, horizon = self._prepared.task, self._horizon
-
-        def is_own(step: Step) -> bool:
-            return task.human in task.actions[step.action].participants
-
         if self._options.policy == "watching":
             seen = [
-                {s.epoch: task.actions[s.action].name for s in filter(is_own, played.steps)}
+                {s.epoch: task.actions[s.action].name for s in self._begun(played.steps)}
                 for played in happens.values()
             ]
             epochs = range(1, horizon + 1)
             differ = (epoch for epoch in epochs if len({one.get(epoch) for one in seen}) > 1)
             horizon = next(differ, horizon)
         steps = next(iter(happens.values())).steps
-        return tuple(s for s in steps if s.epoch <= horizon and not is_own(s))
+        human = task.human
+        return tuple(
+            s for s in steps if s.epoch <= horizon and human not in task.actions[s.action].participants
+        )
+
+    def _begun(self, steps: Iterable[Step]) -> tuple[Step, ...]:
+        """The human's actions of some steps; they wait, or go on with these, in the other epochs."""
+        assert self._question is not None, "something is known to happen"
+        task, begins = self._prepared.task, self._question.acting.begins
+        return tuple(
+            s for s in steps if task.human in task.actions[s.action].participants and begins(s.action)
+        )
 
     def _served(self, candidate: Candidate, happens: dict[int, Played]) -> ServedGoal:
         """What happens in a scenario."""
         task = self._prepared.task
         number = next(i for i, c in enumerate(self._candidates) if _same(c, candidate))
-        found = happens.get(number) or Played(plan_steps(candidate.plan), None)
+        as_planned = plan_steps(candidate.plan)
+        found = happens.get(number, Played(as_planned, None))
         discount = self._options.discount
-        own = tuple(s for s in found.steps if task.human in task.actions[s.action].participants)
-        if own == plan_steps(candidate.plan):
+        if happens and self._begun(found.steps) == self._begun(as_planned):
             found = Played(found.steps, None)  # a window in which they do as planned is none
         cost = sum((task.team_cost(task.actions[s.action], discount) for s in found.steps), Fraction(0))
         return ServedGoal(candidate.name, candidate.weight, candidate.plan, found.steps, found.window, cost)

@@ -164,10 +164,10 @@ class PolicySearch:
                     yield self._choice(group, robots, ways)
 
     def _robots(self, group: Group) -> Iterable[JointAction]:
-        """What robots may do by themselves, cheapest first."""
+        """What robots may begin by themselves, cheapest first."""
         if any(m.phase == OVER for m in group.members):
             return (NOTHING,)
-        return self._acting.robots(group.members[0].state)
+        return self._acting.begun(group.members[0].state)
 
     def _combined(
         self, group: Group, each: Sequence[Sequence[Way]], bounds: Sequence[Sequence[int]]

@@ -19,6 +19,7 @@ from search.engine.paths import path_steps, plan_steps
 from search.human.suffix_rules import Suffix
 from search.modes.scenarios.measure import INFINITE_WORTH, Worths
 from search.packed.cost_vector import INFINITE_KEY
+from search.packed.due import Due
 from search.packed.operators import applicable
 from search.spaces.factory import no_worse, suffix_rule
 from search.spaces.fixed_human_plan import FixedHumanPlan
@@ -98,6 +99,7 @@ class Certain:
         self.suffix = suffix_rule(context, scenario.plan)
         self.max_window = self._options.max_window or scenario.horizon
         self._ordinary = self._options.suffix == "replan" and self._options.preservation == "kernel"
+        self._due = Due(self._packed, context.weights.team, strict=self._options.strict)
         task, bits = context.task, self._packed.fact_bits
         self._facts = [(fact, *found) for fact, found in enumerate(bits) if found is not None]
         self._others = frozenset(fact for fact in task.init if bits[fact] is None)
@@ -137,9 +139,13 @@ class Certain:
             return best._replace(least=min(one.least for one in found))
         if epoch >= len(self.steps):
             return Remainder(self._worths.epoch, self._worths.epoch)
-        if self._ordinary:
+        if self._ordinary and self._all_are_free(state):
             return self._by_strategies(state, epoch, deadline)
         return self._in_space(state, epoch, 0, deadline)
+
+    def _all_are_free(self, state: int) -> bool:
+        """Whether nobody but bystanders is in the middle of anything."""
+        return self._packed.at_rest.holds(state) and self._due.human(state) is None
 
     def _mended(self, state: int, epoch: int, deadline: Deadline) -> Remainder:
         """The human follows their plan to its end, and robots make that possible again."""
@@ -148,7 +154,7 @@ class Certain:
             initial=state,
             horizon=horizon,
             steps=self.steps[epoch:],
-            goals=(self._packed.goal,),
+            goals=context.goals,
             successors=context.successors(),
         )
         best = Incumbent(INFINITE_KEY)
@@ -172,11 +178,13 @@ class Certain:
 
     def follows(self, state: int, epoch: int) -> bool:
         """Whether the rest of their plan works, and reaches the goal, if nobody does anything else."""
-        for op, _ in self.steps[epoch:]:
-            if not applicable(op, state):
+        for op, part in self.steps[epoch:]:
+            after = self._due.after(state, (part,)) if applicable(op, state) else None
+            if after is None:
                 return False
-            state = state & op.keep | op.put
-        return self._packed.goal.holds(state)
+            state = after
+        left, goals = self._scenario.horizon - max(epoch, len(self.steps)), self._scenario.context.goals
+        return self._due.lasting(state, left, lambda end: all(goal.holds(end) for goal in goals))
 
     def alone(self, epoch: int) -> int:
         """What the rest of their plan is worth if they are left alone."""

@@ -138,7 +138,7 @@ class SequenceSearch:
         fewest = min(node.places, key=len)
         offered: dict[tuple[int, ...], JointAction] = {(): NOTHING}
         for state in sorted({m.state for m in fewest if m.phase != OVER}):
-            for option in self._question.acting.robots(state):
+            for option in self._question.acting.begun(state):
                 offered.setdefault(option.actions, option)
         return offered.values()
 

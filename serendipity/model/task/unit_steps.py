@@ -69,6 +69,13 @@ class UnitSteps:
         """By id in the task the original action that begins with it."""
         return {chain[0]: action for action, chain in enumerate(self.chains)}
 
+    def goal(self, goal: Condition) -> Condition:
+        """A goal of the human's over facts of the original: at the end they are at nothing."""
+        own = len(self.original.facts)
+        return Condition(
+            (*goal.positive, *(fact for fact in self.task.goal.positive if fact >= own)), goal.negative
+        )
+
     def plan(self, plan: HumanPlan) -> HumanPlan:
         """A human plan of the original, one action for each epoch, waiting included."""
         found = [*self.busy]
