@@ -12,7 +12,7 @@ from serendipity.model.answers.fields import Written, written
 from serendipity.model.answers.histories import History, histories
 from serendipity.model.answers.over_scenarios import goal_of
 from serendipity.model.answers.result_parts import GoalAnswer
-from serendipity.model.arguments import RESULT, TASK, expect
+from serendipity.model.arguments import RESULT_IN_TIME, TASK_IN_TIME, expect
 from serendipity.model.numbers import as_written, plain
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.telling import Grid, Line, Output
@@ -116,8 +116,8 @@ def explain_policy(
         UsageError: the answer is about no scenarios, or none that has a mean cost.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
-    expect(TASK, task=task)
-    expect(RESULT, result=result)
+    expect(TASK_IN_TIME, task=task)
+    expect(RESULT_IN_TIME, result=result)
     entries = result.goals or ()
     if len(entries) < 2 or result.cost is None or result.options.risk != "mean":
         raise UsageError("explain: expected an answer over several goals or plans, with risk 'mean'")
@@ -138,11 +138,13 @@ def explain_policy(
     )
 
 
-def _library(result: Result, entries: tuple[GoalAnswer, ...]) -> list[dict[str, Any]]:
+def _library(result: Result, scenarios: tuple[GoalAnswer, ...]) -> list[dict[str, Any]]:
     """The scenarios as a library of plans."""
     found = []
-    for number, entry in enumerate(entries, start=1):
-        one: dict[str, Any] = {"name": entry.name or str(number), "plan": list(entry.human_plan or ())}
+    for number, entry in enumerate(scenarios, start=1):
+        plan, times = entry.human_plan or (), entry.human_plan_times
+        entries = list(plan if times is None else times.entries(plan))
+        one: dict[str, Any] = {"name": entry.name or str(number), "plan": entries}
         one["probability"] = str(as_written(entry.probability))
         goal = goal_of(result, entry)
         found.append(one | ({} if goal is None else {"goal": list(goal)}))

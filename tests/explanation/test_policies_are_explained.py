@@ -39,3 +39,14 @@ def test_each_plan_of_a_goal_is_one_for_it() -> None:
     assert [scenario.name for scenario in answer.goals] == ["all 1", "all 2"]
     found = serendipity.explain_policy(task.with_goal(Condition()), answer)
     assert found.knowing <= answer.cost <= found.committed
+
+
+def test_getting_up_late_is_seen_where_it_is_not_done_yet() -> None:
+    task = serendipity.example("morning")
+    known = serendipity.plan(task, mode="individual")
+    plan = known.human_plan_times.entries(known.human_plan)
+    later = [(epoch + 4, action) for epoch, action in plan]
+    answer = serendipity.plan(task, plans=[{"probability": 1, "plan": one} for one in (plan, later)])
+    found = serendipity.explain_policy(task, answer)
+    assert [(sign.epoch, sign.action) for sign in found.signs] == [(4, "dress ann"), (4, None)]
+    assert found.knowing <= answer.cost <= found.committed

@@ -65,3 +65,24 @@ def test_options_of_time_are_written_down_only_where_they_are_in_force() -> None
     assert "waiting_cost" not in Options().to_dict()
     timed = Options(waiting_cost="0.5", head_start=7)
     assert Options.from_dict(timed.to_dict()) == timed
+
+
+def test_scenarios_in_time_refuse_what_is_not_settled() -> None:
+    one, goals = slow(), [{"name": name, "goal": ["done"]} for name in "ab"]
+    plans = [{"probability": 1, "plan": [[epoch, "do h"]]} for epoch in (1, 2)]
+    with pytest.raises(UsageError, match="observed: in time the posterior is not known"):
+        serendipity.plan(one, goals=goals, observed=["do h"])
+    for name, value in {"head_start": 1, "waiting_cost": 1, "suffix": "subplan"}.items():
+        with pytest.raises(UsageError, match=f"{name}: in time, with several goals or plans, only"):
+            serendipity.plan(one, plans=plans, **{name: value})
+    undone = one.with_script(Script(facts=[(4, "!done")]))
+    with pytest.raises(UsageError, match=r"plan 'plan 1' does not last until epoch 4: the goal"):
+        serendipity.plan(undone, plans=plans, horizon=4)
+
+
+def test_scenarios_may_differ_in_nothing_but_when() -> None:
+    """The robot is through by epoch 1 in both, whoever begins when."""
+    plans = [{"probability": 1, "plan": [[epoch, "do h"]]} for epoch in (2, 3)]
+    answer = serendipity.plan(plain(), plans=plans, discount=1)
+    assert (answer.cost, answer.human_cost, answer.horizon) == (0, 1, 3)
+    assert [entry.human_plan_times.starts for entry in answer.goals] == [(2,), (3,)]

@@ -7,7 +7,7 @@ from itertools import combinations
 import pytest
 
 import serendipity
-from serendipity.model import Result, UsageError
+from serendipity.model import Result, Task, UsageError
 from serendipity.pictures import Scene, build_scene, draw
 from serendipity.pictures.map.names import ems
 from serendipity.pictures.picture.drawing import Group, Rect, Shape, Text
@@ -83,10 +83,33 @@ def test_a_joint_action_of_some_scenarios_names_them(watching: Result) -> None:
 
 @pytest.mark.parametrize("rooms", [2, 3, 4, 5])
 def test_words_do_not_overlap(rooms: int) -> None:
-    scene = scene_of(policy(rooms, LONG))
-    parts = [(0, None), (0, 5), (6, 6), (7, 10), (11, 12)]
+    require_apart(scene_of(policy(rooms, LONG)), (0, None), (0, 5), (6, 6), (7, 10), (11, 12))
+
+
+def test_bars_in_time_stand_below_the_clock_and_are_as_long_as_actions() -> None:
+    task = serendipity.example("morning")
+    plan = serendipity.plan(task, discount="0.9").human_plan_times.entries(names_of(task))
+    later = [(epoch + 4, action) for epoch, action in plan]
+    library = [{"probability": 1, "plan": one} for one in (plan, later)]
+    answer = serendipity.plan(task, plans=library, discount="0.9")
+    scene = build_scene(task, answer)
+    require_apart(scene, (0, None), (0, 10), (11, 20))
+    acts = [shape for shape in tree(scene, 0, 0, 25, 10) if isinstance(shape, Group)]
+    bars = [next(s.width for s in act.shapes if isinstance(s, Rect)) for act in acts]
+    durations = [step.duration for history in scene.histories for step in history.robots]
+    assert len({bar // 10 for bar in bars}) == len(set(durations)) > 1
+
+
+def names_of(task: Task) -> tuple[str, ...]:
+    """The actions of the human's own plan."""
+    return serendipity.plan(task, mode="individual").human_plan or ()
+
+
+def require_apart(scene: Scene, *parts: tuple[int, int | None]) -> None:
+    """Fail where words of the upper part overlap, or leave their picture."""
+    head = 34 + tree_height(scene) + (0 if scene.unit is None else 16)
     for picture in (lane_labels(scene), *(timeline_picture(scene, *part) for part in parts)):
-        found = [text for text in texts(picture.shapes) if text.y < 34 + tree_height(scene)]
+        found = [text for text in texts(picture.shapes) if text.y < head]
         assert len(found) > 1
         for one, other in combinations(found, 2):
             across = min(_sides(one)[1], _sides(other)[1]) - max(_sides(one)[0], _sides(other)[0])

@@ -67,7 +67,7 @@ def lane_labels(scene: Scene) -> Picture:
     shapes: list[Shape] = [Text(8, _HEAD / 2, "epoch", 14, FAINT_INK, "start")]
     if scene.unit is not None:
         shapes.append(Text(8, _HEAD, "time", 12, FAINT_INK, "start"))
-    shapes += tree_labels(scene, _HEAD, LABELS)
+    shapes += tree_labels(scene, _head(scene), LABELS)
     tops = _tops(scene)
     for agent in scene.lanes:
         text, size = fitted(scene.title(agent), LABELS - 34, 16, 10, bold=True)
@@ -107,7 +107,7 @@ def timeline_picture(
     tops += [top for _, top in _fact_tops(scene)]
     shapes = [
         *_columns(scene, first, end),
-        *(tree(scene, _HEAD, first, end, column(scene)) if scene.histories else ()),
+        *(tree(scene, _head(scene), first, end, column(scene)) if scene.histories else ()),
         *(Polyline(((0, top), (width, top)), Style(stroke=_RULE, width=1)) for top in tops),
         *_marks(scene, first, end),
         *_acts(scene, first, end),
@@ -129,12 +129,17 @@ def cursor(scene: Scene, x: float = 0.0) -> Group:
     return Group((frame,), x, 0, {"cursor": ""})
 
 
+def _head(scene: Scene) -> float:
+    """How high the rows of epochs and clock are."""
+    return _HEAD if scene.unit is None else _HEAD + _CLOCK
+
+
 def _tops(scene: Scene) -> dict[int | str, float]:
     """Where the lane of each agent begins, and what is below: the former plan, the script, the facts."""
     heights: dict[int | str, float] = dict.fromkeys(scene.lanes, _LANE)
     heights["former"] = _FORMER if scene.deviates else 0
     heights |= {"script": _SCRIPT} if scene.marks else {}
-    head = _HEAD + tree_height(scene) if scene.unit is None else _HEAD + _CLOCK
+    head = _head(scene) + tree_height(scene)
     return dict(zip((*heights, "facts"), accumulate(heights.values(), initial=head), strict=True))
 
 

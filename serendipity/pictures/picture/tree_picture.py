@@ -1,10 +1,10 @@
 """The histories of an answer over scenarios above a timeline: a bar for each, on the timeline's axis."""
 
-from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import Final
 
 from serendipity.model.answers.histories import History
+from serendipity.model.task.plans import PlanStep
 from serendipity.pictures.map.names import ems
 from serendipity.pictures.picture import drawing
 from serendipity.pictures.picture.drawing import INK, PAPER, WALL, Rect, Shape, Style, Text
@@ -57,11 +57,20 @@ def tree(scene: Scene, top: float, first: int, last: int, column: float) -> Iter
 
 
 def _rows(scene: Scene, top: float) -> Iterator[tuple[History, float, float]]:
-    """Each history, where its row begins, and how high its bar is: robots' actions of an epoch are a pile."""
+    """Each history, where its row begins, and how high its bar is."""
     for history in scene.histories:
-        bar = max(Counter(step.epoch for step in history.robots).values(), default=0) * _ACT or _IDLE
+        bar = (max((level for _, level in _piled(history)), default=-1) + 1) * _ACT or _IDLE
         yield history, top, bar
         top += _WORDS + bar + _GAP
+
+
+def _piled(history: History) -> Iterator[tuple[PlanStep, int]]:
+    """What robots do, each with its place in the pile of what goes on at the same time."""
+    ends: list[int] = []
+    for step in history.robots:
+        level = next((i for i, end in enumerate(ends) if end <= step.epoch), len(ends))
+        ends[level : level + 1] = [step.epoch + step.duration]
+        yield step, level
 
 
 def _numbers(scenarios: Iterable[int]) -> str:
@@ -83,16 +92,16 @@ def _words(scene: Scene, history: History, x: float, y: float, width: float) -> 
 
 
 def _acts(scene: Scene, history: History, top: float, seen: range, column: float) -> Iterator[Shape]:
-    """What robots do in a bar, and in which scenarios where that is not all; those of an epoch in a pile."""
+    """What robots do in a bar, and in which scenarios where that is not all."""
     goals = scene.result.goals or ()
-    colours, count = drawing.agent_colours(len(scene.agents), scene.human), Counter[int]()
-    for step in history.robots:
-        act, middle = scene.told[step], top + (count[step.epoch] + 0.5) * _ACT
-        count[step.epoch] += 1
+    colours = drawing.agent_colours(len(scene.agents), scene.human)
+    for step, level in _piled(history):
+        act, middle = scene.told[step], top + (level + 0.5) * _ACT
         if step.epoch in seen:
             paint = drawing.act_style(colours[max(act.agents, key=scene.human.__ne__)], len(act.agents) > 1)
             having = [i for i in history.scenarios if step in (goals[i].plan or ())]
             only = "" if len(having) == len(history.scenarios) else f"{_numbers(having)}: "
-            shapes = drawing.box(only + act.verb, act.detail, column, middle, _ACT - 8, paint, INK)
+            wide = column * step.duration
+            shapes = drawing.box(only + act.verb, act.detail, wide, middle, _ACT - 8, paint, INK)
             x = (step.epoch - seen[0]) * column
             yield drawing.Group(tuple(shapes), x, 0, {"act": str(step.epoch)}, act.action)
