@@ -76,11 +76,6 @@ class TestFigures:
     def test_a_task_needs_a_map(self) -> None:
         with pytest.raises(UsageError, match="pybullet is for tasks with a map"):
             physics.Stage(build(goal="p", actions={"do h": "-> p", "help r": "-> p"}))
-        ways = {
-            f"{way} {who} a b": f"at_{who}_a -> at_{who}_b !at_{who}_a" for way in ("up",) for who in "hr"
-        }
-        with pytest.raises(UsageError, match="buildings on one floor"):
-            physics.Stage(build(init="at_h_a at_r_a", goal="at_h_b", actions=ways))
 
     def test_rubble_lies_in_doorways(self, room2: Task) -> None:
         with pytest.raises(UsageError, match="rubble: there is no doorway between room1 and room2"):

@@ -8,10 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity.model import Task
 from serendipity.pictures.map.layout import Box, MapLayout, corridor, floor_plan, lay_out
 from serendipity.pictures.map.places import Places, find_places
-from serendipity.testing.builders import task as build
 
 
 def places_of(links: list[tuple[str, str]]) -> Places:
@@ -86,37 +84,6 @@ def test_parts_that_no_way_connects_stand_side_by_side() -> None:
     layout = lay_out(places_of([("a", "b"), ("c", "d")]))
     boxes = layout.boxes
     assert max(boxes[place].right for place in "ab") < min(boxes[place].left for place in "cd")
-
-
-def test_coordinates_in_names_make_a_grid() -> None:
-    links = [(f"pos{x}-{y}", f"pos{x + 1}-{y}") for x in range(2, 5) for y in range(3)]
-    links += [(f"pos{x}-{y}", f"pos{x}-{y + 1}") for x in range(2, 6) for y in range(2)]
-    boxes = lay_out(places_of(links)).boxes
-    for x in range(2, 6):
-        assert len({boxes[f"pos{x}-{y}"].x for y in range(3)}) == 1
-    assert len({boxes[f"pos{x}-0"].y for x in range(2, 6)}) == 1
-
-
-def lifts(*ways: str) -> Task:
-    """Lifts between floors; a way is a verb and two floors."""
-    actions = {
-        f"{verb} {lift} {a} {b}": f"at_{lift}_{a} -> at_{lift}_{b} !at_{lift}_{a}"
-        for lift in ("h", "r")
-        for verb, a, b in map(str.split, ways)
-    }
-    return build(init="at_h_f0 at_r_f0", goal="at_h_f2", actions=actions)
-
-
-def test_floors_that_lifts_go_up_and_down_between_are_a_shaft() -> None:
-    pairs = [("f0", "f1"), ("f1", "f2"), ("f0", "f2")]
-    ups = [f"move-up {a} {b}" for a, b in pairs]
-    downs = [f"move-down {b} {a}" for a, b in pairs]
-    layout = lay_out(find_places(lifts(*ups, *downs)))
-    assert sorted(layout.boxes, key=lambda place: layout.boxes[place].y) == ["f2", "f1", "f0"]
-    assert len({box.x for box in layout.boxes.values()}) == 1
-    assert len(layout.links) == 2
-    for odd in (["move f0 f2"], ["move-up f2 f0"]):
-        assert not find_places(lifts(*ups, *downs, *odd)).levels
 
 
 def test_the_layout_of_a_graph_does_not_depend_on_chance() -> None:

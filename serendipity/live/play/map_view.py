@@ -160,5 +160,4 @@ class MapView:
             layout=self._layout,
             goals=self._places.goals(task),
             vehicles=self._places.vehicles,
-            towers=self._places.towers,
         )

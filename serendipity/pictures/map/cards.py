@@ -19,7 +19,6 @@ _WIDEST: Final = 110.0  # name of an object
 _LEAST_PILL: Final = 34.0
 _GAP: Final = 4.0
 _PAD: Final = 4.0  # between the frame of a card and what is in it
-_APART: Final = 18.0  # between agents and towers
 _COLUMNS: Final = (1, 2, 3)
 
 
@@ -35,7 +34,6 @@ class Card:
         inside: what it carries.
         loose: whether it may be counted among others, where there is no room.
         agent: whether it is an agent; they are the last to be counted.
-        tower: whether what it carries stands above it, and no frame is about them.
     """
 
     key: str
@@ -46,7 +44,6 @@ class Card:
     inside: "tuple[Card, ...]" = ()
     loose: bool = False
     agent: bool = False
-    tower: bool = False
 
     @property
     def framed(self) -> bool:
@@ -105,11 +102,9 @@ def agent_card(key: str, name: str, inside: tuple[Card, ...] = ()) -> Card:
     return Card(key, name, 2 * RADIUS, 2 * RADIUS, inside=inside, agent=True)
 
 
-def thing_card(
-    key: str, name: str, beside: tuple[Card, ...] = (), inside: tuple[Card, ...] = (), *, tower: bool = False
-) -> Card:
-    """The card of an object, with who rides it and what it carries, or what stands on it."""
-    return Card(key, name, pill(name)[-1], PILL_HEIGHT, beside, inside, loose=not beside, tower=tower)
+def thing_card(key: str, name: str, beside: tuple[Card, ...] = (), inside: tuple[Card, ...] = ()) -> Card:
+    """The card of an object, with who rides it and what it carries."""
+    return Card(key, name, pill(name)[-1], PILL_HEIGHT, beside, inside, loose=not beside)
 
 
 def fits(cards: tuple[Card, ...], width: float, height: float) -> bool:
@@ -140,9 +135,7 @@ def _arranged(cards: Sequence[Card], width: float, height: float) -> _Block | No
             [_block(card, columns) for card in cards if card.loose is free] for free in (False, True)
         )
         if all(block.width <= width for block in (*first, *loose)):
-            towers = any(card.tower for card in cards)
-            between = _APART if towers else _GAP
-            found = _rows(_broken(first, width) + _broken(loose, width), between=between, standing=towers)
+            found = _rows(_broken(first, width) + _broken(loose, width))
             if found.height <= height:
                 return found
     return None
@@ -159,8 +152,6 @@ def _block(card: Card, columns: int) -> _Block:
     if not card.framed or names:
         return own
     inside = [_block(each, columns) for each in card.inside]
-    if card.tower:
-        return _rows([inside, [own]], between=0.0, standing=True)
     rows = [[*(_block(each, columns) for each in card.beside), own]]
     rows += [inside[i : i + columns] for i in range(0, len(inside), columns)]
     content = _rows(rows)
@@ -182,8 +173,8 @@ def _broken(blocks: Sequence[_Block], width: float) -> list[list[_Block]]:
     return rows
 
 
-def _rows(rows: Sequence[Sequence[_Block]], *, between: float = _GAP, standing: bool = False) -> _Block:
-    """Rows below each other, each about the middle; blocks beside each other are, too, or stand on a line."""
+def _rows(rows: Sequence[Sequence[_Block]]) -> _Block:
+    """Rows below each other, each about the middle; blocks beside each other are, too."""
     widths = [sum(block.width for block in row) + _GAP * (len(row) - 1) for row in rows]
     widest = max(widths, default=0.0)
     spots: list[Spot] = []
@@ -191,11 +182,10 @@ def _rows(rows: Sequence[Sequence[_Block]], *, between: float = _GAP, standing: 
     for row, wide in zip(rows, widths, strict=True):
         x, high = (widest - wide) / 2, max(block.height for block in row)
         for block in row:
-            lower = (high - block.height) / (1 if standing else 2)
-            spots += [spot.moved(x, y + lower) for spot in block.spots]
+            spots += [spot.moved(x, y + (high - block.height) / 2) for spot in block.spots]
             x += block.width + _GAP
-        y += high + between
-    return _Block(widest, max(0.0, y - between), tuple(spots))
+        y += high + _GAP
+    return _Block(widest, max(0.0, y - _GAP), tuple(spots))
 
 
 def _shortened(cards: tuple[Card, ...], owner: str) -> Iterator[tuple[Card, ...]]:

@@ -5,11 +5,9 @@ plan the longest row of halls is a corridor, and what branches off lies beside i
 it, so that every two connected places share a wall.
 """
 
-import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Final
 
 import networkx as nx
@@ -153,10 +151,7 @@ _SPREAD: Final = 1.45  # usual distance of the closest places of a graph, in cel
 _APART: Final = 1.2  # their least distance, across or along
 _WAY: Final = 20.0  # between large places, in the picture's units
 _MOST_PASSAGES: Final = 0.1  # connections beyond a tree for each place of a floor plan
-_GRID: Final = 1.25  # distance of neighbouring cells of a grid, in cells
-_MOSTLY: Final = 0.8  # share of the ways that have to join neighbours in a grid
 _GAP: Final = 0.5  # between parts that no way connects, in cells
-_DENSE: Final = 0.7  # share of all pairs of places with ways from which on a ring is clearer
 
 Point = tuple[float, float]
 Size = tuple[float, float]
@@ -217,14 +212,9 @@ def lay_out(places: Places, size: Size | None = None) -> MapLayout:
     if size is None:
         side = next(side for most, side in _USUAL if len(places.objects) <= most)
         size = (side, side)
-    if places.levels:
-        return _shaft(places.levels, size)
     graph: nx.Graph[str] = nx.Graph()
     graph.add_nodes_from(places.names)
     graph.add_edges_from(places.links)
-    cells = _named_cells(graph)
-    if cells:
-        return _grid(places, cells, size)
     boxes: dict[str, Box] = {}
     doors: list[tuple[str, str]] = []
     right = 0.0
@@ -243,14 +233,6 @@ def lay_out(places: Places, size: Size | None = None) -> MapLayout:
     return MapLayout(boxes, places.links, frozenset(doors), *_extent(boxes.values()))
 
 
-def _shaft(levels: Sequence[str], size: Size) -> MapLayout:
-    """Places above one another, as wide as high ones may be; ways go through the floors between them."""
-    width, height = size
-    boxes = {place: Box(width, (i + 0.5) * height, 2 * width, height) for i, place in enumerate(levels)}
-    links = tuple(pairwise(levels))
-    return MapLayout(boxes, links, frozenset(links), *_extent(boxes.values()))
-
-
 def _extent(boxes: Iterable[Box]) -> Point:
     kept = list(boxes)
     return max((box.right for box in kept), default=0.0), max((box.bottom for box in kept), default=0.0)
@@ -265,49 +247,15 @@ def _plan_boxes(tree: "nx.Graph[str]", size: Size) -> dict[str, Box]:
 
 
 def _graph_boxes(graph: "nx.Graph[str]", size: Size) -> dict[str, Box]:
-    """A spring layout that starts from the graph's spectrum, or a ring; no chance is involved."""
-    if nx.density(graph) >= _DENSE:
-        ring = nx.circular_layout(graph)
-        points = np.array([ring[place] for place in graph])
-    else:
-        start = nx.spectral_layout(graph) if len(graph) > 3 else nx.circular_layout(graph)
-        sprung = nx.spring_layout(graph, pos=start, iterations=200, seed=0, k=None)
-        points = _level(np.array([sprung[place] for place in graph]))
-    spread = _spread(points)
+    """A spring layout that starts from the graph's spectrum; no chance is involved."""
+    start = nx.spectral_layout(graph) if len(graph) > 3 else nx.circular_layout(graph)
+    sprung = nx.spring_layout(graph, pos=start, iterations=200, seed=0)
+    spread = _spread(_level(np.array([sprung[place] for place in graph])))
     step_x, step_y = (max(CELL, (side + _WAY) / _APART) for side in size)
     return {
         place: Box(float(x) * step_x, float(y) * step_y, *size)
         for place, (x, y) in zip(graph, spread, strict=True)
     }
-
-
-def _grid(places: Places, cells: dict[str, tuple[int, int]], size: Size) -> MapLayout:
-    left, top = (min(axis) for axis in zip(*cells.values(), strict=True))
-    width, height = size
-    boxes = {
-        place: Box(
-            (x - left) * _GRID * width + width / 2, (y - top) * _GRID * height + height / 2, width, height
-        )
-        for place, (x, y) in cells.items()
-    }
-    return MapLayout(boxes, places.links, frozenset(), *_extent(boxes.values()))
-
-
-def _named_cells(graph: "nx.Graph[str]") -> dict[str, tuple[int, int]]:
-    """Coordinates from names like ``pos2-7``, where ways join neighbours; empty otherwise."""
-    if not graph.edges:
-        return {}
-    found = {place: tuple(map(int, re.findall(r"[0-9]+", place))) for place in graph}
-    if any(len(cell) != 2 for cell in found.values()) or len(set(found.values())) < len(found):
-        return {}
-    cells = {place: (cell[0], cell[1]) for place, cell in found.items()}
-    steps = [abs(cells[a][0] - cells[b][0]) + abs(cells[a][1] - cells[b][1]) == 1 for a, b in graph.edges]
-    if sum(steps) < _MOSTLY * len(steps):
-        return {}
-    xs, ys = zip(*cells.values(), strict=True)
-    if max(xs) - min(xs) >= max(ys) - min(ys):
-        return cells
-    return {place: (y, x) for place, (x, y) in cells.items()}  # screens are wider than high
 
 
 def _level(points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -4,22 +4,19 @@ An agent's own *moves* take away one fact and add another of the same predicate:
 hall1``, ``at commx hall2``.  Facts that moves connect, of which at most one is true initially
 and whose common words speak of the agent or of nobody in particular, tell its position;
 what differs between them is the place.  What agents move that is none of them (``at van hall1``),
-by facts of the same predicate, is a vehicle: where it gets is a place, too.  Where nobody goes anywhere,
-and things stand on each other, there is one place with towers in it.
+by facts of the same predicate, is a vehicle: where it gets is a place, too.
 """
 
-import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import chain, pairwise
+from itertools import chain
 
 import networkx as nx
 
 from serendipity.model import GroundAction, Task
 from serendipity.model.task.whole_actions import whole
 from serendipity.pictures.map.names import Parts, common_ends, find, natural, parts, spellings, without
-from serendipity.pictures.map.stacks import Stacks
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,11 +47,7 @@ class Places:
         objects: for each object, what each fact id says about it.
         riding: for agents that can be in or on an object instead, the object by fact id; who alone
             moves an object and has no position of their own is always where that is.
-        stations: agents that are always in one place: they are one themselves, or nobody goes anywhere.
-        still: objects that are always in one place, and which.
-        levels: the places from the highest to the lowest, where actions say of each way whether it leads
-            ``up`` or ``down``; else empty.
-        towers: whether what is on an object stands on it, and is shown above it.
+        stations: agents that are a place themselves, and so always there.
         marks: facts true or false by themselves that name a place: the place by fact id.
     """
 
@@ -65,9 +58,6 @@ class Places:
     riding: dict[int, dict[int, str]] = field(default_factory=dict)
     marks: dict[int, str] = field(default_factory=dict)
     stations: dict[int, str] = field(default_factory=dict)
-    still: dict[str, str] = field(default_factory=dict)
-    levels: tuple[str, ...] = ()
-    towers: bool = False
 
     @cached_property
     def facts(self) -> frozenset[int]:
@@ -76,9 +66,7 @@ class Places:
 
     @property
     def vehicles(self) -> frozenset[str]:
-        """Objects that others can be in or on; what stands on each other in towers is none."""
-        if self.towers:
-            return frozenset()
+        """Objects that others can be in or on."""
         carriers = {where.carrier for told in self.objects.values() for where in told.values()}
         ridden = {name for riding in self.riding.values() for name in riding.values()}
         return frozenset(name for name in carriers | ridden if name is not None)
@@ -100,16 +88,14 @@ def find_places(task: Task) -> Places:
         links |= _links(moves[agent].subgraph(facts), places)
     every = nx.compose_all(moves.values())
     driven: set[str] = set()
-    at: dict[int, str] = {f: place for told in positions.values() for f, place in told.items()}
     vehicles = list(_vehicles(task, every, positions))
     for facts in vehicles:
         places = _place_names(task, facts)
         driven.update(places.values())
-        at |= places
         links |= _links(every.subgraph(facts), places)
     names = sorted(driven.union(*(told.values() for told in positions.values())), key=natural)
     if not names:
-        return _towers(task)
+        return Places()
     told_by = {parts(task.facts[f])[0] for facts in (*positions.values(), *vehicles) for f in facts}
     finder = _PlaceFinder(task, names, told_by)
     finder.add_stops(positions)
@@ -137,32 +123,7 @@ def find_places(task: Task) -> Places:
         objects=objects,
         riding=riding,
         marks=marks,
-        levels=_levels(task, at, names),
         stations={agent: name for agent, name in enumerate(task.agents) if name in set(names)},
-    )
-
-
-def _towers(task: Task) -> Places:
-    """One place with all things that stand on each other in it, and all agents; empty without such."""
-    stacks = Stacks(task)
-    if not stacks.on:
-        return Places()
-    ground = next((parts(task.facts[fact])[0] for fact in stacks.ground), "")
-    place = re.sub(r"^on[-_]?(?=.)", "", ground) or parts(task.facts[next(iter(stacks.on))])[0]
-    objects: dict[str, dict[int, Whereabouts]] = {name: {} for name in sorted(stacks.things, key=natural)}
-    for fact, (upper, lower) in stacks.on.items():
-        objects[upper][fact] = Whereabouts(carrier=lower)
-    for fact, name in stacks.ground.items():
-        objects[name][fact] = Whereabouts(place=place)
-    for fact, (name, agent) in stacks.held.items():
-        objects[name][fact] = Whereabouts(holder=agent)
-    fixed = objects.keys() - {upper for upper, _ in stacks.on.values()}
-    return Places(
-        names=(place,),
-        objects=objects,
-        stations=dict.fromkeys(range(len(task.agents)), place),
-        still=dict.fromkeys(fixed, place),
-        towers=True,
     )
 
 
@@ -176,26 +137,6 @@ def _links(moves: "nx.Graph[int]", places: dict[int, str]) -> set[tuple[str, str
     """The places that moves join."""
     joined = ((places[source], places[target]) for source, target in moves.edges)
     return {(a, b) if natural(a) < natural(b) else (b, a) for a, b in joined}
-
-
-def _levels(task: Task, at: Mapping[int, str], names: Sequence[str]) -> tuple[str, ...]:
-    """The places from the highest to the lowest, if actions that lead up and down put them in order."""
-    below: nx.DiGraph[str] = nx.DiGraph()
-    for action in _wholes(task):
-        ways = {"up", "down"}.intersection(re.split("[ _-]", action.name))
-        left, reached = ({at[f] for f in facts if f in at} for facts in (action.delete, action.add))
-        if not left or not reached:
-            continue
-        if len(ways) != 1 or len(left) > 1 or len(reached) > 1:
-            return ()
-        pair = *reached, *left
-        below.add_edge(*(pair if "up" in ways else pair[::-1]))
-    try:
-        found = tuple(nx.topological_sort(below))
-    except nx.NetworkXUnfeasible:
-        return ()
-    in_order = all(pair in below.edges for pair in pairwise(found))
-    return found if in_order and len(found) == len(names) else ()
 
 
 def _named(fact: str, names: Iterable[str]) -> str | None:

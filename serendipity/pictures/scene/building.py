@@ -132,7 +132,6 @@ def build_scene(task: Task, result: Result, scenario: str | None = None) -> Scen
         changes=find_changes(task, [moment.state for moment in moments], last, places.facts),
         result=result,
         vehicles=places.vehicles,
-        towers=places.towers,
         bystanders=task.script.people,
         marks={
             epoch: tuple(task.facts[one.fact] if one.true else f"not {task.facts[one.fact]}" for one in some)

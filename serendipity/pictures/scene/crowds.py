@@ -18,8 +18,6 @@ TAG_HEIGHT: Final = 19.0
 _SIDE: Final = 6.0  # between the wall of a place and what is in it
 _WIDTHS: Final = (CELL, 112.0, 125.0, 140.0, 160.0, 180.0, 200.0, 225.0, 250.0)
 _HEIGHTS: Final = (CELL, 112.0, 125.0, 140.0, 160.0, 180.0)
-_LARGE: Final = (300.0, 360.0, 430.0, 520.0, 620.0)
-"""Sides of a place that has the whole picture."""
 _WIDEST_FOR_NAME: Final = 160.0
 _HIGHER: Final = 1.15  # than wide, at most
 
@@ -69,9 +67,7 @@ def cell_size(scene: Scene, places: tuple[str, ...]) -> tuple[float, float]:
         (cards, place in tagged) for frame in scene.frames for place, cards in crowds(scene, frame).items()
     }
     name = max(map(ems, places)) * LEAST_LABEL + 14 + (24 if scene.goals else 0)
-    alone = len(places) == 1
-    sides = product((*_WIDTHS, *_LARGE) if alone else _WIDTHS, (*_HEIGHTS, *_LARGE) if alone else _HEIGHTS)
-    sizes = sorted(sides, key=lambda size: size[0] * size[1])
+    sizes = sorted(product(_WIDTHS, _HEIGHTS), key=lambda size: size[0] * size[1])
     for width, height in sizes:
         if height > _HIGHER * width or width < min(name, _WIDEST_FOR_NAME):
             continue
@@ -109,4 +105,4 @@ class _Crowd:
         """An object with who rides it and what it carries."""
         riders = tuple(self.agent(agent) for agent in self._objects[name].riders)
         inside = tuple(self.thing(each) for each in self._carried[name])
-        return thing_card(self._keys[name], name, riders, inside, tower=self._scene.towers)
+        return thing_card(self._keys[name], name, riders, inside)

@@ -44,9 +44,8 @@ class Finder:
 
     def objects(self, state: State) -> dict[str, Whereabouts]:
         """Where each object is, who rides it, and who holds or rides what carries it."""
-        still = self._places.still
         told = {
-            name: next((where for f, where in of.items() if f in state), Whereabouts(still.get(name)))
+            name: next((where for f, where in of.items() if f in state), Whereabouts())
             for name, of in self._places.objects.items()
         }
         riders: dict[str, tuple[int, ...]] = defaultdict(tuple)

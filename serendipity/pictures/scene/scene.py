@@ -190,7 +190,6 @@ class Scene:
         acts, former_acts: the two plans.
         changes: facts that change, for the lanes below the timeline.
         vehicles: objects that others can be in or on.
-        towers: whether what is on an object is shown above it.
         bystanders: ids of the people whose plans are fixed.
         marks: by epoch the facts that the script changes, ``not`` in front of those that become false.
         unit: of a plan in time, the length of an epoch in the unit of the input; else None.
@@ -211,7 +210,6 @@ class Scene:
     meetings: tuple[Meeting, ...] = ()
     changes: tuple[Change, ...] = ()
     vehicles: frozenset[str] = frozenset()
-    towers: bool = False
     bystanders: frozenset[int] = frozenset()
     marks: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
     unit: Fraction | None = None

@@ -42,7 +42,7 @@ class Stage:
         film: records what happens.
 
     Raises:
-        UsageError: pybullet is missing, there is no such doorway, or the task has no map, towers or lifts.
+        UsageError: pybullet is missing, there is no such doorway, or the task has no map.
     """
 
     def __init__(
@@ -58,10 +58,6 @@ class Stage:
         agents = self._finder.agents(task.init)
         if not agents:
             raise UsageError("adapter: pybullet is for tasks with a map, on which agents are somewhere")
-        if places.towers or places.levels:
-            raise UsageError(
-                "adapter: pybullet is for buildings on one floor, where things don't stand on each other"
-            )
         self._task = task
         self._epoch = EPOCH if epoch is None else epoch
         self._engine = engine = Engine()
