@@ -12,7 +12,7 @@ from serendipity.model import Task
 from serendipity.pictures import Scene, build_scene, draw
 from serendipity.pictures.formats.svg import svg
 from serendipity.pictures.map.layout import lay_out
-from serendipity.pictures.map.places import Whereabouts, find_places
+from serendipity.pictures.map.places import find_places
 from serendipity.pictures.picture.map_picture import MARGIN, map_picture
 from serendipity.pictures.scene.scene import Meeting
 from serendipity.testing.builders import task as build
@@ -134,29 +134,6 @@ def test_several_meetings_in_one_place_have_one_tag(room2: Scene) -> None:
     assert "epoch 11: again" in (tag.findtext(f"{SVG}title") or "")
 
 
-def test_hoists_are_places_and_who_only_drives_is_where_the_lorry_is() -> None:
-    actions = {}
-    for a, b in permutations(("yard", "shop")):
-        actions[f"drive dan {a}_{b}"] = f"at_lorry_{a} -> at_lorry_{b} !at_lorry_{a}"
-        actions[f"lift {a} c"] = f"at_c_{a} -> lifting_{a}_c !at_c_{a}"
-        actions[f"load {a} c"] = f"lifting_{a}_c at_lorry_{a} -> in_c_lorry !lifting_{a}_c"
-        actions[f"unload {a} c"] = f"in_c_lorry at_lorry_{a} -> lifting_{a}_c !in_c_lorry"
-        actions[f"lower {a} c"] = f"lifting_{a}_c -> at_c_{a} !lifting_{a}_c"
-    built = {"agents": "dan yard shop", "human": "dan", "init": "at_lorry_yard at_c_yard"}
-    task = spaced(build(**built, goal="at_c_shop", actions=actions))
-    assert find_places(task).names == ("shop", "yard")
-    scene = build_scene(task, serendipity.plan(task, mode="composite", discount="0.5", horizon=6))
-    start, end = scene.frames[0], scene.frames[-1]
-    assert start.at == {0: "yard", 1: "yard", 2: "shop"}
-    assert end.at == {0: "shop", 1: "yard", 2: "shop"}
-    lifted = next(a.epoch for a in scene.acts if a.verb == "lift")
-    assert scene.frames[lifted].objects["c"] == Whereabouts(holder=1)
-    drive = next(a for a in scene.acts if a.agents == (0,))
-    assert (drive.verb, drive.detail) == ("go to", "shop")
-    for frame in scene.frames:
-        kept_apart(scene, frame.epoch)
-
-
 @pytest.mark.parametrize(
     ("domain", "problem", "human"),
     [
@@ -165,7 +142,6 @@ def test_hoists_are_places_and_who_only_drives_is_where_the_lorry_is() -> None:
         ("logistics00", "probLOGISTICS-8-0", "tru1"),
         ("rovers", "p10", "rover0"),
         ("satellites", "p05-pfile5", "satellite0"),
-        ("depot", "pfile5", "driver0"),
         ("elevators08", "p01", "fast0"),
     ],
 )

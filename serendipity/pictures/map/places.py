@@ -45,9 +45,7 @@ class Places:
         links: pairs of places that somebody can move between, each pair once.
         positions: for each agent with a position, the place by fact id.
         objects: for each object, what each fact id says about it.
-        riding: for agents that can be in or on an object instead, the object by fact id; who alone
-            moves an object and has no position of their own is always where that is.
-        stations: agents that are a place themselves, and so always there.
+        riding: for agents that can be in or on an object instead, the object by fact id.
         marks: facts true or false by themselves that name a place: the place by fact id.
     """
 
@@ -57,7 +55,6 @@ class Places:
     objects: dict[str, dict[int, Whereabouts]] = field(default_factory=dict)
     riding: dict[int, dict[int, str]] = field(default_factory=dict)
     marks: dict[int, str] = field(default_factory=dict)
-    stations: dict[int, str] = field(default_factory=dict)
 
     @cached_property
     def facts(self) -> frozenset[int]:
@@ -115,15 +112,13 @@ def find_places(task: Task) -> Places:
     named = {fact: finder.place(parts(task.facts[fact])) for fact in alone}
     marks = {fact: place for fact, place in named.items() if place is not None}
     ordered = sorted(links, key=lambda link: (natural(link[0]), natural(link[1])))
-    riding = _riding(task, positions, tuple(objects)) | _bound(task, moves, positions, objects)
     return Places(
         names=tuple(names),
         links=tuple(ordered),
         positions=dict(sorted(positions.items())),
         objects=objects,
-        riding=riding,
+        riding=_riding(task, positions, tuple(objects)),
         marks=marks,
-        stations={agent: name for agent, name in enumerate(task.agents) if name in set(names)},
     )
 
 
@@ -193,20 +188,12 @@ def _positions(task: Task, moves: "dict[int, nx.Graph[int]]") -> dict[int, list[
 def _vehicles(
     task: Task, moves: "nx.Graph[int]", positions: dict[int, dict[int, str]]
 ) -> Iterator[list[int]]:
-    """Facts that tell where something is that agents move, in the words that tell where they are.
-
-    Where no agent is anywhere, other facts have to speak of the same places: levels of fuel are none.
-    """
+    """Facts that tell where something is that agents move, in the words that tell where they are."""
     known = {fact for places in positions.values() for fact in places}
     predicates = {parts(task.facts[fact])[0] for fact in known}
-    others = {w for f, fact in enumerate(task.facts) if f not in moves for w in parts(fact)[1:]}
     for group in nx.connected_components(moves):
         words = [parts(task.facts[fact]) for fact in group]
-        if known:
-            fits = {name[0] for name in words} <= predicates and known.isdisjoint(group)
-        else:
-            start = len(common_ends(words)[0])
-            fits = others.issuperset(word for name in words for word in name[start:])
+        fits = {name[0] for name in words} <= predicates and known.isdisjoint(group)
         if fits and len(common_ends(words)[0]) > 1 and len(task.init & group) <= 1:
             yield sorted(group)
 
@@ -249,25 +236,6 @@ def _riding(
                 vehicle = _named(task.facts[fact], objects)
                 if fact not in places and vehicle is not None:
                     found.setdefault(agent, {})[fact] = vehicle
-    return found
-
-
-def _bound(
-    task: Task,
-    moves: "dict[int, nx.Graph[int]]",
-    positions: dict[int, dict[int, str]],
-    objects: dict[str, dict[int, Whereabouts]],
-) -> dict[int, dict[int, str]]:
-    """Agents without a position that move one object, which nobody else moves, and where that is."""
-    found: dict[int, dict[int, str]] = {}
-    for agent, own in moves.items():
-        moved = [name for name, told in objects.items() if any(f in told and g in told for f, g in own.edges)]
-        if agent in positions or len(moved) != 1 or task.agents[agent] in moved:
-            continue
-        told = objects[moved[0]]
-        others = [graph for other, graph in moves.items() if other != agent]
-        if not any(f in told and g in told for graph in others for f, g in graph.edges):
-            found[agent] = dict.fromkeys((f for f in told if told[f].place is not None), moved[0])
     return found
 
 

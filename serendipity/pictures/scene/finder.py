@@ -30,7 +30,7 @@ class Finder:
 
     def agents(self, state: State) -> dict[int, str]:
         """The place of each agent that is in one; who rides is where the vehicle is."""
-        found = dict(self._places.stations)
+        found: dict[int, str] = {}
         for agent in sorted(self._places.positions.keys() | self._places.riding.keys()):
             places = self._places.positions.get(agent, {})
             place = next((place for f, place in places.items() if f in state), None)
