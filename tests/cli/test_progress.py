@@ -29,7 +29,7 @@ def on_screen(monkeypatch: pytest.MonkeyPatch, patience: float = 0.05) -> Screen
     """Put a screen where progress goes (in the test itself: pytest puts its own back before one)."""
     screen = Screen()
     monkeypatch.setattr(sys, "stderr", screen)
-    monkeypatch.setattr(progress_bar.Bar, "patience", patience)
+    monkeypatch.setattr(progress_bar.Bar, "first", patience)
     monkeypatch.setenv("TERM", "xterm")
     return screen
 

@@ -1,11 +1,7 @@
 """``serendipity reproduce`` on the command line."""
 
 import json
-import os
-import pty
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -58,29 +54,6 @@ def test_progress_in_lines(run: Runs, suite: Path) -> None:
     told = json.loads(last)
     assert (told["event"], told["what"], told["done"], told["total"]) == ("done", "tasks", 2, 2)
     assert "opportunities" in told
-
-
-def test_progress_on_a_terminal(suite: Path) -> None:
-    ours, theirs = pty.openpty()
-    command = [
-        sys.executable,
-        "-m",
-        "serendipity",
-        "reproduce",
-        str(suite),
-        *SHORT.split(),
-        "--format",
-        "csv",
-    ]
-    done = subprocess.run(
-        command, stdout=subprocess.PIPE, stderr=theirs, check=True, env=os.environ | {"TERM": "xterm"}
-    )
-    os.close(theirs)
-    shown = os.read(ours, 100_000).decode()
-    os.close(ours)
-    assert "opportunities" in shown
-    assert "2/2" in shown
-    assert done.stdout.startswith(b"test,mode,")
 
 
 @pytest.mark.usefixtures("suite")

@@ -9,7 +9,7 @@ import typer
 
 from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.streams import output
+from serendipity.cli.streams import output, progress
 from serendipity.cli.streams.manner import is_quiet
 from serendipity.cli.streams.stderr import broken_tasks, is_terminal, tell
 from serendipity.model.options import limit_of
@@ -72,14 +72,13 @@ def reproduce(
     form = to.prepare(_FORMATS)
     for name, file in (("--report", report), ("--journal", journal), ("--tables", tables)):
         output.check_output(file, name)
-    from serendipity.cli.streams.progress import shown
     from serendipity.evaluation.reproduction import reproduce as run_all
     from serendipity.evaluation.reproduction.tables import tables as tables_of
 
     kept = journal
     if kept is None and to.output_file is not None:
         kept = to.output_file.with_name(f"{to.output_file.name}.journal")
-    with shown() as on_progress:
+    with progress.counting("tasks") as on_progress:
         run = run_all(
             folder,
             modes=_listed(modes),
@@ -87,7 +86,7 @@ def reproduce(
             jobs=jobs,
             journal=kept,
             dask=dask,
-            on_progress=on_progress,
+            on_progress=lambda made: on_progress(made.done, made.total, opportunities=made.opportunities),
             time_limit=None if time_limit is None else limit_of("time_limit", time_limit, "seconds"),
             memory_limit=None if memory_limit is None else limit_of("memory_limit", memory_limit, "MiB"),
         )

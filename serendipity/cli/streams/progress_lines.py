@@ -1,29 +1,27 @@
-"""Progress where no terminal shows a bar: plain lines that get rarer, or one JSON object a line."""
+"""Progress that is said again and again: plain lines that get rarer, or one JSON object a line."""
 
 from abc import ABC, abstractmethod
 from threading import Event, Thread
 from time import monotonic
-from typing import Any, ClassVar, Final
+from typing import Any, ClassVar, Final, Self
 
 from serendipity.cli.streams.progress import Display
 from serendipity.cli.streams.stderr import tell, write_line
 
-PATIENCE: Final = 2.0
-"""Seconds of work before the first plain line; the next come after twice as long a pause each."""
-
 RAREST: Final = 60.0
 """Seconds between two plain lines at most."""
 
-EVERY: Final = 1.0
-"""Seconds between two JSON lines, news apart."""
 
+class RepeatedDisplay(Display, ABC):
+    """Says from a thread of its own how far some work is: first after a while, then after ever longer pauses.
 
-class _Lines(Display, ABC):
-    """Says again and again how far some work is, from a thread of its own."""
+    Attributes:
+        first: seconds of work before it says anything.
+        growth: by which each pause is longer than the one before.
+    """
 
     first: ClassVar[float]
     growth: ClassVar[float]
-    """By which each pause is longer than the one before."""
 
     def __init__(self, what: str) -> None:
         self.what = what
@@ -35,24 +33,24 @@ class _Lines(Display, ABC):
         self._over = Event()
         self._thread = Thread(target=self._repeat, daemon=True)
 
-    def open(self) -> None:
-        """Begin to count the seconds."""
+    def __enter__(self) -> Self:
         self._thread.start()
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *error: object) -> None:
+        self._over.set()
+        self._thread.join()
+        self.end(finished=kind is None)
 
     def count(self, done: int, total: int, **figures: float | None) -> None:
-        """Tell how far the work is."""
+        """See the base."""
         self.first_done = done if self.first_done is None else self.first_done
         self.done, self.total, self.figures = done, total, figures
         self.words = ", ".join(f"{value:g} {name}" for name, value in figures.items() if value is not None)
 
     def news(self, words: str, **figures: float | None) -> None:
-        """Tell what has been found."""
+        """See the base."""
         self.words, self.figures = words, figures
-
-    def close(self, *, finished: bool) -> None:
-        """Say no more."""
-        self._over.set()
-        self._thread.join()
 
     def seconds(self) -> float:
         """Since the work began."""
@@ -60,7 +58,11 @@ class _Lines(Display, ABC):
 
     @abstractmethod
     def say(self) -> None:
-        """Write a line."""
+        """Say how far it is."""
+
+    @abstractmethod
+    def end(self, *, finished: bool) -> None:
+        """Say that it is over, or broken off."""
 
     def _repeat(self) -> None:
         pause = self.first
@@ -69,10 +71,10 @@ class _Lines(Display, ABC):
             pause = min(self.growth * pause, RAREST)
 
 
-class PlainLines(_Lines):
+class PlainLines(RepeatedDisplay):
     """``searches: 12 of 182 (4 s, 56 s left)``."""
 
-    first, growth = PATIENCE, 2.0
+    first, growth = 2.0, 2.0
     _said = False
 
     def say(self) -> None:
@@ -89,17 +91,16 @@ class PlainLines(_Lines):
         pace = self.seconds() / (self.done - self.first_done)
         return f", {pace * (self.total - self.done):.0f} s left"
 
-    def close(self, *, finished: bool) -> None:
+    def end(self, *, finished: bool) -> None:
         """See the base."""
-        super().close(finished=finished)
         if finished and self._said:
             tell(f"{self.what}: done ({self.seconds():.0f} s)")
 
 
-class JsonLines(_Lines):
+class JsonLines(RepeatedDisplay):
     """``{"event": "answer", "what": "planning", "seconds": 0.12, "cost": 12.6, ...}``."""
 
-    first, growth = EVERY, 1.0
+    first, growth = 1.0, 1.0
 
     def news(self, words: str, **figures: float | None) -> None:
         """See the base."""
@@ -110,9 +111,8 @@ class JsonLines(_Lines):
         """See the base."""
         self._write("working")
 
-    def close(self, *, finished: bool) -> None:
+    def end(self, *, finished: bool) -> None:
         """See the base."""
-        super().close(finished=finished)
         if finished:
             self._write("done")
 

@@ -66,7 +66,7 @@ def _renderable(part: Line | Grid, width: int) -> "RenderableType":
         return Text(part.text, style=part.style)
     least = [_least(cells) for cells in zip_longest(part.header, *part.rows, fillvalue="")]
     if sum(least) + GAP * (len(least) - 1) > width:
-        return _blocks(part)
+        return Text(as_text([part]).removesuffix("\n"), overflow="fold")
     table = Table(box=None, pad_edge=False, padding=(0, GAP, 0, 0), header_style="bold")
     for i, heading in enumerate(part.header):
         table.add_column(
@@ -80,18 +80,3 @@ def _renderable(part: Line | Grid, width: int) -> "RenderableType":
 def _least(cells: Iterable[str]) -> int:
     """How narrow a column may get."""
     return max(len(cell) if len(cell) <= _WHOLE else max(_WHOLE, *map(len, cell.split())) for cell in cells)
-
-
-def _blocks(grid: Grid) -> "RenderableType":
-    """A grid that is wider than the terminal: a block for each row, a line for each cell."""
-    from rich.table import Table
-    from rich.text import Text
-
-    table = Table(box=None, pad_edge=False, padding=(0, GAP, 0, 0), show_header=False)
-    for i, row in enumerate(grid.rows):
-        style = "bold" if i in grid.marked else None
-        for heading, cell in zip(grid.header, row, strict=False):
-            if cell:
-                table.add_row(Text(heading), Text(cell), style=style)
-        table.add_row()
-    return table
