@@ -11,8 +11,6 @@ import serendipity
 from serendipity.model import Task
 from serendipity.pictures import Scene, build_scene, draw
 from serendipity.pictures.formats.svg import svg
-from serendipity.pictures.map.layout import lay_out
-from serendipity.pictures.map.places import find_places
 from serendipity.pictures.picture.map_picture import MARGIN, map_picture
 from serendipity.pictures.scene.scene import Meeting
 from serendipity.testing.builders import task as build
@@ -69,37 +67,13 @@ def test_labels_lie_apart_and_within_their_places(name: str) -> None:
         kept_apart(scene, frame.epoch)
 
 
-def test_places_grow_until_everything_in_them_is_named() -> None:
-    scene = played(lorry(6))
+@pytest.mark.parametrize("loads", [6, 60])
+def test_places_grow_until_everything_in_them_is_named(loads: int) -> None:
+    scene = played(lorry(loads))
     for frame in scene.frames:
         shown = kept_apart(scene, frame.epoch)
-        assert {f"object-{i}" for i in range(7)} <= shown.keys()
+        assert {f"object-{i}" for i in range(loads + 1)} <= shown.keys()
     assert all(box.height > 100 for box in scene.layout.boxes.values())
-
-
-def test_what_has_no_room_is_counted_and_can_be_looked_up() -> None:
-    scene = played(lorry(60))
-    tokens = kept_apart(scene, 0)
-    counted = tokens["more-place-west"]
-    named = {token.title for key, token in tokens.items() if key.startswith("object-")}
-    hidden = counted.title.split(", ")
-    assert counted.text == f"+{len(hidden)}"
-    assert named | set(hidden) == {*(f"consignment{i}" for i in range(1, 61)), "lorry"}
-    assert named.isdisjoint(hidden)
-
-
-def test_agents_are_the_last_to_be_counted(room2: Scene) -> None:
-    small = {place: replace(box, height=100.0) for place, box in room2.layout.boxes.items()}
-    tokens = kept_apart(replace(room2, layout=replace(room2.layout, boxes=small), meetings=()), 6)
-    assert {"agent-0", "agent-1"} <= tokens.keys()
-    assert tokens["more-place-hall4"].title == "mk2"
-
-
-def test_a_map_without_a_plan_has_room_for_a_meeting(room2: Scene) -> None:
-    places = find_places(serendipity.example("room2"))
-    tokens = kept_apart(replace(room2, layout=lay_out(places), meetings=()), 6)
-    kit = f"object-{list(room2.frames[0].objects).index('mk2')}"
-    assert {"agent-0", "agent-1", kit} <= tokens.keys()
 
 
 def test_who_drives_and_what_is_loaded_are_in_the_frame_of_the_lorry() -> None:

@@ -12,7 +12,6 @@ import pytest
 import serendipity
 from serendipity.model import Task, UsageError
 from serendipity.pictures import Scene, build_scene, draw
-from serendipity.pictures.formats.page import page
 from serendipity.pictures.picture.drawing import HUMAN, ROBOTS, on, wrapped
 from serendipity.pictures.picture.map_picture import tokens
 from tests.show.drawn import SVG
@@ -136,11 +135,6 @@ def test_what_tells_labels_apart_is_not_cut(one: str, other: str) -> None:
             lines, size = wrapped(text, 90, (14, 12, 11, 10, 9), 4, bold=bold)
             assert "".join(lines).replace(" ", "") == text.replace(" ", "")
             assert size >= 9
-
-
-def test_paper_has_every_epoch(room2: Scene) -> None:
-    rows = page(room2).partition('class="rows"')[2].partition("</section>")[0]
-    assert set(re.findall(r'data-column="(\d+)"', rows)) == {str(i) for i in range(len(room2.frames))}
 
 
 def test_a_still_of_a_large_building_shows_the_part_that_matters(tmp_path: Path) -> None:

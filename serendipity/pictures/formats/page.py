@@ -19,7 +19,6 @@ _WIDE: Final = 1200.0
 _SMALLEST: Final = 0.46  # nearly all of a building of nine cells on a phone
 _SMALLEST_WIDE: Final = 0.65
 _LARGEST: Final = 1.35
-_PRINTED: Final = 800.0  # width of a row on paper
 
 
 def page(scene: Scene) -> str:
@@ -44,7 +43,6 @@ def page(scene: Scene) -> str:
         last=last.epoch,
         labels=svg(timeline.lane_labels(scene), inline=True),
         lanes=svg(lanes, inline=True, id="lanes"),
-        rows=_rows(scene),
         bars=_bars(scene),
         table=_table(scene),
     )
@@ -80,7 +78,7 @@ def _frame(scene: Scene, frame: Frame) -> dict[str, Any]:
     last = scene.frames[-1]
     return {
         "caption": printable(frame.caption),
-        "tokens": {key: _token(key, token) for key, token in tokens(scene, frame).items()},
+        "tokens": {key: _token(token) for key, token in tokens(scene, frame).items()},
         "cost": f"{plain(frame.cost)} of {plain(last.cost)}",
         "former": f"{plain(frame.former_spent)} of {plain(last.former_spent)}",
         "formerValue": float(frame.former_spent),
@@ -92,24 +90,13 @@ def _frame(scene: Scene, frame: Frame) -> dict[str, Any]:
     }
 
 
-def _token(key: str, token: Token) -> list[float | int | str | None]:
-    """Centre and holder; for frames and counts also size, names and text."""
+def _token(token: Token) -> list[float | int | str | None]:
+    """Centre and holder; for frames also size and names."""
     spot = token.spot
     told: list[float | int | str | None] = [round(spot.x, 1), round(spot.y, 1), token.holder]
     if spot.names:
         told += [round(spot.width, 1), round(spot.height, 1), printable(", ".join(spot.names))]
-    return [*told, token.text] if key.startswith("more-") else told
-
-
-def _rows(scene: Scene) -> str:
-    """The timeline in rows, for paper, which can't be scrolled."""
-    labels = svg(timeline.lane_labels(scene), inline=True)
-    printed = int(_PRINTED / timeline.column(scene))
-    rows = (
-        timeline.timeline_picture(scene, first, first + printed - 1)
-        for first in range(0, len(scene.frames), printed)
-    )
-    return "".join(f"<div>{labels}{svg(row, inline=True)}</div>" for row in rows)
+    return told
 
 
 def _scenarios(scene: Scene) -> str:

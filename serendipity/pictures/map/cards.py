@@ -1,11 +1,9 @@
-"""Cards: what stands in one place, packed in rows; what is in or on something, in a card with it.
-
-What does not fit is counted: ``+3``.
-"""
+"""Cards: what stands in one place, packed in rows; what is in or on something, in a card with it."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from math import inf
 from typing import Final
 
 from serendipity.pictures.map.names import ems, shortened
@@ -32,8 +30,7 @@ class Card:
         width, height: of itself.
         beside: who rides it; they stand in its first row.
         inside: what it carries.
-        loose: whether it may be counted among others, where there is no room.
-        agent: whether it is an agent; they are the last to be counted.
+        loose: whether it stands behind those with agents.
     """
 
     key: str
@@ -43,12 +40,6 @@ class Card:
     beside: "tuple[Card, ...]" = ()
     inside: "tuple[Card, ...]" = ()
     loose: bool = False
-    agent: bool = False
-
-    @property
-    def framed(self) -> bool:
-        """Whether anything is with it."""
-        return bool(self.beside or self.inside)
 
     def names(self) -> Iterator[str]:
         """The names of all that is on the card."""
@@ -62,10 +53,10 @@ class Spot:
     """Where something stands: its centre and size.
 
     Attributes:
-        key: of its token; ``frame-...`` is the frame of a card, ``more-...`` counts what has no room.
+        key: of its token; ``frame-...`` is the frame of a card.
         x, y, width, height: in the picture's units.
         depth: in how many frames it is.
-        names: of what a frame holds or a count counts.
+        names: of what a frame holds.
     """
 
     key: str
@@ -99,7 +90,7 @@ def pill(name: str) -> tuple[str, float, float]:
 
 def agent_card(key: str, name: str, inside: tuple[Card, ...] = ()) -> Card:
     """The card of an agent with what it holds."""
-    return Card(key, name, 2 * RADIUS, 2 * RADIUS, inside=inside, agent=True)
+    return Card(key, name, 2 * RADIUS, 2 * RADIUS, inside=inside)
 
 
 def thing_card(key: str, name: str, beside: tuple[Card, ...] = (), inside: tuple[Card, ...] = ()) -> Card:
@@ -113,19 +104,11 @@ def fits(cards: tuple[Card, ...], width: float, height: float) -> bool:
 
 
 @lru_cache(maxsize=4096)
-def pack(cards: tuple[Card, ...], width: float, height: float, owner: str) -> tuple[Spot, ...]:
-    """The spots of cards in rows about (0, 0), all within an area; what has no room is counted.
-
-    Args:
-        cards: from the most important on.
-        width, height: of the area.
-        owner: whose count it is, for the key of the last ``+3``.
-    """
-    for fewer in _shortened(cards, owner):
-        block = _arranged(fewer, width, height)
-        if block is not None:
-            return tuple(spot.moved(-block.width / 2, -block.height / 2) for spot in block.spots)
-    return ()
+def pack(cards: tuple[Card, ...], width: float, height: float) -> tuple[Spot, ...]:
+    """The spots of cards in rows about (0, 0), all within an area that is large enough, else in one row."""
+    block = _arranged(cards, width, height) or _arranged(cards, inf, inf)
+    assert block is not None, "there is room for one row"
+    return tuple(spot.moved(-block.width / 2, -block.height / 2) for spot in block.spots)
 
 
 def _arranged(cards: Sequence[Card], width: float, height: float) -> _Block | None:
@@ -143,13 +126,9 @@ def _arranged(cards: Sequence[Card], width: float, height: float) -> _Block | No
 
 def _block(card: Card, columns: int) -> _Block:
     """A card with all that is on it."""
-    names = tuple(card.names()) if card.key.startswith("more-") else ()
-    own = _Block(
-        card.width,
-        card.height,
-        (Spot(card.key, card.width / 2, card.height / 2, card.width, card.height, names=names[1:]),),
-    )
-    if not card.framed or names:
+    spot = Spot(card.key, card.width / 2, card.height / 2, card.width, card.height)
+    own = _Block(card.width, card.height, (spot,))
+    if not card.beside and not card.inside:
         return own
     inside = [_block(each, columns) for each in card.inside]
     rows = [[*(_block(each, columns) for each in card.beside), own]]
@@ -186,53 +165,3 @@ def _rows(rows: Sequence[Sequence[_Block]]) -> _Block:
             x += block.width + _GAP
         y += high + _GAP
     return _Block(widest, max(0.0, y - _GAP), tuple(spots))
-
-
-def _shortened(cards: tuple[Card, ...], owner: str) -> Iterator[tuple[Card, ...]]:
-    """Cards with all that is on them, then with ever fewer things, then agents alone, then fewer of them."""
-    yield cards
-    most = max([len(card.inside) for card in cards] + [sum(card.loose for card in cards)], default=0)
-    for shown in range(most - 1, -1, -1):
-        yield _fewer(tuple(_lighter(card, shown) for card in cards), shown, owner)
-    agents = tuple(agent for card in cards for agent in _agents(card))
-    things = tuple(replace(card, beside=(), inside=()) for card in _things_on(cards))
-    for kept in range(len(agents), -1, -1):
-        rest = (*agents[kept:], *things)
-        yield (*agents[:kept], _count(rest, owner)) if rest else agents
-
-
-def _agents(card: Card) -> Iterator[Card]:
-    """The agents of a card, with nothing in their hands."""
-    if card.agent:
-        yield replace(card, inside=())
-    for each in (*card.beside, *card.inside):
-        yield from _agents(each)
-
-
-def _things_on(cards: Sequence[Card]) -> Iterator[Card]:
-    """All things on some cards."""
-    for card in cards:
-        if not card.agent:
-            yield card
-        yield from _things_on((*card.beside, *card.inside))
-
-
-def _lighter(card: Card, shown: int) -> Card:
-    """A card that names at most so many things that it carries."""
-    if len(card.inside) <= shown:
-        return card
-    return replace(card, inside=(*card.inside[:shown], _count(card.inside[shown:], card.key)))
-
-
-def _fewer(cards: tuple[Card, ...], shown: int, owner: str) -> tuple[Card, ...]:
-    """Cards of which at most so many loose ones are named."""
-    loose = [card for card in cards if card.loose]
-    if len(loose) <= shown:
-        return cards
-    return (*(c for c in cards if not c.loose), *loose[:shown], _count(tuple(loose[shown:]), owner))
-
-
-def _count(cards: tuple[Card, ...], owner: str) -> Card:
-    """The card that says how many have no room."""
-    number = sum(1 for card in cards for _ in card.names())
-    return Card(f"more-{owner}", "", pill(f"+{number}")[-1], PILL_HEIGHT, inside=cards, loose=True)

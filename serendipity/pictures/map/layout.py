@@ -5,7 +5,6 @@ plan the longest row of halls is a corridor, and what branches off lies beside i
 it, so that every two connected places share a wall.
 """
 
-import sys
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Final
@@ -156,8 +155,6 @@ _GAP: Final = 0.5  # between parts that no way connects, in cells
 Point = tuple[float, float]
 Size = tuple[float, float]
 """Width and height."""
-_USUAL: Final = ((3, 115.0), (6, 140.0), (sys.maxsize, 165.0))
-"""Sides of a cell by the most things that can be anywhere, where it is not known how many will be."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -203,15 +200,12 @@ class MapLayout:
         return tuple(dict.fromkeys([(a.x, a.y), corner, (b.x, b.y)]))
 
 
-def lay_out(places: Places, size: Size | None = None) -> MapLayout:
+def lay_out(places: Places, size: Size = (CELL, CELL)) -> MapLayout:
     """Lay out a map; parts that no way connects stand side by side.
 
     Args:
-        size: of a cell; a place has at least one. None: by how many things there are.
+        size: of a cell; a place has at least one.
     """
-    if size is None:
-        side = next(side for most, side in _USUAL if len(places.objects) <= most)
-        size = (side, side)
     graph: nx.Graph[str] = nx.Graph()
     graph.add_nodes_from(places.names)
     graph.add_edges_from(places.links)

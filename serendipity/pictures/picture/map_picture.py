@@ -7,7 +7,7 @@ from itertools import chain, count, pairwise
 from math import hypot
 from typing import Final
 
-from serendipity.pictures.map.cards import PILL_HEIGHT, PILL_SIZES, RADIUS, Spot, pack, pill
+from serendipity.pictures.map.cards import PILL_HEIGHT, RADIUS, Spot, pack, pill
 from serendipity.pictures.map.layout import Box, MapLayout
 from serendipity.pictures.map.names import ems
 from serendipity.pictures.picture.drawing import (
@@ -65,11 +65,6 @@ class Token:
         """Its centre."""
         return self.spot.x, self.spot.y
 
-    @property
-    def text(self) -> str:
-        """What a count says."""
-        return f"+{len(self.spot.names)}"
-
 
 def initials(agents: tuple[str, ...]) -> tuple[str, ...]:
     """Up to three letters that tell the agents apart: ``C``, ``R1``, ``R2``."""
@@ -95,7 +90,7 @@ def tokens(scene: Scene, frame: Frame) -> dict[str, Token]:
             continue
         box = scene.layout.boxes[place]
         width, height = room(box, tagged=place in tagged)
-        spots = pack(cards, width, height, f"place-{place}")
+        spots = pack(cards, width, height)
         spare = height / 2 - max((spot.y + spot.height / 2 for spot in spots), default=0.0)
         lower = LABEL_HEIGHT + (height - box.height) / 2  # the middle of the room, below that of the box
         y = box.y + max(0, lower - spare) + min(0, lower + spare)
@@ -322,10 +317,6 @@ def _tokens(scene: Scene, epoch: int) -> Iterator[Shape]:
             holder = now[key].holder if key in now else None
             colour = None if holder is None else colours[holder]
             yield _token(key, now, _pill(name, colour, carries=name in scene.vehicles), name)
-    for key in ever:
-        if key.startswith("more-"):
-            token = now.get(key, ever[key])
-            yield _token(key, now, _more(token), ", ".join(token.spot.names))
 
 
 def _frame(key: str, token: Token, colours: dict[int, str], *, shown: bool) -> Group:
@@ -346,14 +337,6 @@ def _pill(name: str, holder: str | None, *, carries: bool) -> tuple[Shape, ...]:
     half = PILL_HEIGHT / 2
     outline = Rect(-width / 2, -half, width, PILL_HEIGHT, style, round=4 if carries else half)
     return outline, Text(0, 0, text, size, INK)
-
-
-def _more(token: Token) -> tuple[Shape, ...]:
-    """How many there is no room for."""
-    spot = token.spot
-    paint = Style(FAINT_INK)
-    sheet = Rect(-spot.width / 2, -spot.height / 2, spot.width, spot.height, paint, round=spot.height / 2)
-    return sheet, Text(0, 0, token.text, PILL_SIZES[1], PAPER, bold=True)
 
 
 def _token(key: str, now: dict[str, Token], shapes: tuple[Shape, ...], title: str) -> Group:

@@ -15,9 +15,23 @@ LEAST_LABEL: Final = 15.0
 """Smallest size of a place's name."""
 LABEL_HEIGHT: Final = 30.0
 TAG_HEIGHT: Final = 19.0
-_SIDE: Final = 6.0  # between the wall of a place and what is in it
-_WIDTHS: Final = (CELL, 112.0, 125.0, 140.0, 160.0, 180.0, 200.0, 225.0, 250.0)
-_HEIGHTS: Final = (CELL, 112.0, 125.0, 140.0, 160.0, 180.0)
+_EDGE: Final = 6.0  # between the wall of a place and what is in it
+_SIDES: Final = (
+    CELL,
+    112.0,
+    125.0,
+    140.0,
+    160.0,
+    180.0,
+    200.0,
+    225.0,
+    250.0,
+    300.0,
+    360.0,
+    430.0,
+    520.0,
+    620.0,
+)
 _WIDEST_FOR_NAME: Final = 160.0
 _HIGHER: Final = 1.15  # than wide, at most
 
@@ -52,7 +66,7 @@ def crowds(scene: Scene, frame: Frame) -> dict[str, tuple[Card, ...]]:
 
 def room(box: Box, *, tagged: bool) -> tuple[float, float]:
     """The width and height that a place has for its crowd."""
-    return box.width - 2 * _SIDE, box.height - LABEL_HEIGHT - _SIDE - (TAG_HEIGHT + 2 if tagged else 0)
+    return box.width - 2 * _EDGE, box.height - LABEL_HEIGHT - _EDGE - (TAG_HEIGHT + 2 if tagged else 0)
 
 
 def tagged_places(scene: Scene) -> frozenset[str]:
@@ -67,7 +81,7 @@ def cell_size(scene: Scene, places: tuple[str, ...]) -> tuple[float, float]:
         (cards, place in tagged) for frame in scene.frames for place, cards in crowds(scene, frame).items()
     }
     name = max(map(ems, places)) * LEAST_LABEL + 14 + (24 if scene.goals else 0)
-    sizes = sorted(product(_WIDTHS, _HEIGHTS), key=lambda size: size[0] * size[1])
+    sizes = sorted(product(_SIDES, _SIDES), key=lambda size: size[0] * size[1])
     for width, height in sizes:
         if height > _HIGHER * width or width < min(name, _WIDEST_FOR_NAME):
             continue

@@ -11,12 +11,11 @@
 
   const move = (element, x, y) => element.setAttribute("transform", `translate(${x} ${y})`);
 
-  // A frame about several, or a count: as large as it has to be, and with their names.
-  function drawSheet(token, outline, [, , , width, height, names, text]) {
+  // A frame about several: as large as it has to be, and with their names.
+  function drawSheet(token, outline, [, , , width, height, names]) {
     const sheet = { x: -width / 2, y: -height / 2, width, height };
     for (const [name, value] of Object.entries(sheet)) outline.setAttribute(name, value);
     token.querySelector("title").textContent = names;
-    if (text) token.querySelector("text").textContent = text;
   }
 
   function drawTokens(frame) {
