@@ -12,6 +12,7 @@ from typing import NamedTuple
 from unified_planning.model import Effect as UPEffect
 from unified_planning.model import Fluent, FNode, Variable
 from unified_planning.model import Parameter as UPParameter
+from unified_planning.model.walkers.dnf import Nnf
 
 from serendipity.model import InputError
 from serendipity.pddl.parsing import lifted
@@ -45,40 +46,39 @@ class Reader:
         self.quantified = False
         self._owner = owner
         self._fresh = 0
+        self._nnf = Nnf(vocabulary.problem.environment)
 
-    def formula(self, node: FNode, bound: Bound | None = None, *, positive: bool = True) -> lifted.Formula:
-        """A condition, or with ``positive=False`` its negation.
+    def formula(self, node: FNode, bound: Bound | None = None) -> lifted.Formula:
+        """A condition.
 
         Raises:
             InputError: it is about numbers, or anything else that is not supported.
         """
-        bound = bound or {}
-        if node.is_bool_constant():
-            return lifted.And() if node.bool_constant_value() == positive else lifted.Or()
-        if node.is_not():
-            return self.formula(node.arg(0), bound, positive=not positive)
+        return self._normal(self._nnf.get_nnf_expression(node), bound or {})
+
+    def denied(self, node: FNode, bound: Bound) -> lifted.Formula:
+        """The negation of a condition, likewise."""
+        return self.formula(node.environment.expression_manager.Not(node), bound)
+
+    def _normal(self, node: FNode, bound: Bound) -> lifted.Formula:
+        """A condition in which only atoms and quantifiers are negated."""
         if node.is_and() or node.is_or():
-            parts = tuple(self.formula(part, bound, positive=positive) for part in node.args)
-            return lifted.And(parts) if node.is_and() == positive else lifted.Or(parts)
-        if node.is_implies():
-            first, second = node.args
-            parts = (
-                self.formula(first, bound, positive=not positive),
-                self.formula(second, bound, positive=positive),
-            )
-            return lifted.Or(parts) if positive else lifted.And(parts)
-        if node.is_iff():
-            return self._alike(node, bound, positive)
-        if node.is_exists() or node.is_forall():
-            inner, parameters = self.bind(node.variables(), bound)
+            parts = tuple(self._normal(part, bound) for part in node.args)
+            return lifted.And(parts) if node.is_and() else lifted.Or(parts)
+        positive = not node.is_not()
+        atom = node if positive else node.arg(0)
+        if atom.is_bool_constant():
+            return lifted.And() if atom.bool_constant_value() == positive else lifted.Or()
+        if atom.is_exists() or atom.is_forall():
+            inner, parameters = self.bind(atom.variables(), bound)
             self.quantified = True
-            body = self.formula(node.arg(0), inner, positive=positive)
-            return lifted.Quantified(node.is_forall() == positive, parameters, body)
-        if node.is_equals():
-            return self._equal(node, bound, positive)
-        if node.is_fluent_exp() or node.is_dot():
-            return self._closed(self._fluent(node, bound), positive)
-        raise self.error(f"'{node}' is not supported as a condition")
+            body = self.formula(atom.arg(0), inner) if positive else self.denied(atom.arg(0), inner)
+            return lifted.Quantified(atom.is_forall() == positive, parameters, body)
+        if atom.is_equals():
+            return self._equal(atom, bound, positive)
+        if atom.is_fluent_exp() or atom.is_dot():
+            return self._closed(self._fluent(atom, bound), positive)
+        raise self.error(f"'{atom}' is not supported as a condition")
 
     def bind(
         self, variables: Sequence[Variable], bound: Bound
@@ -156,16 +156,6 @@ class Reader:
             positive,
         )
 
-    def _alike(self, node: FNode, bound: Bound, positive: bool) -> lifted.Formula:
-        left, right = node.args
-        same, other = (
-            lifted.And(
-                (self.formula(left, bound, positive=first), self.formula(right, bound, positive=second))
-            )
-            for first, second in ((True, positive), (False, not positive))
-        )
-        return lifted.Or((same, other))
-
     def _closed(self, atom: Term, positive: bool) -> lifted.Formula:
         literal = lifted.Literal(lifted.Key(atom.words), positive)
         if not atom.hidden:
@@ -217,8 +207,7 @@ def _assigned(
     if value.is_bool_constant():
         yield _effect(lifted.Literal(target, value.bool_constant_value()), parameters, conditions)
         return
-    for truth in (True, False):
-        case = reader.formula(value, bound, positive=truth)
+    for truth, case in ((True, reader.formula(value, bound)), (False, reader.denied(value, bound))):
         yield _effect(lifted.Literal(target, truth), parameters, (*conditions, case))
 
 
