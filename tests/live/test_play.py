@@ -239,8 +239,8 @@ def test_sentences_of_a_file(tmp_path: Path) -> None:
     assert view["goal"][0]["text"] == "conducted triage room1", "what has no label is said by its name"
     assert DomainLabels(things={"mk": "the kit {}"}).thing("mk12") == "the kit mk12"
     (tmp_path / "ground").mkdir()
-    assert DomainLabels(actions={"pick_up": ("get {1}",)}).action("pick_up_commx_mk1") == (
-        ("get {1}",),
+    assert DomainLabels(actions={"pick_up": ["get {1}"]}).action("pick_up_commx_mk1") == (
+        ["get {1}"],
         ("commx", "mk1"),
     )
 

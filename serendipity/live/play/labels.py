@@ -2,12 +2,11 @@
 
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from string import Formatter
-from typing import Final, TypeVar
+from typing import Annotated, Final, TypeVar
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
 
 from serendipity.model import GroundAction, InputError, PlanStep, Task
 from serendipity.model.task.execution import actions_named
@@ -22,20 +21,24 @@ Parsed = tuple[str, tuple[str, ...]]
 """The name of a schema, and its arguments."""
 
 
-class _File(BaseModel):
-    """What a file of labels may hold."""
+def _sentences(given: object) -> list[str]:
+    told = [given] if isinstance(given, str) else given
+    if not isinstance(told, list) or not told or not all(isinstance(sentence, str) for sentence in told):
+        raise ValueError("expected a sentence")
+    for sentence in told:
+        try:
+            list(_numbers(sentence))
+        except ValueError:
+            raise ValueError(f"expected {{0}}, {{1}} ... only, got '{sentence}'") from None
+    return told
 
-    model_config = ConfigDict(extra="forbid", strict=True)
 
-    about: list[str] = []
-    things: dict[str, str] = {}
-    actions: dict[str, str | list[str]] = {}
-    goals: dict[str, str] = {}
+Sentences = Annotated[list[str], BeforeValidator(_sentences)]
+"""What each who takes part does, or one sentence for all."""
 
 
-@dataclass(frozen=True, slots=True)
-class DomainLabels:
-    """Words for a domain.
+class DomainLabels(BaseModel):
+    """Words for a domain, as a file has them.
 
     Attributes:
         about: paragraphs on what one does there.
@@ -45,16 +48,18 @@ class DomainLabels:
         goals: what to do for a fact to hold, likewise.
     """
 
-    about: tuple[str, ...] = ()
-    things: Mapping[str, str] = field(default_factory=dict)
-    actions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    goals: Mapping[str, str] = field(default_factory=dict)
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+    about: list[str] = []
+    things: dict[str, str] = {}
+    actions: dict[str, Sentences] = {}
+    goals: dict[str, Sentences] = {}
 
     def thing(self, name: str) -> str:
         """A thing or a robot."""
         return self.things.get(name, self.things.get(name.rstrip("0123456789"), "{}")).replace("{}", name)
 
-    def action(self, name: str) -> tuple[tuple[str, ...], tuple[str, ...]] | None:
+    def action(self, name: str) -> tuple[list[str], tuple[str, ...]] | None:
         """The sentences of an action, and its arguments; None without a label."""
         schema, arguments = _parsed(name, self.actions)
         return None if schema not in self.actions else (self.actions[schema], arguments)
@@ -62,7 +67,7 @@ class DomainLabels:
     def goal(self, fact: str) -> tuple[str, tuple[str, ...]] | None:
         """The sentence of a fact that is wanted, and its arguments; None without a label."""
         schema, arguments = _parsed(fact, self.goals)
-        return None if schema not in self.goals else (self.goals[schema], arguments)
+        return None if schema not in self.goals else (self.goals[schema][0], arguments)
 
     def complete(self, task: Task) -> bool:
         """Whether everything that can be done or is wanted in a task has its sentence."""
@@ -72,10 +77,10 @@ class DomainLabels:
 
     def fault(self, task: Task) -> str | None:
         """The first sentence that asks for an argument that there is not."""
-        named = [(self.actions.get(s, ()), a, f"actions.{s}") for s, a in _schemas(task, self.actions)]
+        named = [(self.actions.get(s, []), a, f"actions.{s}") for s, a in _schemas(task, self.actions)]
         for fact in (*task.goal.positive, *task.goal.negative):
             schema, arguments = _parsed(task.facts[fact], self.goals)
-            named.append(((self.goals.get(schema, ""),), arguments, f"goals.{schema}"))
+            named.append((self.goals.get(schema, []), arguments, f"goals.{schema}"))
         for sentences, arguments, where in named:
             most = max((number for s in sentences for number in _numbers(s)), default=-1)
             if most >= len(arguments):
@@ -90,33 +95,12 @@ def labels_for(task: Task, file: Path | None = None) -> DomainLabels:
         InputError: the file is wrong; it says where.
     """
     if file is not None:
-        labels = read_labels(file)
+        labels = read_settings(file, DomainLabels)
         if fault := labels.fault(task):
             raise InputError(fault, file)
         return labels
-    shipped = (read_labels(file) for file in sorted(DATA.glob(f"*/{_FILE}")))
+    shipped = (read_settings(file, DomainLabels) for file in sorted(DATA.glob(f"*/{_FILE}")))
     return next((labels for labels in shipped if labels.complete(task)), DomainLabels())
-
-
-def read_labels(file: Path) -> DomainLabels:
-    """The labels of a file.
-
-    Raises:
-        InputError: it can't be read, or has something else in it; it says where.
-    """
-    held = read_settings(file, _File)
-    actions = {name: (s,) if isinstance(s, str) else tuple(s) for name, s in held.actions.items()}
-    sentences = {f"actions.{name}": told for name, told in actions.items()}
-    sentences |= {f"goals.{name}": (told,) for name, told in held.goals.items()}
-    for where, told in sentences.items():
-        if not told:
-            raise InputError(f"{where}: expected a sentence", file)
-        for sentence in told:
-            try:
-                list(_numbers(sentence))
-            except ValueError:
-                raise InputError(f"{where}: expected {{0}}, {{1}} ... only, got '{sentence}'", file) from None
-    return DomainLabels(tuple(held.about), held.things, actions, held.goals)
 
 
 def _numbers(sentence: str) -> Iterator[int]:
@@ -233,5 +217,6 @@ def read_settings(file: Path, model: type[Held]) -> Held:
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"]))
-        said = first["msg"][:1].lower() + first["msg"][1:]
+        said = first["msg"].removeprefix("Value error, ")
+        said = said[:1].lower() + said[1:]
         raise InputError(f"{where}: {said}", file) from None
