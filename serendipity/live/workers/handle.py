@@ -10,10 +10,10 @@ from contextlib import suppress
 from tempfile import mkdtemp
 from typing import Final
 
-from serendipity.live.workers.messages import Incoming, Message
+from serendipity.live.workers.messages import Message
 
-_HEAD: Final = 2**20
-"""The longest first line of a message."""
+_LONGEST: Final = 2**30
+"""Bytes of a message, at most."""
 
 
 class Handle:
@@ -25,10 +25,8 @@ class Handle:
     """
 
     def __init__(self, process: Process, folder: str) -> None:
-        assert process.stdout is not None
         self._process = process
         self._folder = folder
-        self._incoming = Incoming(process.stdout)
         self.working = False
         self.resident = 0
 
@@ -41,7 +39,7 @@ class Handle:
             stdin=PIPE,
             stdout=PIPE,
             start_new_session=True,
-            limit=_HEAD,
+            limit=_LONGEST,
         )
         return cls(process, folder)
 
@@ -70,7 +68,8 @@ class Handle:
         Raises:
             EOFError: it was killed.
         """
-        frame = await self._incoming.next()
+        assert self._process.stdout is not None
+        frame = Message.decoded(await self._process.stdout.readline())
         if frame.head["kind"] in ("end", "error"):
             self.working = False
             self.resident = frame.head["resident"]

@@ -12,10 +12,11 @@ import signal
 import sys
 import tempfile
 import threading
+from contextlib import suppress
 from typing import IO, Final
 
 from serendipity.live.workers.jobs import JOBS, State, WorkerState
-from serendipity.live.workers.messages import Message, read
+from serendipity.live.workers.messages import Message
 from serendipity.model import Deadline, LimitReachedError, SerendipityError
 from serendipity.model.errors import limit_words
 from serendipity.model.resources.deadline import MIB
@@ -57,13 +58,15 @@ class Worker:
 
     def _listen(self) -> None:
         current = threading.Event()
-        while (frame := read(self._source)) is not None:
-            if frame.head["kind"] == "cancel":
-                current.set()
-                self._state.cancel()
-            else:
-                current = threading.Event()
-                self._jobs.put((frame, current))
+        with suppress(EOFError):
+            while True:
+                frame = Message.decoded(self._source.readline())
+                if frame.head["kind"] == "cancel":
+                    current.set()
+                    self._state.cancel()
+                else:
+                    current = threading.Event()
+                    self._jobs.put((frame, current))
         self._end()
 
     def _work(self, job: Message, cancelled: threading.Event) -> None:
