@@ -5,10 +5,13 @@ what needs it.  When actions begin is a simple temporal network (Dechter, Meiri 
 to come before what; each begins as early as it can, and not before its epoch does.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
+from typing import Final
+
+from unified_planning.model.delta_stn import DeltaSimpleTemporalNetwork
 
 from serendipity.model import GroundAction, PlanError, PlanStep, Task
 from serendipity.model.task.actions import State, disables
@@ -16,6 +19,9 @@ from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.up.steps import variant_in
 
 _Facts = frozenset[int]
+
+_ZERO: Final = "zero"
+"""The time at which the first epoch begins; other times are those of steps, by their indices."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,41 +61,27 @@ def start_times(task: Task, steps: Sequence[PlanStep], lasting: Sequence[bool]) 
     """
     events = _played(task, steps, lasting)
     pause = task.epoch / 10 ** len(str(100 * (len(steps) + 1)))
-    times = [(step.epoch - 1) * task.epoch for step in steps]
-    latest: list[tuple[int, Fraction]] = []
+    network: DeltaSimpleTemporalNetwork[Fraction] = DeltaSimpleTemporalNetwork()
+    for number, step in enumerate(steps):
+        network.insert_interval(_ZERO, number, left_bound=(step.epoch - 1) * task.epoch)
     for fact in task.script.facts:
         at = fact.epoch * task.epoch
         for event in events:
             if fact.fact in event.asked | event.changed:
                 if event.epoch > fact.epoch:
-                    times[event.step] = max(times[event.step], at + pause - event.offset)
+                    network.insert_interval(_ZERO, event.step, left_bound=at + pause - event.offset)
                 elif fact.fact in event.missing and event.epoch == fact.epoch:
-                    times[event.step] = max(times[event.step], at - event.offset)
+                    network.insert_interval(_ZERO, event.step, left_bound=at - event.offset)
                 else:
-                    latest.append((event.step, at - event.offset - pause * (fact.fact in event.changed)))
-    gaps: dict[tuple[int, int], Fraction] = {}
-    for first, second, apart in _orders(events):
-        gap = first.offset - second.offset + pause * apart
-        pair = first.step, second.step
-        gaps[pair] = max(gaps.get(pair, gap), gap)
-    if not _settled(times, sorted(gaps.items())) or any(times[step] > time for step, time in latest):
+                    apart = pause * (fact.fact in event.changed)
+                    network.insert_interval(_ZERO, event.step, right_bound=at - event.offset - apart)
+    for first, second, is_apart in _orders(events):
+        gap = first.offset - second.offset + pause * is_apart
+        network.insert_interval(first.step, second.step, left_bound=gap)
+    if not network.check_stn():
         words = ", ".join(f"'{step.action}'" for step in steps[:3]) + ", ..." * (len(steps) > 3)
         raise PlanError(f"{words}: can be done in epochs only, and no plan of unified-planning says so")
-    return times
-
-
-def _settled(times: list[Fraction], gaps: Iterable[tuple[tuple[int, int], Fraction]]) -> bool:
-    """Whether there are times with these gaps; then ``times`` become the earliest."""
-    gaps = list(gaps)
-    for _ in range(len(times) + 1):
-        changed = False
-        for (first, second), gap in gaps:
-            if times[first] + gap > times[second]:
-                times[second] = times[first] + gap
-                changed = True
-        if not changed:
-            return True
-    return False
+    return [network.get_stn_model(number) for number in range(len(steps))]
 
 
 def _played(task: Task, steps: Sequence[PlanStep], lasting: Sequence[bool]) -> list[Event]:
