@@ -1,6 +1,7 @@
 """``serendipity play``: a page on which a person plays the human."""
 
 from contextlib import nullcontext
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final
 
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 _EXAMPLE: Final = "room2"
 _VIEWS: Final = ("observant", "local")
 _CONDITIONS: Final = ("none", "silent", "announced")
-_USUAL: Final = {"view": "observant", "discount": "0.6", "deadline": "2"}
+_USUAL: Final = {"view": "observant", "discount": Fraction(3, 5), "deadline": 2.0}
 _RECORDS: Final = Path("serendipity-play")
 
 
@@ -73,8 +74,7 @@ def play(
     ] = None,
 ) -> int:
     """Play the human yourself, on a page of this machine. It needs serendipity-planner[live]."""
-    given = {"view": view, "discount": discount, "deadline": deadline}
-    how = _checked(given, robots)
+    given = _given(view, robots, discount, deadline)
     named = bool(task.files or task.agent or task.example)
     _fits(
         study is not None,
@@ -104,7 +104,9 @@ def play(
         from serendipity.live.study.design import open_design
         from serendipity.live.study.study import Study
 
-        settings = _settings(given, rounds, seed)
+        settings = {"rounds": rounds, "seed": seed, **given}
+        if "discount" in given:
+            settings["discount"] = str(given["discount"])
         with nullcontext() if report else connections.listening(host, port) as listener:
             with progress.working("playing scenarios"):
                 design = open_design(study, labels, **settings)
@@ -131,8 +133,9 @@ def play(
     with connections.listening(host, port) as listener:  # first, or a port in use leaves an empty record
         with progress.working("getting ready"):
             where = record_in(records or _RECORDS)
-            how |= {"condition": robots or "silent", "goals": goals, "labels": labels_for(loaded, labels)}
-            opened = SharedRounds(RoundSetting(shown or loaded.name, loaded, **how), where)
+            how: dict[str, Any] = {**_USUAL, **given, "condition": robots or "silent", "goals": goals}
+            setting = RoundSetting(shown or loaded.name, loaded, labels=labels_for(loaded, labels), **how)
+            opened = SharedRounds(setting, where)
         _say(
             f"Play on {connections.url(listener)}; Ctrl-C stops it. Recorded in {where}.\n"
             f"To go on with this round another time: --records {where}\n"
@@ -146,17 +149,18 @@ def _say(text: str) -> None:
         output.say(text)
 
 
-def _checked(given: dict[str, str | None], robots: str | None) -> dict[str, Any]:
-    """How a round is played, by what is given or usual."""
-    for name, value, known in (("--view", given["view"], _VIEWS), ("--robots-are", robots, _CONDITIONS)):
+def _given(
+    view: str | None, robots: str | None, discount: str | None, deadline: str | None
+) -> dict[str, Any]:
+    """What is said of how a round is played, checked."""
+    for name, value, known in (("--view", view, _VIEWS), ("--robots-are", robots, _CONDITIONS)):
         if value is not None and value not in known:
             raise UsageError(f"{name}: expected one of {', '.join(known)}, got '{value}'")
-    told = {name: given[name] or usual for name, usual in _USUAL.items()}
-    share = exact(told["discount"], "discount")
-    if not 0 <= share <= 1:
-        raise UsageError(f"discount: expected a number in [0, 1], got {told['discount']}")
-    seconds = limit_of("deadline", told["deadline"], "seconds")
-    return {"view": told["view"], "discount": share, "deadline": seconds}
+    share = None if discount is None else exact(discount, "discount")
+    if share is not None and not 0 <= share <= 1:
+        raise UsageError(f"discount: expected a number in [0, 1], got {discount}")
+    seconds = None if deadline is None else limit_of("deadline", deadline, "seconds")
+    return planning.given(view=view, discount=share, deadline=seconds)
 
 
 def _fits(study: bool, *, beside: dict[str, bool], only: dict[str, bool]) -> None:
@@ -166,11 +170,3 @@ def _fits(study: bool, *, beside: dict[str, bool], only: dict[str, bool]) -> Non
         raise UsageError(f"--study: has scenarios, conditions and records of its own: leave out {wrong}")
     if wrong is not None:
         raise UsageError(f"{wrong}: goes with --study")
-
-
-def _settings(given: dict[str, str | None], rounds: int | None, seed: int | None) -> dict[str, Any]:
-    """What a study is asked to be; None where it is as it was begun."""
-    seconds = None if given["deadline"] is None else limit_of("deadline", given["deadline"], "seconds")
-    share = given["discount"]
-    discount = None if share is None else str(exact(share, "discount"))
-    return {"rounds": rounds, "seed": seed, "view": given["view"], "discount": discount, "deadline": seconds}

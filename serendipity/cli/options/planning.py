@@ -138,6 +138,6 @@ def _shown(name: str) -> Any:
     return _OTHERS[name] if name in _OTHERS else Annotated[str | None, told(name)]
 
 
-def given(**options: str | bool | Path | None) -> dict[str, Any]:
+def given(**options: object) -> dict[str, Any]:
     """The options that the user gave; what is left out keeps its default."""
     return {name: value for name, value in options.items() if value is not None}
