@@ -184,12 +184,19 @@ def _robots(result: Result) -> list[str]:
 
 def opening(result: Result, robots: Sequence[str]) -> Iterator[Line | Grid]:
     """The headlines of an answer, and the plan in parallel columns."""
-    yield from map(Line, _headlines(result))
+    yield from map(Line, headlines(result))
+    if result.window is not None:
+        last = result.window.end - 1
+        epochs = f"epoch {last}" if len(result.window) == 1 else f"epochs {result.window.start} to {last}"
+        who = result.human
+        phases = f"before it {who} follows the former plan, after it {who} goes on alone"
+        yield Line(f"window: {epochs} (marked *); {phases}")
     if result.plan is not None and (result.plan or result.human_plan):
         yield from (Line(), _columns(result, robots), Line())
 
 
-def _headlines(result: Result) -> Iterator[str]:
+def headlines(result: Result) -> Iterator[str]:
+    """The call and its answer in a line, and what that costs."""
     yield f"{', '.join(_options(result.options))}: {_summary(result)}"
     if result.human_plan == ():
         yield f"{result.human}'s goal holds already, so there is nothing to help {result.human} with"
@@ -199,12 +206,6 @@ def _headlines(result: Result) -> Iterator[str]:
         yield _costs(result.human_cost, result.cost, result.saving if result.opportunity else None)
     elif result.cost is not None:
         yield f"cost {plain(result.cost)}"
-    if result.window is not None:
-        last = result.window.end - 1
-        epochs = f"epoch {last}" if len(result.window) == 1 else f"epochs {result.window.start} to {last}"
-        who = result.human
-        phases = f"before it {who} follows the former plan, after it {who} goes on alone"
-        yield f"window: {epochs} (marked *); {phases}"
 
 
 def _costs(before: float, after: float, saving: float | None) -> str:

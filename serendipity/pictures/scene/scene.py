@@ -4,12 +4,15 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from itertools import takewhile
 
 from serendipity.model import PlanStep, Result, Task
 from serendipity.model.answers.histories import History
-from serendipity.model.answers.over_scenarios import MEASURES
-from serendipity.model.numbers import as_written, plain
+from serendipity.model.answers.over_scenarios import over_scenarios
+from serendipity.model.answers.result import headlines
+from serendipity.model.numbers import plain
 from serendipity.model.task.variables import Variable
+from serendipity.model.telling import Line
 from serendipity.pictures.map.layout import MapLayout
 from serendipity.pictures.map.places import Whereabouts
 
@@ -268,44 +271,25 @@ class Scene:
 
 
 def headline(scene: Scene) -> str:
-    """The answer in one sentence."""
-    result, human = scene.result, scene.agents[scene.human]
-    if result.status == "infeasible":
-        return "There is no plan at all (proved)"
-    if result.status == "unknown":
-        return "The time limit came before any plan"
-    if result.plan is None:
-        return f"No single plan: figures over all optimal plans of {human}"
-    if result.opportunity and scene.histories:
-        helps = "watch" if result.options.policy == "watching" else "don't watch, but help"
-        return f"The robots {helps} {human}: {_saved(scene)}"
-    if result.opportunity and scene.meetings:
-        first = scene.meetings[0]
-        return f"{first.text[:1].upper()}{first.text[1:]} at epoch {first.epoch}: {_saved(scene)}"
-    if result.opportunity:
-        return f"The robots help {human}: {_saved(scene)}"
-    if result.human_plan == () and not result.plan:
-        return f"No help is needed: the goal of {human} holds already"
-    if result.mode in ("serendipity", "communication"):
-        return f"No help pays: {human} keeps the former plan"
-    return f"A plan of cost {plain(result.cost or 0)}"
+    """What happens first that helps, else the answer in a line."""
+    return _told(scene)[0]
 
 
 def subtitle(scene: Scene) -> str:
-    """Task, mode, options, costs and window."""
-    result = scene.result
-    words = [scene.name, result.mode]
-    turns = result.mode == "assistance"
-    if result.options.discount and not turns:
-        words.append(f"discount {plain(float(result.options.discount))}")
-    if result.cost is not None and result.human_cost is not None and not turns and not scene.histories:
-        words.append(f"cost {plain(result.human_cost)} → {plain(result.cost)}")
-    if result.window is not None and not scene.histories:
-        first, last = result.window.start, result.window.end - 1
-        words.append(f"window: epoch {first}" if first == last else f"window: epochs {first} to {last}")
-    if result.status == "optimal":
-        words.append("proved to be the best")
-    return " · ".join(words)
+    """The task, and the rest of what the text of the answer begins with."""
+    return " · ".join((scene.name, *_told(scene)[1:]))
+
+
+def _told(scene: Scene) -> list[str]:
+    if scene.histories:
+        return list(
+            takewhile(bool, (part.text for part in over_scenarios(scene.result) if isinstance(part, Line)))
+        )
+    lines = list(headlines(scene.result))
+    if scene.result.opportunity and scene.meetings:
+        first = scene.meetings[0]
+        return [f"{first.text[:1].upper()}{first.text[1:]} at epoch {first.epoch}", *lines]
+    return lines
 
 
 def scenario_lines(scene: Scene) -> Iterator[tuple[str, bool]]:
@@ -315,17 +299,3 @@ def scenario_lines(scene: Scene) -> Iterator[tuple[str, bool]]:
         words = f"probability {entry.probability:.4g}, cost {plain(entry.cost or 0)}{window}"
         chosen = i == scene.scenario
         yield f"{i + 1} {entry.name}: {words}{' (played here)' * chosen}", chosen
-
-
-def _saved(scene: Scene) -> str:
-    result = scene.result
-    measure = MEASURES[result.options.risk] if scene.histories else "cost"
-    if result.mode == "assistance":
-        human = scene.agents[scene.human]
-        own = result.agent_costs.get(human, 0)
-        others = sum(as_written(c) for name, c in result.agent_costs.items() if name != human)
-        before = "" if result.human_cost is None else f"{plain(result.human_cost)} → "
-        return f"{before}{plain(own)} for {human}, {plain(others)} for the others"
-    if result.saving is None or result.human_cost is None or result.cost is None:
-        return "a plan together"
-    return f"{measure} {plain(result.human_cost)} → {plain(result.cost)}, {plain(result.saving)} saved"
