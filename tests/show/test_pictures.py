@@ -5,7 +5,6 @@ import re
 import sys
 import xml.etree.ElementTree as ET
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -135,13 +134,3 @@ def test_what_tells_labels_apart_is_not_cut(one: str, other: str) -> None:
             lines, size = wrapped(text, 90, (14, 12, 11, 10, 9), 4, bold=bold)
             assert "".join(lines).replace(" ", "") == text.replace(" ", "")
             assert size >= 9
-
-
-def test_a_still_of_a_large_building_shows_the_part_that_matters(tmp_path: Path) -> None:
-    serendipity.generate_usar(tmp_path, rooms=84, medkits=4, robots=2, seed=3)
-    task = serendipity.load(tmp_path)
-    scene = build_scene(task, serendipity.plan(task, discount="0.9"))
-    root = ET.fromstring(str(draw(scene, ".svg")))
-    assert float(root.attrib["width"]) < scene.layout.width
-    texts = {element.text for element in root.iter(f"{SVG}text")}
-    assert {place for frame in scene.frames for place in (frame.at[scene.human], frame.former_at)} <= texts

@@ -175,21 +175,6 @@ class MapLayout:
     width: float
     height: float
 
-    def around(self, places: Iterable[str]) -> "MapLayout":
-        """The part of the map between some places, for pictures that can't be scrolled."""
-        kept = [self.boxes[place] for place in places]
-        left, right = (pick(box.x for box in kept) for pick in (min, max))
-        top, bottom = (pick(box.y for box in kept) for pick in (min, max))
-        near = {
-            place: box
-            for place, box in self.boxes.items()
-            if left - CELL <= box.right and box.left <= right + CELL and top - CELL <= box.y <= bottom + CELL
-        }
-        left, top = min(box.left for box in near.values()), min(box.top for box in near.values())
-        boxes = {place: box.moved(-left, -top) for place, box in near.items()}
-        links = tuple((a, b) for a, b in self.links if a in near and b in near)
-        return MapLayout(boxes, links, self.doors.intersection(links), *_extent(boxes.values()))
-
     def route(self, source: str, target: str) -> tuple[Point, ...]:
         """The way from the middle of one place to the middle of the other, round the corner."""
         a, b = self.boxes[source], self.boxes[target]

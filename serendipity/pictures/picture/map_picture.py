@@ -86,8 +86,6 @@ def tokens(scene: Scene, frame: Frame) -> dict[str, Token]:
     tagged = tagged_places(scene)
     found: dict[str, Token] = {}
     for place, cards in crowds(scene, frame).items():
-        if place not in scene.layout.boxes:  # of a picture that shows a part of the map
-            continue
         box = scene.layout.boxes[place]
         width, height = room(box, tagged=place in tagged)
         spots = pack(cards, width, height)
@@ -156,8 +154,6 @@ def trails(scene: Scene) -> dict[str, Steps]:
         found[FORMER_TOKEN] = _trail(layout, [frame.former_at for frame in scene.frames], 2 * apart)
     for n, agent in enumerate(scene.lanes):
         stops = [frame.at.get(agent) for frame in scene.frames]
-        if not layout.boxes.keys() >= set(stops) - {None}:
-            continue
         found[agent_key(agent)] = _trail(layout, stops, (1 if n == 0 else n + 2) * apart)
     return found
 
@@ -266,8 +262,8 @@ def _meetings(scene: Scene, layout: MapLayout) -> Iterator[Shape]:
     """A frame and a tag for each place where somebody meets."""
     met: dict[str, list[tuple[int, Meeting]]] = defaultdict(list)
     for index, meeting in enumerate(scene.meetings):
-        if meeting.place in layout.boxes:
-            met[str(meeting.place)].append((index, meeting))
+        if meeting.place is not None:
+            met[meeting.place].append((index, meeting))
     for place, several in met.items():
         box = layout.boxes[place]
         x, y = box.left, box.top

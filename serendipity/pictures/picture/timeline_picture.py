@@ -4,7 +4,6 @@ A still has a title, the map at one epoch, the timeline in rows that fit below i
 """
 
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import accumulate
 from typing import Final
 
@@ -238,7 +237,6 @@ def _facts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
 
 _MARGIN: Final = 20.0
 _LEAST: Final = 1000.0
-_WIDEST_MAP: Final = 2000.0
 
 
 def still(scene: Scene, epoch: int | None = None) -> Picture:
@@ -249,9 +247,6 @@ def still(scene: Scene, epoch: int | None = None) -> Picture:
     """
     now = scene.key_epoch if epoch is None else epoch
     clock = f" (time {scene.clock(now)})" if scene.clock(now) else ""
-    visited = _visited(scene)
-    if scene.layout is not None and scene.layout.width > _WIDEST_MAP and visited:
-        scene = replace(scene, layout=scene.layout.around(visited))
     city = map_picture(scene, now)
     fitting = _ROW if city is None else max(_ROW, city.width - LABELS)
     per_row = min(len(scene.frames), int(fitting / column(scene)))
@@ -279,14 +274,6 @@ def still(scene: Scene, epoch: int | None = None) -> Picture:
         y += row.height + 14
     body = Group(tuple(shapes), _MARGIN, _MARGIN)
     return Picture(wide + 2 * _MARGIN, y + _MARGIN, (body,), f"{headline(scene)}. {subtitle(scene)}")
-
-
-def _visited(scene: Scene) -> set[str]:
-    """Where the human is, would have been, and where those are who do anything."""
-    acting = {scene.human, *(agent for act in scene.acts for agent in act.agents)}
-    found = {place for frame in scene.frames for agent, place in frame.at.items() if agent in acting}
-    former = {frame.former_at for frame in scene.frames if frame.former_at is not None}
-    return found | former | set(scene.goals)
 
 
 def _legend(scene: Scene) -> Iterator[Shape]:
