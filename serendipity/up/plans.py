@@ -6,10 +6,10 @@ So every order that the partial one allows is a plan, and they all end in the sa
 when each action begins.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import groupby, permutations
+from itertools import groupby
 from typing import Any, Final
 
 import networkx
@@ -24,11 +24,10 @@ from unified_planning.plans import (
 )
 
 from serendipity.model import GroundAction, PlanError, PlanStep, Result, Task, UsageError
-from serendipity.model.task.actions import apply, disables
+from serendipity.model.task.actions import apply, in_turn
 from serendipity.model.task.plans import PlanEntry
 from serendipity.up.reading import Reading, read
-from serendipity.up.schedule import start_times
-from serendipity.up.steps import variant_in
+from serendipity.up.schedule import start_times, variant_in
 from serendipity.up.vocabulary import ALONE, UPProblem, Vocabulary
 
 _NEAR: Final = Fraction(1, 100)
@@ -58,9 +57,15 @@ def ordered(task: Task, steps: Iterable[PlanStep]) -> Ordered:
     state, done, actions = task.init, list[PlanStep](), list[GroundAction]()
     for epoch, group in groupby(sorted(steps, key=lambda step: step.epoch), lambda step: step.epoch):
         together = [(step, variant_in(task, step, state)) for step in group]
-        for step, action in _in_turn(epoch, together):
-            done.append(step)
-            actions.append(action)
+        order, circle = in_turn([[action] for _, action in together])
+        if circle:
+            names = ", ".join(f"'{together[i][0].action}'" for i in circle)
+            raise PlanError(
+                f"epoch {epoch}: {names} can be done at once only, and no plan of unified-planning says so: "
+                "plan with interference='strict'"
+            )
+        done += (together[i][0] for i in order)
+        actions += (together[i][1] for i in order)
         state = apply(state, *(action for _, action in together))
     graph = networkx.DiGraph()
     graph.add_nodes_from(range(len(done)))
@@ -82,24 +87,6 @@ def _touches(a: GroundAction, b: GroundAction) -> bool:
         set(a.add).isdisjoint((*b.pre, *b.neg, *b.delete))
         and set(a.delete).isdisjoint((*b.pre, *b.neg, *b.add))
     )
-
-
-def _in_turn(
-    epoch: int, together: Sequence[tuple[PlanStep, GroundAction]]
-) -> Iterator[tuple[PlanStep, GroundAction]]:
-    """Actions of an epoch, each before those that disable it."""
-    graph = networkx.DiGraph()
-    graph.add_nodes_from(range(len(together)))
-    pairs = permutations(range(len(together)), 2)
-    graph.add_edges_from((i, j) for i, j in pairs if disables(together[j][1], together[i][1]))
-    circle = next((some for some in networkx.strongly_connected_components(graph) if len(some) > 1), None)
-    if circle is not None:
-        names = ", ".join(f"'{together[i][0].action}'" for i in sorted(circle))
-        raise PlanError(
-            f"epoch {epoch}: {names} can be done at once only, and no plan of unified-planning says so: "
-            "plan with interference='strict'"
-        )
-    return (together[i] for i in networkx.lexicographical_topological_sort(graph))
 
 
 class EpochPlan(PartialOrderPlan):

@@ -16,7 +16,6 @@ from unified_planning.model.delta_stn import DeltaSimpleTemporalNetwork
 from serendipity.model import GroundAction, PlanError, PlanStep, Task
 from serendipity.model.task.actions import State, disables
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
-from serendipity.up.steps import variant_in
 
 _Facts = frozenset[int]
 
@@ -106,6 +105,20 @@ def _played(task: Task, steps: Sequence[PlanStep], lasting: Sequence[bool]) -> l
     if not (task.goal.holds(course.state) and task.robot_goal.holds(course.state)):
         raise PlanError("the goal does not hold once all timed effects have come")
     return events
+
+
+def variant_in(task: Task, step: PlanStep, state: State) -> GroundAction:
+    """The action that a step means in a state.
+
+    Raises:
+        PlanError: none is applicable.
+    """
+    ids = task.named.get(step.action, ())
+    for i in ids:
+        if task.actions[i].applicable(state):
+            return task.actions[i]
+    what = "applicable" if ids else "an action of the problem"
+    raise PlanError(f"epoch {step.epoch}: '{step.action}' is not {what}")
 
 
 def _events(step: int, epoch: int, action: GroundAction, takes: Fraction, state: State) -> Iterator[Event]:

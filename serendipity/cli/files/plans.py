@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Final
 
 from serendipity.cli.files.reading import read_text
-from serendipity.model import GroundAction, PlanError, PlanStep, Result, Task
+from serendipity.model import PlanError, PlanStep, Result, Task
 from serendipity.model.numbers import plain
 from serendipity.model.printable import printable
-from serendipity.model.task.actions import NOOP, disables
+from serendipity.model.task.actions import NOOP, in_turn
 from serendipity.model.task.gate import refuse_time
 from serendipity.model.task.plans import PlanEntry
 from serendipity.model.telling import team
@@ -105,26 +105,9 @@ def _lines_by_epoch(task: Task, steps: list[PlanStep]) -> Iterator[str]:
 
 
 def _ordered(task: Task, steps: list[PlanStep]) -> Iterator[str]:
-    while steps:
-        first = next((step for step in steps if not _disturbs(task, step, steps)), None)
-        if first is None:
-            yield "; the next actions only work at the same time"
-            yield from (f"({step.action})" for step in steps)
-            return
-        steps.remove(first)
-        yield f"({first.action})"
-
-
-def _disturbs(task: Task, step: PlanStep, others: list[PlanStep]) -> bool:
-    """Whether a step undoes what another one of its epoch needs."""
-    return any(
-        disables(mine, theirs)
-        for other in others
-        if other is not step
-        for mine in _actions(task, step)
-        for theirs in _actions(task, other)
-    )
-
-
-def _actions(task: Task, step: PlanStep) -> Iterator[GroundAction]:
-    return (task.actions[i] for i in task.named.get(step.action, ()))
+    variants = [[task.actions[i] for i in task.named.get(step.action, ())] for step in steps]
+    ordered, together = in_turn(variants)
+    yield from (f"({steps[i].action})" for i in ordered)
+    if together:
+        yield "; the next actions only work at the same time"
+        yield from (f"({steps[i].action})" for i in together)

@@ -201,3 +201,25 @@ def conflicting(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
 def disables(a: GroundAction, b: GroundAction) -> bool:
     """Whether ``a`` deletes or negates a precondition of ``b``."""
     return any(f in b.pre for f in a.delete) or any(f in b.neg for f in a.add)
+
+
+def in_turn(variants: Sequence[Sequence[GroundAction]]) -> tuple[list[int], list[int]]:
+    """The order of an epoch's actions in which each comes before those that disable it.
+
+    Args:
+        variants: of each action.
+
+    Returns:
+        The indices of those that can be done one after another, in that order, and of those for which no
+        order does.
+    """
+    ordered, left = list[int](), list(range(len(variants)))
+
+    def undone(i: int) -> bool:
+        others = (variants[j] for j in left if j != i)
+        return any(disables(mine, theirs) for other in others for mine in variants[i] for theirs in other)
+
+    while (first := next((i for i in left if not undone(i)), None)) is not None:
+        left.remove(first)
+        ordered.append(first)
+    return ordered, left
