@@ -175,6 +175,17 @@ class MapLayout:
     width: float
     height: float
 
+    def doorway(self, a: str, b: str) -> tuple[Point, bool]:
+        """The middle of the wall that two places share, and whether it is upright: they are side by side."""
+        one, other = self.boxes[a], self.boxes[b]
+        across = abs(one.x - other.x) - (one.width + other.width) / 2
+        along = abs(one.y - other.y) - (one.height + other.height) / 2
+        if abs(across) < abs(along):
+            middle = (max(one.top, other.top) + min(one.bottom, other.bottom)) / 2
+            return (one.right if other.x > one.x else one.left, middle), True
+        middle = (max(one.left, other.left) + min(one.right, other.right)) / 2
+        return (middle, one.bottom if other.y > one.y else one.top), False
+
     def route(self, source: str, target: str) -> tuple[Point, ...]:
         """The way from the middle of one place to the middle of the other, round the corner."""
         a, b = self.boxes[source], self.boxes[target]

@@ -197,7 +197,7 @@ def _floor(layout: MapLayout) -> Iterator[Shape]:
     for place, box in layout.boxes.items():
         yield _outline(box, in_plan=place in in_plan)
     for a, b in sorted(layout.doors):
-        yield _door(layout.boxes[a], layout.boxes[b])
+        yield _door(layout, a, b)
     for a, b in lines:
         if a in in_plan:  # a passage that no floor plan of a tree has room for
             yield Polyline(layout.route(a, b), Style(stroke=WALL, width=6, dash=(2, 9)))
@@ -229,14 +229,13 @@ def _outline(box: Box, *, in_plan: bool) -> Rect:
     )
 
 
-def _door(a: Box, b: Box) -> Polyline:
-    """The opening in the wall between two boxes, in the colour of the floor."""
-    floor = Style(stroke=CORRIDOR if a.corridor or b.corridor else FLOOR, width=5)
-    if a.y == b.y:
-        x = (a if a.x < b.x else b).right
-        return Polyline(((x, a.y - _DOOR / 2), (x, a.y + _DOOR / 2)), floor)
-    narrow, y = (a if a.width < b.width else b), (a if a.y < b.y else b).bottom
-    return Polyline(((narrow.x - _DOOR / 2, y), (narrow.x + _DOOR / 2, y)), floor)
+def _door(layout: MapLayout, a: str, b: str) -> Polyline:
+    """The opening in the wall between two places, in the colour of the floor."""
+    in_corridor = layout.boxes[a].corridor or layout.boxes[b].corridor
+    (x, y), upright = layout.doorway(a, b)
+    dx, dy = (0, _DOOR / 2) if upright else (_DOOR / 2, 0)
+    floor = Style(stroke=CORRIDOR if in_corridor else FLOOR, width=5)
+    return Polyline(((x - dx, y - dy), (x + dx, y + dy)), floor)
 
 
 def flag(x: float, y: float) -> Group:

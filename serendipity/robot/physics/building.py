@@ -54,7 +54,7 @@ class Rooms:
         shared = not self._layout.doors.isdisjoint(((source, target), (target, source)))
         if not shared or (boxes[source].corridor and boxes[target].corridor):
             return ()
-        middle, upright = _between(boxes[source], boxes[target])
+        middle, upright = self._layout.doorway(source, target)
         x, y = self._at(*middle)
         ahead = self.middles[target]
         dx = _NEAR * (1 if ahead[0] > x else -1) if upright else 0.0
@@ -78,7 +78,7 @@ class Rooms:
         boxes = self._layout.boxes
         openings: dict[tuple[float, float, bool], bool] = {}
         for a, b in self._layout.doors:
-            (x, y), upright = _between(boxes[a], boxes[b])
+            (x, y), upright = self._layout.doorway(a, b)
             openings[round(x, 3), round(y, 3), upright] = boxes[a].corridor and boxes[b].corridor
         sides = [side for box in boxes.values() for side in _sides(box)]
         for start, end in {tuple(round(v, 3) for v in (*a, *b)): (a, b) for a, b in sides}.values():
@@ -119,12 +119,3 @@ def _sides(box: Box) -> Iterator[tuple[Point, Point]]:
         yield (box.left, y), (box.right, y)
     for x in (box.left, box.right):
         yield (x, box.top), (x, box.bottom)
-
-
-def _between(a: Box, b: Box) -> tuple[Point, bool]:
-    """The middle of the wall that two boxes share, and whether it is upright: they are side by side."""
-    if abs(abs(a.x - b.x) - (a.width + b.width) / 2) < abs(abs(a.y - b.y) - (a.height + b.height) / 2):
-        middle = (max(a.top, b.top) + min(a.bottom, b.bottom)) / 2
-        return (a.right if b.x > a.x else a.left, middle), True
-    middle = (max(a.left, b.left) + min(a.right, b.right)) / 2
-    return (middle, a.bottom if b.y > a.y else a.top), False
