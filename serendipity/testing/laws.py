@@ -18,7 +18,7 @@ from typing import Any, Final, Protocol
 
 from serendipity.model import INFINITE, Options, Window
 from serendipity.testing.call import Call
-from serendipity.testing.oracle import Alone
+from serendipity.testing.oracle import Alone, Moment
 from serendipity.testing.rewriting import doubled, renamed, with_idle_robot, with_split_action
 
 
@@ -172,7 +172,7 @@ def _plain(call: Call) -> bool:
     """Whether doing nothing is one of the plans that are compared: then the objective moves one way only."""
     if call.task.robot_goal and call.options.windowed:
         return False
-    worth = Alone(call.task).worth(call.task.init)
+    worth = Alone(call.task).worth(Moment(call.task.init))
     return call.human_plan is None or (worth is not None and call.task.cost_of(call.human_plan) == worth[0])
 
 

@@ -11,7 +11,7 @@ import serendipity
 from serendipity import Condition, Options, Script, Task, UsageError
 from serendipity.testing.builders import task
 from serendipity.testing.oracle import best
-from serendipity.testing.oracle.alone_in_time import with_predicted
+from serendipity.testing.oracle.alone import with_predicted
 from serendipity.testing.strategies.tasks import strips_tasks
 from serendipity.testing.strategies.time import scripted_tasks, timed_tasks
 

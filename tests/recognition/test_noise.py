@@ -14,7 +14,7 @@ import serendipity
 from serendipity.model import Condition, Task, UsageError
 from serendipity.recognition import Noise
 from serendipity.testing.builders import task as build
-from serendipity.testing.oracle import Alone
+from serendipity.testing.oracle import Alone, Moment
 from serendipity.testing.strategies import tasks
 from tests.cli.conftest import Runs, assert_one_line
 
@@ -70,12 +70,12 @@ def test_dear_plans_lose_to_readings_with_errors() -> None:
 def watched(draw: st.DrawFn) -> tuple[Task, list[str]]:
     """Some of what the human did, and some of what they did not."""
     task = replace(draw(tasks()), robot_goal=Condition())
-    alone, state, names = Alone(task), task.init, []
+    alone, now, names = Alone(task), Moment(task.init), []
     for _ in range(draw(st.integers(0, 3))):
-        ways = list(alone.successors(state))
+        ways = list(alone.ways(now))
         if not ways:
             break
-        action, state = draw(st.sampled_from(ways))
+        action, _, now, _ = draw(st.sampled_from(ways))
         names += [task.actions[action].name] * draw(st.integers(0, 1))
         if draw(st.integers(0, 2)) == 0:
             names.append(task.actions[draw(st.sampled_from(task.human_actions))].name)
@@ -122,7 +122,7 @@ def _likeliest(task: Task, right: tuple[str, ...], seen: int, wrong: float, miss
         closed.add((read, state))
         if read == len(right) and task.goal.holds(state):
             return math.exp(-spent) * wrong ** (seen - len(right))
-        for action, after in alone.successors(state):
+        for action, _, (after, *_), _ in alone.ways(Moment(state)):
             cost = spent + float(task.actions[action].cost)
             ways = [(read, cost + (price if read < len(right) else 0))]
             if read < len(right) and task.actions[action].name == right[read]:

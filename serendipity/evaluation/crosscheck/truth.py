@@ -10,7 +10,7 @@ from typing import Final
 from serendipity.model import Condition, HumanPlan, Options, Result, Task, UsageError, surroundings
 from serendipity.model.answers.recognition import Recognition
 from serendipity.model.numbers import agrees, excess
-from serendipity.testing.oracle import Alone, Optimum, best, human_plans, optimal_human_plan
+from serendipity.testing.oracle import Alone, Moment, Optimum, best, human_plans, optimal_human_plan
 from serendipity.testing.oracle.assistance import by_rounds, explore, mean_over_all_policies
 from serendipity.testing.oracle.reactions import best_reaction
 from serendipity.testing.oracle.scenarios import best_policy
@@ -137,7 +137,7 @@ class Truth:
             raise UnknownTruthError
         cost = best_reaction(self.task, options, plan, surroundings(self.task).visible).cost
         alone = self.task.cost_of(plan)
-        worth = Alone(self.task).worth(self.task.init)
+        worth = Alone(self.task).worth(Moment(self.task.init))
         if worth is None or worth[0] < alone:
             raise UnknownTruthError  # what they gain by themselves is theirs
         least = alone if cost is None else min(cost, alone)
@@ -155,7 +155,7 @@ class Truth:
             found = by_rounds(tree, max if options.ties == "robust" else min)
         if found is None:
             return Optimum("infeasible")
-        worth, total = Alone(self.task).worth(self.task.init), found[0] + found[1]
+        worth, total = Alone(self.task).worth(Moment(self.task.init)), found[0] + found[1]
         saving = None if worth is None else worth[0] - found[0]
         return Optimum("optimal", total, total, opportunity=bool(saving), saving=saving)
 

@@ -12,9 +12,11 @@ from serendipity.testing.oracle.alone import Alone, human_plans, optimal_human_p
 from serendipity.testing.oracle.answers import Optimum
 from serendipity.testing.oracle.best import best
 from serendipity.testing.oracle.epochs import action_sets, action_sets_of_names
+from serendipity.testing.oracle.moments import Moment
 
 __all__ = [
     "Alone",
+    "Moment",
     "Optimum",
     "action_sets",
     "action_sets_of_names",

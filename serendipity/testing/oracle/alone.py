@@ -1,96 +1,222 @@
-"""The human alone: (cost, length) of their optimal plans from any state (semantics 1)."""
+"""The human alone, also beside a script: their optimal plans from any moment (semantics 1, 10.3)."""
 
 import heapq
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from fractions import Fraction
+from functools import cache
+from typing import NamedTuple
 
-from serendipity.model import HumanPlan, Task
-from serendipity.testing.oracle.alone_in_time import plans_in_time
-from serendipity.testing.oracle.epochs import State, after, holds, usable
+from serendipity.model import Condition, HumanPlan, Script, Task, TimedPlan, UsageError
+from serendipity.testing.oracle.epochs import State, holds
+from serendipity.testing.oracle.moments import Moment, World
 
-Worth = tuple[Fraction, int]
-"""Cost and number of actions."""
+Worth = tuple[Fraction, int, int]
+"""Cost, number of epochs, number of actions."""
+
+
+class OwnStep(NamedTuple):
+    """What the human may do next; ``action`` is None where they wait for an epoch."""
+
+    action: int | None
+    price: Worth
+    moment: Moment
+    epoch: int
 
 
 class Alone:
-    """Optimal costs of the human alone, for all states that were asked for."""
+    """Optimal costs of the human alone, for all moments that were asked for.
 
-    def __init__(self, task: Task) -> None:
+    Epochs are those that are over; moments are ones in which the human is free.
+
+    Args:
+        task: the task.
+        waiting_cost: of an epoch of waiting before an action.
+        strict: whether interference is strict.
+    """
+
+    def __init__(self, task: Task, waiting_cost: Fraction = Fraction(0), *, strict: bool = False) -> None:
         self.task = task
-        self._worth: dict[State, Worth | None] = {}
+        self.world = World(task, strict=strict)
+        self.waiting_cost = waiting_cost
+        self.worth, self.acting = cache(self._worth), cache(self._least)
+        self._settled: dict[State, Worth | None] = {}
 
-    def worth(self, state: State) -> Worth | None:
-        """Least (cost, length) of a plan of the human's from ``state``; None if there is none."""
-        if state not in self._worth:
-            self._solve(state)
-        return self._worth[state]
+    def _worth(self, moment: Moment, epoch: int = 0) -> Worth | None:
+        """The least (cost, epochs, actions) of a plan of theirs; None if there is none."""
+        known = [self.acting(moment, epoch), self.resting(moment, epoch)]
+        return min((worth for worth in known if worth is not None), default=None)
 
-    def successors(self, state: State) -> Iterator[tuple[int, State]]:
-        """The human's own applicable actions in ascending order, with what they lead to."""
-        for i in self.task.human_actions:
-            if usable(self.task.actions[i], state):
-                yield i, after(state, [self.task.actions[i]])
+    def resting(self, moment: Moment, epoch: int) -> Worth | None:
+        """The same without an action: until the goal holds by itself."""
+        passed = 0
+        now: Moment | None = moment
+        while now is not None:
+            if holds(self.task.goal, now.state):
+                return (Fraction(0), passed, 0)
+            if epoch + passed >= self.world.settled:
+                return None
+            passed += 1
+            now = self.world.alone(now, epoch + passed)
+        return None
 
-    def optimal(self, state: State) -> list[tuple[int, State]]:
-        """The actions that start an optimal plan; none where the goal holds or can't be reached."""
-        worth = self.worth(state)
-        if worth is None or holds(self.task.goal, state):
+    def _least(self, moment: Moment, epoch: int) -> Worth | None:
+        """The same with an action at least; None where the goal holds: they have nothing to do."""
+        if holds(self.task.goal, moment.state):
+            return None
+        if epoch >= self.world.settled:
+            if moment.state not in self._settled:
+                self._solve(moment.state)
+            return self._settled[moment.state]
+        found = [_plus(way.price, self._rest(way)) for way in self.ways(moment, epoch)]
+        return min((worth for worth in found if worth is not None), default=None)
+
+    def best(self, moment: Moment, epoch: int = 0) -> list[OwnStep]:
+        """The ways that begin a plan of the worth of ``acting``, those that act in front."""
+        worth = self.acting(moment, epoch)
+        if worth is None:
             return []
-        found = []
-        for i, next_state in self.successors(state):
-            rest = self.worth(next_state)
-            if rest is not None and (rest[0] + self.task.actions[i].cost, rest[1] + 1) == worth:
-                found.append((i, next_state))
-        return found
+        return [way for way in self.ways(moment, epoch) if _plus(way.price, self._rest(way)) == worth]
+
+    def ways(self, moment: Moment, epoch: int = 0) -> Iterator[OwnStep]:
+        """Their own actions that can be done, in ascending order; then waiting, while the script lasts."""
+        ways = [*(self.acted(moment, epoch, i) for i in self.task.human_actions), self.waited(moment, epoch)]
+        yield from (way for way in ways if way is not None)
+
+    def acted(self, moment: Moment, epoch: int, action: int) -> OwnStep | None:
+        """An action of theirs, if it can be done."""
+        done = self.task.actions[action]
+        begun = self.world.alone(moment, epoch + 1, action)
+        end = None if begun is None else self.world.idled(begun, epoch + 1, epoch + done.duration)
+        if end is None:
+            return None
+        return OwnStep(action, (done.cost, done.duration, 1), end, epoch + done.duration)
+
+    def waited(self, moment: Moment, epoch: int) -> OwnStep | None:
+        """An epoch of waiting, if the script lasts so long."""
+        later = self.world.alone(moment, epoch + 1) if epoch < self.world.settled else None
+        return None if later is None else OwnStep(None, (self.waiting_cost, 1, 0), later, epoch + 1)
+
+    def plans(self, moment: Moment, epoch: int) -> Iterator[tuple[tuple[int, ...], tuple[int, ...], int]]:
+        """All plans of the worth of a moment, the canonical one first: actions, when they begin, the end.
+
+        There may be several of the same names: first the one that acts as early as it can.
+        """
+        seen: set[object] = set()
+        stack: list[tuple[Moment, int, tuple[int, ...], tuple[int, ...], bool]] = [
+            (moment, epoch, (), (), False)
+        ]
+        while stack:
+            now, over, plan, starts, acts = stack.pop()
+            names = tuple(self.task.actions[i].name for i in plan)
+            if (now, over, names, acts) in seen:
+                continue
+            seen.add((now, over, names, acts))
+            resting = self.resting(now, over)
+            if not acts and resting is not None and resting == self.worth(now, over):
+                yield plan, starts, over + resting[1]
+                continue
+            for way in reversed(self.best(now, over)):
+                if way.action is None:
+                    stack.append((way.moment, way.epoch, plan, starts, True))
+                else:
+                    stack.append((way.moment, way.epoch, (*plan, way.action), (*starts, over + 1), False))
+
+    def _rest(self, way: OwnStep) -> Worth | None:
+        """After waiting there has to be an action: else it was the end of the plan."""
+        return (self.acting if way.action is None else self.worth)(way.moment, way.epoch)
 
     def _solve(self, start: State) -> None:
         """Explore everything the human can reach, then one Dijkstra backward from the goal states."""
+        late = self.world.settled
         seen, stack = {start}, [start]
-        edges: dict[State, list[tuple[State, Fraction]]] = {}
+        edges: dict[State, list[tuple[State, Worth]]] = {}
         while stack:
             state = stack.pop()
-            for i, next_state in self.successors(state):
-                edges.setdefault(next_state, []).append((state, self.task.actions[i].cost))
-                if next_state not in seen:
-                    seen.add(next_state)
-                    stack.append(next_state)
+            for way in self.ways(Moment(state), late):
+                edges.setdefault(way.moment.state, []).append((state, way.price))
+                if way.moment.state not in seen:
+                    seen.add(way.moment.state)
+                    stack.append(way.moment.state)
         final: dict[State, Worth] = {}
         goals = [state for state in seen if holds(self.task.goal, state)]
-        queue: list[tuple[Fraction, int, int, State]] = [
-            (Fraction(0), 0, n, state) for n, state in enumerate(goals)
-        ]
+        queue: list[tuple[Worth, int, State]] = [((Fraction(0), 0, 0), n, s) for n, s in enumerate(goals)]
         ticket = len(queue)
         while queue:
-            cost, length, _, state = heapq.heappop(queue)
+            worth, _, state = heapq.heappop(queue)
             if state in final:
                 continue
-            final[state] = (cost, length)
-            for before, step in edges.get(state, ()):
+            final[state] = worth
+            for before, price in edges.get(state, ()):
                 ticket += 1
-                heapq.heappush(queue, (cost + step, length + 1, ticket, before))
+                heapq.heappush(queue, (_sum(price, worth), ticket, before))
         for state in seen:
-            self._worth[state] = final.get(state)
+            self._settled[state] = final.get(state)
 
 
-def human_plans(task: Task) -> Iterator[HumanPlan]:
-    """All optimal plans of the human alone from ``I`` that differ in names; the canonical one first."""
-    if task.needs_time:
-        yield from plans_in_time(task)
-        return
-    alone = Alone(task)
-    if alone.worth(task.init) is None:
+def _sum(a: Worth, b: Worth) -> Worth:
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def _plus(a: Worth, b: Worth | None) -> Worth | None:
+    return None if b is None else _sum(a, b)
+
+
+def human_plans(
+    task: Task, waiting_cost: Fraction = Fraction(0), head_start: int = 0, *, strict: bool = False
+) -> Iterator[HumanPlan]:
+    """All optimal plans of the human alone that differ in names; the canonical one first.
+
+    Of those of the same names, the one that acts as early as it can.
+
+    Args:
+        task: the task.
+        waiting_cost: of an epoch of waiting before an action.
+        head_start: epochs of waiting before the plan.
+        strict: whether interference is strict.
+    """
+    alone = Alone(task, waiting_cost, strict=strict)
+    now = alone.world.idled(Moment(task.init), 0, head_start)
+    if now is None or alone.worth(now, head_start) is None:
         return
     known: set[tuple[str, ...]] = set()
-    stack: list[tuple[State, HumanPlan]] = [(task.init, ())]
-    while stack:
-        state, plan = stack.pop()
-        names = tuple(task.actions[i].name for i in plan)
-        if holds(task.goal, state) and names not in known:
+    for actions, starts, end in alone.plans(now, head_start):
+        names = tuple(task.actions[i].name for i in actions)
+        if names not in known:
             known.add(names)
-            yield plan
-        stack.extend((next_state, (*plan, i)) for i, next_state in reversed(alone.optimal(state)))
+            yield as_human_plan(task, actions, starts, end)
 
 
 def optimal_human_plan(task: Task) -> HumanPlan | None:
     """The canonical optimal plan of the human alone, or None."""
     return next(human_plans(task), None)
+
+
+def with_predicted(task: Task, goals: Mapping[str, Condition]) -> Task:
+    """The task with some people as bystanders, each on their own optimal plan beside the script so far.
+
+    Args:
+        task: the task.
+        goals: what each of them wants, in the order in which they are predicted.
+
+    Raises:
+        UsageError: one of them has no plan alone.
+    """
+    for person, goal in goals.items():
+        theirs = replace(task.with_human(person), goal=goal, robot_goal=Condition())
+        plan = optimal_human_plan(theirs)
+        if plan is None:
+            raise UsageError(f"script: {person} has no plan alone")
+        names = (theirs.actions[i].name for i in plan)
+        entries = tuple(zip(theirs.starts_of(plan), names, strict=True))
+        task = task.with_script(Script(people={person: entries}))
+    return task
+
+
+def as_human_plan(task: Task, actions: tuple[int, ...], starts: tuple[int, ...], length: int) -> HumanPlan:
+    """A plan as tasks have it: a plain tuple where the human waits nowhere."""
+    free, gaps = 1, False
+    for i, start in zip(actions, starts, strict=True):
+        gaps = gaps or start != free
+        free = start + task.actions[i].duration
+    return TimedPlan(actions, starts, length) if gaps or length != free - 1 else actions

@@ -8,6 +8,7 @@ from typing import NamedTuple
 from serendipity.model import GroundAction, Task
 from serendipity.testing.oracle.alone import Alone
 from serendipity.testing.oracle.epochs import State, after, holds, usable
+from serendipity.testing.oracle.moments import Moment
 
 Costs = tuple[Fraction, Fraction]
 
@@ -62,16 +63,16 @@ def explore(task: Task, *, fixed: bool, no_block: bool) -> Tree:
 
 
 def _choice(alone: Alone, state: State, move: GroundAction, *, fixed: bool, no_block: bool) -> Ply | None:
-    middle, actions = after(state, [move]), alone.task.actions
+    middle = after(state, [move])
     if holds(alone.task.goal, middle):
         return Ply(move.cost, ())
-    ways = alone.optimal(middle)
+    ways = alone.best(Moment(middle))
     if not ways:
-        if no_block and move.name != "noop" and alone.worth(state) is not None:
+        if no_block and move.name != "noop" and alone.worth(Moment(state)) is not None:
             return None
         return Ply(move.cost, (Reached(Fraction(0), middle),))
     chosen = ways[:1] if fixed else ways
-    return Ply(move.cost, tuple(Reached(actions[i].cost, onward) for i, onward in chosen))
+    return Ply(move.cost, tuple(Reached(way.price[0], way.moment.state) for way in chosen))
 
 
 def by_rounds(tree: Tree, worst: Callable[[list[Costs]], Costs]) -> Costs | None:

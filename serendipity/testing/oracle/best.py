@@ -1,14 +1,12 @@
 """The optimum of a call: beside one plan of the human, or over all of their optimal ones."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from fractions import Fraction
 from itertools import islice
 
-from serendipity.model import HumanPlan, Options, Task, TimedPlan, UsageError
-from serendipity.testing.oracle.alone import human_plans
-from serendipity.testing.oracle.alone_in_time import plans_in_time
+from serendipity.model import HumanPlan, Options, Task, UsageError
+from serendipity.testing.oracle.alone import as_human_plan, human_plans
 from serendipity.testing.oracle.answers import Optimum, Solver
-from serendipity.testing.oracle.in_time import SolverInTime, shifted
 
 
 def best(task: Task, options: Options, human_plan: HumanPlan | None = None) -> Optimum:
@@ -20,28 +18,22 @@ def best(task: Task, options: Options, human_plan: HumanPlan | None = None) -> O
     Raises:
         UsageError: the horizon is missing or too short, or there are too many ties.
     """
-    if task.needs_time or options.waiting_cost or options.head_start or isinstance(human_plan, TimedPlan):
-        solver: type[Solver] = SolverInTime
-        human_plan = None if human_plan is None else shifted(task, human_plan, options.head_start)
-    else:
-        solver = Solver
-    if human_plan is None and options.ties != "fixed" and options.mode in ("serendipity", "communication"):
-        plans = list(islice(_plans(task, options, solver), options.max_ties + 1))
-        if len(plans) > options.max_ties:
-            raise UsageError("ties: too many optimal human plans")
-        if plans:
-            return _over_ties(
-                [solver(task, options, plan, given=False).solve() for plan in plans], options.ties
-            )
-    plan = next(_plans(task, options, solver), None) if human_plan is None else human_plan
-    return solver(task, options, plan, given=human_plan is not None).solve()
+    if human_plan is not None:
+        return Solver(task, options, shifted(task, human_plan, options.head_start), given=True).solve()
+    predicted = human_plans(task, options.waiting_cost, options.head_start, strict=options.strict)
+    if options.ties == "fixed" or options.mode not in ("serendipity", "communication"):
+        return Solver(task, options, next(predicted, None), given=False).solve()
+    plans = list(islice(predicted, options.max_ties + 1))
+    if len(plans) > options.max_ties:
+        raise UsageError("ties: too many optimal human plans")
+    answers = [Solver(task, options, plan, given=False).solve() for plan in plans or (None,)]
+    return _over_ties(answers, options.ties)
 
 
-def _plans(task: Task, options: Options, solver: type[Solver]) -> Iterator[HumanPlan]:
-    """The human's optimal plans, the canonical one first."""
-    if solver is Solver:
-        return human_plans(task)
-    return plans_in_time(task, options.waiting_cost, options.head_start, strict=options.strict)
+def shifted(task: Task, plan: HumanPlan, epochs: int) -> HumanPlan:
+    """A plan with some epochs of waiting before it."""
+    starts = tuple(start + epochs for start in task.starts_of(plan))
+    return as_human_plan(task, tuple(plan), starts, task.epochs_of(plan) + epochs)
 
 
 def _over_ties(answers: list[Optimum], ties: str) -> Optimum:

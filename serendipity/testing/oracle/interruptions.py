@@ -3,8 +3,8 @@
 from fractions import Fraction
 
 from serendipity.model import HumanPlan, Options, Task, Window
-from serendipity.testing.oracle.answers import Solver
 from serendipity.testing.oracle.labels import Label
+from serendipity.testing.oracle.plans import Plans
 
 Best = tuple[Fraction, Fraction]
 """Least cost for the human, and least cost for the team."""
@@ -15,32 +15,32 @@ def best_by_window(task: Task, options: Options, human_plan: HumanPlan) -> dict[
     asked = options.but(
         mode="serendipity", window_weight=0, max_cost=None, max_window=None, keep_prefix=False
     )
-    solver = _BothCosts(task, asked, human_plan, given=False)
+    plans = _BothCosts(task, asked, human_plan)
     found: dict[Window, list[Label]] = {}
     if not task.robot_goal:  # pi_H with idle robots fits every window
-        cost = solver._units(task.cost_of(human_plan))
-        last = int(solver.horizon or 0)
-        for start in range(1, len(human_plan) + 1):
+        cost = plans.units(plans.cost_of_plan())
+        last = int(plans.horizon or 0)
+        for start in range(1, plans.length + 1):
             for end in range(start + 1, last + 2):
                 found[Window(start, end)] = [(cost, cost, 0)]
-    for candidate in solver._windows():
+    for candidate in plans.windows():
         assert candidate.window is not None
         found.setdefault(candidate.window, []).append(candidate.label)
     return {
         window: (
-            solver._cost(min(label[0] for label in labels)),
-            solver._cost(min(label[1] for label in labels)),
+            plans.cost(min(label[0] for label in labels)),
+            plans.cost(min(label[1] for label in labels)),
         )
         for window, labels in found.items()
     }
 
 
-class _BothCosts(Solver):
+class _BothCosts(Plans):
     """Labels whose first part is what the human pays, and whose second is what the team pays."""
 
-    def _price(self, i: int) -> Label:
+    def price(self, i: int) -> Label:
+        """See :class:`Plans`."""
         action = self.task.actions[i]
-        theirs = action.cost * (1 - self.options.discount)
         if self.task.human in action.participants:
-            return (self._units(action.cost), self._units(action.cost), 1)
-        return (0, self._units(theirs), 1)
+            return (self.units(action.cost), self.units(action.cost), 1)
+        return (0, self.units(action.cost * (1 - self.options.discount)), 1)

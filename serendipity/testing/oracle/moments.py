@@ -5,6 +5,8 @@ and effects at start, the last those at end, and all but the first ask for what 
 """
 
 from collections.abc import Iterable, Iterator
+from functools import cache
+from itertools import combinations
 from typing import NamedTuple
 
 from serendipity.model import GroundAction, Task
@@ -48,7 +50,7 @@ def parts_of(action: GroundAction) -> tuple[GroundAction, ...]:
     )
 
 
-class TimedWorld:
+class World:
     """What may happen in an epoch of a task, bystanders and the script included.
 
     Args:
@@ -59,14 +61,15 @@ class TimedWorld:
         settled: the epoch after which nothing depends on the epoch any more.
     """
 
-    def __init__(self, task: Task, *, strict: bool) -> None:
+    def __init__(self, task: Task, *, strict: bool = False) -> None:
         self.task = task
-        self.strict = strict
         self.settled = task.script.last
         deeds = [action for deed in task.script.deeds for action in deed.variants]
         self._numbers = {id(action): len(task.actions) + i for i, action in enumerate(deeds)}
         self._who = [action.participants for action in (*task.actions, *deeds)]
         self._parts = [parts_of(action) for action in (*task.actions, *deeds)]
+        self._strict = strict
+        self._share = cache(self._may_share)
 
     def sets(
         self, moment: Moment, epoch: int, candidates: Iterable[int]
@@ -75,36 +78,39 @@ class TimedWorld:
         forced = self._forced(moment, epoch)
         if forced is None:
             return
-        parts = [self._parts[i][k] for i, k in forced]
-        ready = [i for i in candidates if usable(self._parts[i][0], moment.state)]
-        ready = [i for i in ready if self._fits(self._parts[i][0], parts)]
+        ready = [i for i in candidates if self._begins(i, moment, forced)]
 
         def extend(chosen: tuple[int, ...], start: int) -> Iterator[tuple[int, ...]]:
             yield chosen
             for k in range(start, len(ready)):
-                part = self._parts[ready[k]][0]
-                if self._fits(part, [self._parts[i][0] for i in chosen]):
+                if all(self._share((i, 0), (ready[k], 0)) for i in chosen):
                     yield from extend((*chosen, ready[k]), k + 1)
 
         for chosen in extend((), 0):
-            yield chosen, self._outcome(moment, epoch, [*forced, *((i, 0) for i in chosen)])
+            yield chosen, self._outcome(moment, epoch, (*forced, *((i, 0) for i in chosen)))
 
     def alone(self, moment: Moment, epoch: int, begun: int | None = None) -> Moment | None:
         """The moment after an epoch in which only one action begins, or none; None where that can't be."""
         return self.after(moment, epoch, () if begun is None else (begun,))
 
-    def after(self, moment: Moment, epoch: int, begun: tuple[int, ...]) -> Moment | None:
+    def after(self, moment: Moment, epoch: int, begun: Iterable[int]) -> Moment | None:
         """The moment after an epoch in which some actions begin; None where that can't be."""
-        forced = self._forced(moment, epoch)
-        if forced is None:
+        going = self._forced(moment, epoch)
+        if going is None:
             return None
-        parts = [self._parts[i][k] for i, k in forced]
-        for i in begun:
-            part = self._parts[i][0]
-            if not (usable(part, moment.state) and self._fits(part, parts)):
+        for action in begun:
+            if not self._begins(action, moment, going):
                 return None
-            parts.append(part)
-        return self._outcome(moment, epoch, [*forced, *((i, 0) for i in begun)])
+            going = (*going, (action, 0))
+        return self._outcome(moment, epoch, going)
+
+    def idled(self, moment: Moment, epoch: int, last: int) -> Moment | None:
+        """The moment after epoch ``last``, everybody idle until then; None where a bystander is disturbed."""
+        now: Moment | None = moment
+        while now is not None and epoch < last and (now.going or epoch < self.settled):
+            epoch += 1
+            now = self.alone(now, epoch)
+        return now
 
     def parts(self, action: int) -> tuple[GroundAction, ...]:
         """What an action of the task asks and does, epoch by epoch."""
@@ -116,8 +122,7 @@ class TimedWorld:
 
     def others_busy(self, moment: Moment) -> bool:
         """Whether a robot is at something."""
-        robots = {*self.task.robots}
-        return any(robots.intersection(self._who[i]) for i, _ in moment.going)
+        return any(self.busy(moment, robot) for robot in self.task.robots)
 
     def plan_is_over(self, moment: Moment) -> bool:
         """Whether nobody but bystanders is at anything."""
@@ -133,20 +138,24 @@ class TimedWorld:
                 return None
             begun.append((possible[0], 0))
         forced = (*moment.going, *begun)
-        parts = [self._parts[i][k] for i, k in forced]
-        if not all(usable(part, moment.state) for part in parts):
+        if not all(usable(self._parts[i][k], moment.state) for i, k in forced):
             return None
-        if not all(self._fits(part, parts[:k]) for k, part in enumerate(parts)):
-            return None
-        return forced
+        return forced if all(self._share(a, b) for a, b in combinations(forced, 2)) else None
 
-    def _fits(self, part: GroundAction, others: Iterable[GroundAction]) -> bool:
-        return all(compatible(part, other, strict=self.strict) for other in others)
+    def _begins(self, action: int, moment: Moment, going: Going) -> bool:
+        """Whether an action can begin beside what goes on."""
+        ready = usable(self._parts[action][0], moment.state)
+        return ready and all(self._share(other, (action, 0)) for other in going)
 
-    def _outcome(self, moment: Moment, epoch: int, happening: Iterable[tuple[int, int]]) -> Moment:
-        done = [*happening]
-        state = after(moment.state, [self._parts[i][k] for i, k in done])
-        facts = [one for one in self.task.script.facts if one.epoch == epoch]
-        state = (state - {one.fact for one in facts}) | {one.fact for one in facts if one.true}
-        going = tuple(sorted((i, k + 1) for i, k in done if k + 1 < len(self._parts[i])))
-        return Moment(frozenset(state), going, moment.retired)
+    def _may_share(self, a: tuple[int, int], b: tuple[int, int]) -> bool:
+        """Whether two parts may share an epoch."""
+        one, other = (self._parts[i][k] for i, k in (a, b))
+        return compatible(one, other, strict=self._strict)
+
+    def _outcome(self, moment: Moment, epoch: int, happening: Going) -> Moment:
+        state = after(moment.state, [self._parts[i][k] for i, k in happening])
+        if epoch <= self.settled:
+            facts = [one for one in self.task.script.facts if one.epoch == epoch]
+            state = (state - {one.fact for one in facts}) | {one.fact for one in facts if one.true}
+        going = tuple(sorted((i, k + 1) for i, k in happening if k + 1 < len(self._parts[i])))
+        return Moment(state, going, moment.retired)

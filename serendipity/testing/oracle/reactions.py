@@ -4,12 +4,13 @@ Equal (state, belief, plan) after an epoch are merged, keeping the least (cost, 
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from serendipity.model import HumanPlan, Options, Task
 from serendipity.testing.oracle.alone import Alone, optimal_human_plan
 from serendipity.testing.oracle.epochs import State, action_sets, after, holds, usable
+from serendipity.testing.oracle.moments import Moment
 
 Visible = Callable[[int, int, State], bool]
 
@@ -134,14 +135,13 @@ class _World:
         return frozenset((now.belief - seen) | (now.state & seen))
 
     def _alone(self, state: State) -> Fraction | None:
-        worth = self.alone.worth(state)
+        worth = self.alone.worth(Moment(state))
         return None if worth is None else worth[0]
 
     def _plan(self, state: State) -> HumanPlan:
         if holds(self.task.goal, state):
             return ()
-        i, onward = self.alone.optimal(state)[0]
-        return (i, *self._plan(onward))
+        return optimal_human_plan(replace(self.task, init=state)) or ()
 
     def _cost_of(self, plan: HumanPlan, state: State) -> Fraction | None:
         cost = Fraction(0)

@@ -6,7 +6,7 @@ are vectors with the worth of each scenario, since ``risk`` decides only at the 
 Robots that commit themselves see nothing, so each scenario has a worth for each sequence of what they do.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
@@ -14,10 +14,9 @@ from itertools import chain, product
 from typing import NamedTuple, Protocol
 
 from serendipity.model import Condition, HumanPlan, Options, Task, UsageError
-from serendipity.testing.oracle.alone_in_time import CanonicalInTime
-from serendipity.testing.oracle.answers import smallest_unit
 from serendipity.testing.oracle.epochs import holds
-from serendipity.testing.oracle.moments import Moment, TimedWorld
+from serendipity.testing.oracle.moments import Moment, World
+from serendipity.testing.oracle.plans import smallest_unit
 from serendipity.testing.oracle.suffixes import CanonicalSuffix
 
 Worth = tuple[Fraction, Fraction]
@@ -149,22 +148,16 @@ class _Policies:
         self.scenarios = scenarios
         self.unit = smallest_unit(task, options)
         self.weight = int(options.window_weight * self.unit)
-        self.world = TimedWorld(task, strict=options.strict)
+        self.world = World(task, strict=options.strict)
         self.starts = [dict(zip(task.starts_of(one.plan), one.plan, strict=True)) for one in scenarios]
-        self.suffixes = [self._suffix(replace(task, goal=one.goal), one.plan) for one in scenarios]
+        self.suffixes = [
+            CanonicalSuffix(replace(task, goal=one.goal), options, one.plan, horizon) for one in scenarios
+        ]
         self.own = [i for i, a in enumerate(task.actions) if robots and task.human not in a.participants]
         human = [i for i, a in enumerate(task.actions) if task.human in a.participants]
         self.parts: list[int | None] = [None, *(i for i in human if robots or not task.actions[i].joint)]
         self.front, self.part, self.ways = cache(self._front), cache(self._part), cache(self._ways)
         self.committed = cache(self._committed)
-
-    def _suffix(self, task: Task, plan: HumanPlan) -> Callable[[Moment, int, int], Rest | None]:
-        """The canonical suffix from a moment on, given xi1 and the epochs that are over; None: none fits."""
-        if task.needs_time:
-            in_time = CanonicalInTime(task, self.horizon, strict=self.options.strict)
-            return lambda moment, _xi1, epoch: in_time.plan(moment, epoch)
-        in_turn = CanonicalSuffix(task, self.options, plan)
-        return lambda moment, xi1, epoch: in_turn.plan(moment.state, xi1, self.horizon - epoch)
 
     def vectors(self) -> Iterator[tuple[Worth, ...]]:
         """What policies are worth; those that are no better in any scenario than others may be missing."""
@@ -268,7 +261,7 @@ class _Policies:
         rest: Rest | None = None,
     ) -> Iterator[_Way]:
         """The epoch in which the human begins an action, or none, if they can do that beside the robots."""
-        begun = robots if his is None else tuple(sorted((*robots, his)))
+        begun = robots if his is None else (*robots, his)
         moment = self.world.after(now.moment, epoch, begun)
         if moment is not None:
             costs = (self.task.team_cost(self.task.actions[i], self.options.discount) for i in begun)
@@ -280,7 +273,7 @@ class _Policies:
         """The same epoch, as the last one of the window, by when robots have ended what they began."""
         scenario, moment, since, _ = inside.now
         assert since is not None
-        rest = None if self.world.others_busy(moment) else self.suffixes[scenario](moment, since, epoch)
+        rest = None if self.world.others_busy(moment) else self.suffixes[scenario].plan(moment, since, epoch)
         if rest is not None:
             yield inside._replace(now=_Situation(scenario, moment, None, rest))
 

@@ -1,141 +1,204 @@
-"""The human's actions after the window (semantics 3.1 rule 3, semantics 3.3)."""
+"""The human's actions after the window (semantics 3.1 rule 3, 3.3, 10.1)."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
+from typing import Protocol
 
 from serendipity.model import HumanPlan, Options, Task
 from serendipity.testing.oracle.alone import Alone
 from serendipity.testing.oracle.epochs import State, after, holds, usable
 from serendipity.testing.oracle.labels import NOTHING, Front, Label, front, plus
-
-Price = Callable[[int], Label]
-"""The cost of an action, as a label."""
-
-Suffix = Callable[[State, int, int], Front]
-"""Labels of the suffixes from a state, given xi1 and the number of epochs that are left."""
+from serendipity.testing.oracle.moments import Moment, World
 
 
-def suffix_rule(task: Task, options: Options, human_plan: HumanPlan, alone: Alone, price: Price) -> Suffix:
-    """The rule in force."""
-    if options.preservation == "state":
-        return _state(task, human_plan, price)
-    if options.suffix == "subplan":
-        return _subplan(task, human_plan, price)
-    return _replan(task, alone, price)
+class SuffixPrices(Protocol):
+    """What labels and ends of suffixes depend on."""
+
+    def price(self, i: int) -> Label:
+        """Of an action."""
+
+    def waiting(self, epochs: int) -> Label:
+        """Of some epochs of waiting."""
+
+    def lasts(self, moment: Moment, epoch: int, last: int) -> bool:
+        """Whether all goals hold after epoch ``last`` if everybody is idle until then."""
 
 
-def _done(task: Task, state: State) -> bool:
-    return holds(task.goal, state) and holds(task.robot_goal, state)
-
-
-def _replan(task: Task, alone: Alone, price: Price) -> Suffix:
-    """Def. 2.0a: any optimal plan of the human's own; among several, the best for the objective."""
-
-    @cache
-    def best_of(state: State) -> Label | None:
-        if holds(task.goal, state) and alone.worth(state) == (Fraction(0), 0):
-            return NOTHING if holds(task.robot_goal, state) else None
-        rest = [(price(i), best_of(next_state)) for i, next_state in alone.optimal(state)]
-        return min((plus(step, label) for step, label in rest if label is not None), default=None)
-
-    def suffix(state: State, _xi1: int, epochs: int) -> Front:
-        worth = alone.worth(state)
-        if worth is None or worth[1] > epochs:
-            return ()
-        label = best_of(state)
-        return () if label is None else (label,)
-
-    return suffix
-
-
-def _subplan(task: Task, human_plan: HumanPlan, price: Price) -> Suffix:
-    """Def. 2.0: a subsequence of ``pi_H``, each index at most once."""
-
-    @cache
-    def from_index(state: State, index: int, epochs: int) -> Front:
-        labels = [NOTHING] if _done(task, state) else []
-        for k in range(index, len(human_plan)):
-            action = task.actions[human_plan[k]]
-            if epochs and usable(action, state):
-                rest = from_index(after(state, [action]), k + 1, epochs - 1)
-                labels += [plus(price(human_plan[k]), label) for label in rest]
-        return front(labels)
-
-    return lambda state, _xi1, epochs: from_index(state, 0, epochs)
-
-
-def _state(task: Task, human_plan: HumanPlan, price: Price) -> Suffix:
-    """Def. 3.1 literally: the state entails ``delta(I, pi_H[1..j])``, then ``pi_H[j+1..]``."""
-    expected, mentioned = _preserved(task, human_plan)
-
-    def continued(state: State, j: int) -> Front:
-        label = NOTHING
-        for i in human_plan[j:]:
-            if not usable(task.actions[i], state):
-                return ()
-            state = after(state, [task.actions[i]])
-            label = plus(label, price(i))
-        return (label,) if _done(task, state) else ()
-
-    @cache
-    def suffix(state: State, xi1: int, epochs: int) -> Front:
-        labels: list[Label] = []
-        for j in range(xi1 - 1, len(human_plan) + 1):
-            if len(human_plan) - j <= epochs and state >= (expected[j] & mentioned):
-                labels += continued(state, j)
-        return front(labels)
-
-    return suffix
-
-
-def _preserved(task: Task, human_plan: HumanPlan) -> tuple[list[State], set[int]]:
-    """The states ``delta(I, pi_H[1..j])``, and the facts that the human's own domain mentions."""
-    expected = [task.init]
-    for i in human_plan:
-        expected.append(after(expected[-1], [task.actions[i]]))
-    mentioned = set(task.goal.positive) | set(task.goal.negative)
-    for i in task.human_actions:
-        action = task.actions[i]
-        mentioned |= {*action.pre, *action.neg, *action.add, *action.delete}
-    return expected, mentioned
-
-
-class CanonicalSuffix:
-    """The one suffix that the human takes: the cheapest, of those the shortest, of those the first by names.
+class Suffixes:
+    """The suffixes of a call.
 
     Args:
         task: the task.
         options: which rule is in force.
         human_plan: ``pi_H``.
+        alone: the human alone.
+        prices: of actions and waiting.
+        last: ``T``.
     """
 
-    def __init__(self, task: Task, options: Options, human_plan: HumanPlan) -> None:
-        self.task, self.options, self.human_plan = task, options, human_plan
-        self.alone = Alone(task)
-        self.expected, self.mentioned = _preserved(task, human_plan)
+    def __init__(
+        self,
+        task: Task,
+        options: Options,
+        human_plan: HumanPlan,
+        alone: Alone,
+        prices: SuffixPrices,
+        last: int,
+    ) -> None:
+        self.task = task
+        self.options = options
+        self.plan = human_plan
+        self.alone = alone
+        self.world = alone.world
+        self.prices = prices
+        self.last = last
+        self.replan = cache(self._replan)
+        self.follow = cache(self._follow)
+        self.of = cache(self._of)
+        self._expected = _states(self.world, human_plan) if options.preservation == "state" else []
+
+    def _of(self, moment: Moment, xi1: int, epoch: int) -> Front:
+        """Labels of what the human may do from a moment on, ``epoch`` being over.
+
+        What they are at goes on first.
+        """
+        now: Moment | None = moment
+        while now is not None and self.world.busy(now, self.task.human):
+            epoch += 1
+            now = self.world.alone(now, epoch)
+        if now is None or epoch > self.last:
+            return ()
+        if self.options.preservation == "state":
+            return self._preserved(now, xi1, epoch)
+        if self.options.suffix == "subplan":
+            return self.follow(now, epoch, 0, True)
+        worth = self.alone.worth(now._replace(retired=False), epoch)
+        if worth is None or epoch + worth[1] > self.last:
+            return ()
+        label = self.replan(now, epoch, False)
+        return () if label is None else (label,)
+
+    def _replan(self, moment: Moment, epoch: int, acts: bool) -> Label | None:
+        """The best for the objective of the human's optimal plans; ``acts``: with an action at least."""
+        plain = moment._replace(retired=False)
+        resting = self.alone.resting(plain, epoch)
+        if not acts and resting is not None and resting == self.alone.worth(plain, epoch):
+            return NOTHING if self.prices.lasts(moment, epoch, self.last) else None
+        if moment.retired:
+            return None
+        found: list[Label] = []
+        for way in self.alone.best(plain, epoch):
+            price = self.prices.waiting(1) if way.action is None else self.prices.price(way.action)
+            rest = self.replan(way.moment, way.epoch, way.action is None)
+            if rest is not None:
+                found.append(plus(price, rest))
+        return min(found, default=None)
+
+    def _follow(self, moment: Moment, epoch: int, index: int, may_skip: bool) -> Front:
+        """Actions of ``pi_H`` from an index on, each at most once; all, unless some may be skipped."""
+        labels: list[Label] = []
+        if (may_skip or index == len(self.plan)) and self.prices.lasts(moment, epoch, self.last):
+            labels.append(NOTHING)
+        if not moment.retired:
+            indices = range(index, len(self.plan)) if may_skip else range(index, len(self.plan))[:1]
+            for k in indices:
+                labels += self._done(moment, epoch, k, may_skip)
+            labels += self._waited(moment, epoch, index, may_skip)
+        return front(labels)
+
+    def _done(self, moment: Moment, epoch: int, k: int, may_skip: bool) -> Iterator[Label]:
+        way = self.alone.acted(moment, epoch, self.plan[k])
+        if way is not None and way.epoch <= self.last:
+            for rest in self.follow(way.moment, way.epoch, k + 1, may_skip):
+                yield plus(self.prices.price(self.plan[k]), rest)
+
+    def _waited(self, moment: Moment, epoch: int, index: int, may_skip: bool) -> Iterator[Label]:
+        """Waiting, while the script lasts, before an action."""
+        way = self.alone.waited(moment, epoch)
+        if way is not None and way.epoch < self.last:
+            for rest in self.follow(way.moment, way.epoch, index, may_skip):
+                if rest[2]:
+                    yield plus(self.prices.waiting(1), rest)
+
+    def _preserved(self, moment: Moment, xi1: int, epoch: int) -> Front:
+        """Def. 3.1 literally: the state entails that after ``pi_H[1..j]``, then ``pi_H[j+1..]``."""
+        begun = sum(start < xi1 for start in self.task.starts_of(self.plan))
+        labels: list[Label] = []
+        for j in range(begun, len(self.plan) + 1):
+            if moment.state >= self._expected[j]:
+                labels += self.follow(moment, epoch, j, False)
+        return front(labels)
+
+
+def _states(world: World, human_plan: HumanPlan) -> list[State]:
+    """What has to hold after the first j actions of ``pi_H``: what the human's own domain mentions."""
+    task = world.task
+    mentioned = set(task.goal.positive) | set(task.goal.negative)
+    for i in task.human_actions:
+        for part in world.parts(i):
+            mentioned |= {*part.pre, *part.neg, *part.add, *part.delete}
+    now, epoch = Moment(task.init), 0
+    found = [now.state & mentioned]
+    for start, action in zip(task.starts_of(human_plan), human_plan, strict=True):
+        for following in range(epoch + 1, start + task.actions[action].duration):
+            onward = world.alone(now, following, action if following == start else None)
+            assert onward is not None, "pi_H is a plan"
+            now, epoch = onward, following
+        found.append(now.state & mentioned)
+    return found
+
+
+class CanonicalSuffix:
+    """The one suffix that the human takes: the cheapest, of those the shortest, of those the first by names.
+
+    In time it is the first of their optimal plans that lasts; what keeps actions of ``pi_H`` knows no time.
+
+    Args:
+        task: the task.
+        options: which rule is in force.
+        human_plan: ``pi_H``.
+        last: ``T``.
+    """
+
+    def __init__(self, task: Task, options: Options, human_plan: HumanPlan, last: int) -> None:
+        self.task, self.options, self.human_plan, self.last = task, options, human_plan, last
+        self.alone = Alone(task, strict=options.strict)
+        self.expected = _states(self.alone.world, human_plan)
         self.plan = cache(self._plan)
 
-    def _plan(self, state: State, xi1: int, epochs: int) -> HumanPlan | None:
-        """From a state on, given xi1 and the number of epochs that are left; None where no window fits."""
+    def _plan(self, moment: Moment, xi1: int, epoch: int) -> tuple[int | None, ...] | None:
+        """What they begin in each epoch from a moment on, ``epoch`` being over; None where no window fits."""
         if self.options.preservation == "state":
-            found = self._rests(state, xi1)
+            found = self._rests(moment.state, xi1)
         elif self.options.suffix == "subplan":
-            found = self._parts(state, self.human_plan)
+            found = self._parts(moment.state, self.human_plan)
         else:
-            found = self._optimal(state)
-        return min((plan for plan in found if len(plan) <= epochs), key=self._order, default=None)
+            return self._optimal(moment, epoch)
+        return min((plan for plan in found if epoch + len(plan) <= self.last), key=self._order, default=None)
 
     def _order(self, plan: HumanPlan) -> tuple[Fraction, int, list[str]]:
         return (self.task.cost_of(plan), len(plan), [self.task.actions[i].name for i in plan])
 
-    def _optimal(self, state: State) -> Iterator[HumanPlan]:
-        """Def. 2.0a: the canonical plan of semantics 1."""
-        plan: HumanPlan = ()
-        while ways := self.alone.optimal(state):
-            plan, state = (*plan, ways[0][0]), ways[0][1]
-        if holds(self.task.goal, state):
-            yield plan
+    def _optimal(self, moment: Moment, epoch: int) -> tuple[int | None, ...] | None:
+        """Def. 2.0a: the canonical plan of semantics 1, once they have ended what they are at."""
+        world, free = self.alone.world, epoch
+        now: Moment | None = moment
+        while now is not None and world.busy(now, self.task.human):
+            free += 1
+            now = world.alone(now, free)
+        if now is None or self.alone.worth(now, free) is None:
+            return None
+        for actions, starts, end in self.alone.plans(now, free):
+            if end > self.last:
+                break
+            begun = dict(zip(starts, actions, strict=True))
+            reached: Moment | None = now
+            for following in range(free + 1, self.last + 1):
+                reached = None if reached is None else world.alone(reached, following, begun.get(following))
+            if reached is not None and holds(self.task.goal, reached.state):
+                return tuple(begun.get(following) for following in range(epoch + 1, end + 1))
+        return None
 
     def _parts(self, state: State, rest: HumanPlan) -> Iterator[HumanPlan]:
         """Def. 2.0: the subsequences of ``pi_H`` that work."""
@@ -150,5 +213,5 @@ class CanonicalSuffix:
         """Def. 3.1 literally: ``pi_H[j+1..]``, where the state entails ``delta(I, pi_H[1..j])``."""
         for j in range(xi1 - 1, len(self.human_plan) + 1):
             rest = self.human_plan[j:]
-            if state >= (self.expected[j] & self.mentioned) and rest in self._parts(state, rest):
+            if state >= self.expected[j] and rest in self._parts(state, rest):
                 yield rest

@@ -12,7 +12,7 @@ from serendipity.testing.builders import usar
 from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
 from serendipity.testing.generator.numbers import oddly_priced
 from serendipity.testing.generator.tasks import COSTS, corridor, errands, strips, varied
-from serendipity.testing.oracle import Alone
+from serendipity.testing.oracle import Alone, Moment
 
 DICE: Final = st.randoms(use_true_random=False)
 """They shrink what is made of them."""
@@ -112,13 +112,13 @@ def walks(draw: st.DrawFn, built: Task, most: int) -> frozenset[int]:
     Args:
         most: actions, at least one where any changes anything.
     """
-    state, alone = built.init, Alone(built)
+    now, alone = Moment(built.init), Alone(built)
     for _ in range(draw(st.integers(1, most))):
-        ways = [way for way in alone.successors(state) if way[1] != state]
+        ways = [way.moment for way in alone.ways(now) if way.moment != now]
         if not ways:
             break
-        state = draw(st.sampled_from(ways))[1]
-    return state
+        now = draw(st.sampled_from(ways))
+    return now.state
 
 
 @st.composite

@@ -10,7 +10,7 @@ from search import PreparedTask, canonical_human_plan
 from serendipity.model import Deadline, HumanPlan, Options, Script, Task
 from serendipity.model.task.unit_steps import unit_steps
 from serendipity.testing.builders import task
-from serendipity.testing.oracle.alone_in_time import plans_in_time
+from serendipity.testing.oracle import optimal_human_plan
 from serendipity.testing.strategies.time import tasks_in_time
 
 Told = tuple[list[str], tuple[int, ...], int] | None
@@ -28,7 +28,7 @@ def test_plans_alone_are_the_canonical_ones(built: Task) -> None:
     units = unit_steps(built)
     plan = canonical_human_plan(PreparedTask(units.task), Deadline(), Options())
     found = told(built, None if plan is None else units.begun(plan))
-    assert found == told(built, next(plans_in_time(built), None))
+    assert found == told(built, optimal_human_plan(built))
 
 
 def test_epochs_in_which_nothing_can_begin_cost_nothing() -> None:

@@ -8,24 +8,13 @@ import serendipity
 from serendipity.model import PlanError, UsageError, Window
 from serendipity.model.keywords import InterruptionOptions
 from serendipity.testing.call import Call
-from serendipity.testing.oracle.in_time import SolverInTime, shifted
-from serendipity.testing.oracle.labels import Label
+from serendipity.testing.oracle.best import shifted
+from serendipity.testing.oracle.interruptions import best_by_window
 from serendipity.testing.strategies.time import calls_in_time
-
-
-class _BothCosts(SolverInTime):
-    """Labels whose first part is what the human pays, and whose second is what the team pays."""
-
-    def _price(self, i: int) -> Label:
-        action = self.task.actions[i]
-        if self.task.human in action.participants:
-            return (self._units(action.cost), self._units(action.cost), 1)
-        return (0, self._units(action.cost * (1 - self.options.discount)), 1)
 
 
 def _expected(call: Call) -> dict[Window, tuple[Fraction, Fraction]] | None:
     """Both least costs of each window that some plan fits; None where the human has no plan alone."""
-    asked = call.options.but(mode="serendipity", window_weight=0, max_window=None, ties="fixed")
     plan = call.human_plan
     if plan is None:
         names = ("waiting_cost", "head_start", "interference")
@@ -36,20 +25,7 @@ def _expected(call: Call) -> dict[Window, tuple[Fraction, Fraction]] | None:
         plan = shifted(call.task, plan, call.options.head_start)
     if plan is None:
         return None
-    solver = _BothCosts(call.task, asked, plan, given=True)
-    labels: dict[Window, list[Label]] = {}
-    if not call.task.robot_goal:
-        cost = solver._units(solver._cost_of(plan))
-        for start in range(1, solver.length + 1):
-            for end in range(start + 1, int(solver.horizon or 0) + 2):
-                labels[Window(start, end)] = [(cost, cost, 0)]
-    for candidate in solver._windows():
-        assert candidate.window is not None
-        labels.setdefault(candidate.window, []).append(candidate.label)
-    return {
-        window: (solver._cost(min(one[0] for one in each)), solver._cost(min(one[1] for one in each)))
-        for window, each in labels.items()
-    }
+    return best_by_window(call.task, call.options, plan)
 
 
 @given(calls_in_time(modes=("serendipity",)))

@@ -8,7 +8,7 @@ import pytest
 from serendipity.model import Condition, Options, PlanError, Script, Task, UsageError, Window
 from serendipity.testing.builders import task
 from serendipity.testing.oracle import best, human_plans, optimal_human_plan
-from serendipity.testing.oracle.alone_in_time import with_predicted
+from serendipity.testing.oracle.alone import with_predicted
 
 HALF = "0.5"
 

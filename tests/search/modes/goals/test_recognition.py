@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.model import Condition, Task, UsageError
 from serendipity.testing.builders import task as build
-from serendipity.testing.oracle import Alone, optimal_human_plan
+from serendipity.testing.oracle import Alone, Moment, optimal_human_plan
 from serendipity.testing.strategies import tasks
 from tests.search.modes.goals.strategies import literals, reachable_goals
 
@@ -108,12 +108,12 @@ def watched(draw: st.DrawFn) -> tuple[Task, list[Condition], list[str]]:
     """Candidate goals, and what the human did on a walk."""
     task = replace(draw(tasks()), robot_goal=Condition())
     wanted = [draw(reachable_goals(task)) for _ in range(draw(st.integers(1, 3)))]
-    alone, state, names = Alone(task), task.init, []
+    alone, now, names = Alone(task), Moment(task.init), []
     for _ in range(draw(st.integers(0, 4))):
-        ways = list(alone.successors(state))
+        ways = list(alone.ways(now))
         if not ways:
             break
-        action, state = draw(st.sampled_from(ways))
+        action, _, now, _ = draw(st.sampled_from(ways))
         if draw(st.integers(0, 3)):
             names.append(task.actions[action].name)
     return task, wanted, names
@@ -154,9 +154,8 @@ def test_costs_equal_brute_force(case: tuple[Task, list[Condition], list[str]]) 
     for goal, answer in zip(wanted, known.goals, strict=True):
         product = _with_memory(task, goal, names)
         for memory, cost in ((True, answer.with_observed), (False, answer.without_observed)):
-            worth = Alone(replace(product, goal=_remembers(product, goal, names, all_of=memory))).worth(
-                product.init
-            )
+            remembering = replace(product, goal=_remembers(product, goal, names, all_of=memory))
+            worth = Alone(remembering).worth(Moment(product.init))
             assert cost == (None if worth is None else worth[0])
         if not names:
             plan = optimal_human_plan(replace(task, goal=goal))

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from serendipity.model import Condition, HumanPlan, Options, Step, Task, surroundings
 from serendipity.model.task.actions import State
 from serendipity.model.task.visibility import Visible
-from serendipity.testing.oracle import Alone, human_plans
+from serendipity.testing.oracle import Alone, Moment, human_plans
 from serendipity.testing.oracle.epochs import after, usable
 from serendipity.testing.strategies import tasks
 
@@ -79,8 +79,8 @@ def _steps(draw: st.DrawFn, task: Task, human_plan: HumanPlan, epochs: int) -> t
         steps += [Step(epoch, i) for i in chosen]
         if left and usable(task.actions[left[0]], state):
             chosen.append(left.pop(0))
-        elif ways := alone.optimal(state):
-            chosen.append(ways[0][0])
+        elif ways := alone.best(Moment(state)):
+            chosen.append(ways[0].action)
         state = after(state, [task.actions[i] for i in chosen if usable(task.actions[i], state)])
     return tuple(steps)
 
