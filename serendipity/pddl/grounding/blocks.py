@@ -32,69 +32,19 @@ class Column(NamedTuple):
         return Column(self.table, [*compress(self.places, chosen)])
 
 
-class GroundedCourse(NamedTuple):
-    """What a ground durative action asks for and changes beside start and end; see :class:`BlockCourse`."""
-
-    ids: tuple[Ids, ...]
-    duration: Cost
-
-
 class Grounded(NamedTuple):
     """One ground action; see :class:`Block`."""
 
     key: Key
     participants: tuple[int, ...]
-    pre: Ids
-    neg: Ids
-    add: Ids
-    delete: Ids
+    ids: tuple[Ids, ...]
     cost: Cost
-    course: GroundedCourse | None = None
+    duration: Cost | None = None
 
     @property
     def only_waits(self) -> bool:
         """Whether it asks for nothing and changes nothing."""
-        return not any(self[2:6]) and (self.course is None or not any(self.course.ids))
-
-
-@dataclass(frozen=True, slots=True)
-class BlockCourse:
-    """The rest of ground durative actions.
-
-    Attributes:
-        columns: what must be true, and false, while they go on; what must be true, and false, for their
-            end; what their start makes true, and false (where it does not make it true as well).
-        durations: in the unit of the input, or what is wrong with them.
-    """
-
-    columns: tuple[Column, ...]
-    durations: list[Cost]
-
-    @property
-    def later(self) -> tuple[tuple[Column, Column], tuple[Column, Column]]:
-        """What must be true, and false, while they go on, and for their end."""
-        over, over_neg, end, end_neg, _, _ = self.columns
-        return (over, over_neg), (end, end_neg)
-
-    @property
-    def start_add(self) -> Column:
-        """What their start makes true."""
-        return self.columns[4]
-
-    @property
-    def start_delete(self) -> Column:
-        """What their start makes false."""
-        return self.columns[5]
-
-    def only(self, chosen: Sequence[object]) -> "BlockCourse":
-        """Those of the actions at which ``chosen`` is true."""
-        columns = tuple([column.only(chosen) for column in self.columns])
-        return BlockCourse(columns, [*compress(self.durations, chosen)])
-
-    def records(self) -> Iterator[GroundedCourse]:
-        """Those of the actions, one by one."""
-        rows = zip(*(column.rows() for column in self.columns), strict=True)
-        return map(GroundedCourse, rows, self.durations)
+        return not any(self.ids)
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,30 +54,22 @@ class Block:
     Attributes:
         keys: names, ``(name, arguments...)``.
         participants: agent ids.
-        pre: what must be true.
-        neg: what must be false.
-        add: what they make true.
-        delete: what they make false, where they don't make it true as well.
+        columns: what must be true, must be false, becomes true, and becomes false (where it does not become
+            true as well); of durative actions these are of their start and end, and there are six more: what
+            must be true, and false, while they go on, and for their end; what their start makes true, and
+            false.  So every other column is of what is or becomes false.
         costs: undiscounted, or what is wrong with them.
-        course: the rest of durative actions; None for others.
+        durations: of durative actions, in the unit of the input, or what is wrong with them; else None.
     """
 
     keys: list[Key]
     participants: list[tuple[int, ...]]
-    pre: Column
-    neg: Column
-    add: Column
-    delete: Column
+    columns: tuple[Column, ...]
     costs: list[Cost]
-    course: BlockCourse | None = None
+    durations: list[Cost] | None = None
 
     def __len__(self) -> int:
         return len(self.keys)
-
-    @property
-    def conditions(self) -> tuple[Column, Column, Column, Column]:
-        """Preconditions and effects."""
-        return self.pre, self.neg, self.add, self.delete
 
     def only(self, chosen: Sequence[object]) -> "Block":
         """The actions at which ``chosen`` is true."""
@@ -136,27 +78,22 @@ class Block:
         return Block(
             [*compress(self.keys, chosen)],
             [*compress(self.participants, chosen)],
-            self.pre.only(chosen),
-            self.neg.only(chosen),
-            self.add.only(chosen),
-            self.delete.only(chosen),
+            tuple([column.only(chosen) for column in self.columns]),
             [*compress(self.costs, chosen)],
-            None if self.course is None else self.course.only(chosen),
+            None if self.durations is None else [*compress(self.durations, chosen)],
         )
 
     def records(self) -> Iterator[Grounded]:
         """The actions, one by one."""
-        rows = (column.rows() for column in self.conditions)
-        courses = repeat(None) if self.course is None else self.course.records()
-        return map(Grounded, self.keys, self.participants, *rows, self.costs, courses)
+        rows = zip(*(column.rows() for column in self.columns), strict=True)
+        durations = repeat(None) if self.durations is None else self.durations
+        return map(Grounded, self.keys, self.participants, rows, self.costs, durations)
 
     def needs(self) -> Iterator[Ids]:
         """What has to be true at some time for each action, and is not its own doing."""
-        course = self.course
-        if course is None:
-            return self.pre.rows()
-        (over, _), (end, _) = course.later
-        rows = (column.rows() for column in (self.pre, over, end, course.start_add))
+        if self.durations is None:
+            return self.columns[0].rows()
+        rows = (self.columns[i].rows() for i in (0, 4, 6, 8))
         return (
             (*pre, *(fact for fact in (*inside, *last) if fact not in own))
             for pre, inside, last, own in zip(*rows, strict=True)
@@ -164,25 +101,29 @@ class Block:
 
     def gains(self) -> Iterator[Ids]:
         """What each action makes true at some time."""
-        if self.course is None:
-            return self.add.rows()
-        return map(add_ids, self.add.rows(), self.course.start_add.rows())
+        first, *more = (column.rows() for column in self.added)
+        return map(add_ids, first, *more) if more else first
+
+    @property
+    def conditions(self) -> tuple[tuple[Column, Column], ...]:
+        """What must be true, and false, at each time that something is asked."""
+        asked = self.asked
+        return tuple(zip(asked[::2], asked[1::2], strict=True))
 
     @property
     def asked(self) -> tuple[Column, ...]:
         """All conditions."""
-        course = self.course
-        return (self.pre, self.neg) if course is None else (self.pre, self.neg, *course.columns[:4])
+        return (*self.columns[:2], *self.columns[4:8])
 
     @property
     def added(self) -> tuple[Column, ...]:
         """All that becomes true."""
-        return (self.add,) if self.course is None else (self.add, self.course.start_add)
+        return self.columns[2::6]
 
     @property
     def deleted(self) -> tuple[Column, ...]:
         """All that becomes false."""
-        return (self.delete,) if self.course is None else (self.delete, self.course.start_delete)
+        return self.columns[3::6]
 
 
 def facts_of(columns: Iterable[Column]) -> Iterator[int]:
@@ -191,23 +132,14 @@ def facts_of(columns: Iterable[Column]) -> Iterator[int]:
 
 
 def block_of(records: Sequence[Grounded]) -> Block:
-    """The block of some actions: what :meth:`Block.records` gives back."""
+    """The block of some actions, all or none of them durative: what :meth:`Block.records` gives back."""
     everything = range(len(records))
+    durations = [record.duration for record in records if record.duration is not None]
+    columns = zip(*(record.ids for record in records), strict=True)
     return Block(
         [record.key for record in records],
         [record.participants for record in records],
-        Column([record.pre for record in records], everything),
-        Column([record.neg for record in records], everything),
-        Column([record.add for record in records], everything),
-        Column([record.delete for record in records], everything),
+        tuple([Column([*rows], everything) for rows in columns]),
         [record.cost for record in records],
-        _course_of([record.course for record in records if record.course is not None]),
+        durations or None,
     )
-
-
-def _course_of(courses: Sequence[GroundedCourse]) -> BlockCourse | None:
-    if not courses:
-        return None
-    everything = range(len(courses))
-    columns = tuple([Column([course.ids[i] for course in courses], everything) for i in range(6)])
-    return BlockCourse(columns, [course.duration for course in courses])

@@ -81,7 +81,8 @@ class Cases:
             case = known
         add = tuple([self.facts[literal.key] for literal in then if literal.positive])
         delete = tuple([self.facts[literal.key] for literal in then if not literal.positive])
-        yield case._replace(add=case.add + add, delete=case.delete + delete)
+        pre, neg, gained, lost, *later = case.ids
+        yield case._replace(ids=(pre, neg, gained + add, lost + delete, *later))
 
     def _error(self, record: Grounded, what: str) -> InputError:
         name = quoted(" ".join(record.key))
@@ -91,8 +92,10 @@ class Cases:
 
 def _assume(record: Grounded, fact: int, truth: bool) -> Grounded | None:
     """The record with one more precondition, or None where it contradicts the others."""
-    if fact in (record.neg if truth else record.pre):
+    pre, neg, *others = record.ids
+    if fact in (neg if truth else pre):
         return None
-    if fact in (record.pre if truth else record.neg):
+    if fact in (pre if truth else neg):
         return record
-    return record._replace(pre=(*record.pre, fact)) if truth else record._replace(neg=(*record.neg, fact))
+    more = ((*pre, fact), neg) if truth else (pre, (*neg, fact))
+    return record._replace(ids=(*more, *others))

@@ -103,10 +103,10 @@ def _common(units: Iterable[Unit], blocks: Iterable[Block]) -> Fraction:
     """The greatest common divisor of durations and times."""
     times = {literal.time for unit in units for literal in unit.problem.timed}
     for block in blocks:
-        if block.course is None:
+        if block.durations is None:
             times |= {ONE} if len(block) else set()
         else:
-            times |= {time for time in block.course.durations if isinstance(time, Fraction)}
+            times |= {time for time in block.durations if isinstance(time, Fraction)}
     return reduce(_divisor, times) if times else ONE
 
 
@@ -121,10 +121,10 @@ def timed_action(record: Grounded, epochs: Callable[[Key, Cost], int]) -> Ground
 
     Within a single epoch everything is asked before it, but for what its own start brings about.
     """
-    key, who, pre, neg, add, delete, cost, course = record
-    assert course is not None, "only durative actions have a course"
-    over, over_neg, end, end_neg, start_add, start_delete = course.ids
-    name, number = " ".join(key), epochs(key, course.duration)
+    key, who, ids, cost, duration = record
+    assert duration is not None, "it is durative"
+    pre, neg, add, delete, over, over_neg, end, end_neg, start_add, start_delete = ids
+    name, number = " ".join(key), epochs(key, duration)
     price = cast(Fraction, cost)
     if number > 1:
         timing = Timing(number, Condition(over, over_neg), Condition(end, end_neg), start_add, start_delete)

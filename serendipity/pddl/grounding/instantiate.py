@@ -12,15 +12,7 @@ from itertools import chain, count
 from typing import Final
 
 from serendipity.model.errors import LIMITS
-from serendipity.pddl.grounding.blocks import (
-    Block,
-    BlockCourse,
-    Column,
-    Grounded,
-    GroundedCourse,
-    Ids,
-    block_of,
-)
+from serendipity.pddl.grounding.blocks import Block, Column, Grounded, Ids, block_of
 from serendipity.pddl.grounding.cases import Cases
 from serendipity.pddl.grounding.costs import Costs
 from serendipity.pddl.grounding.join import Relations, bindings
@@ -127,7 +119,7 @@ class Instantiator:
             self._add(self._record(lifted, unit, participants, product))
 
     def _add(self, record: Grounded) -> None:
-        records = self._records if record.course is None else self._durative
+        records = self._records if record.duration is None else self._durative
         records.append(record)
         if len(records) >= _LARGE:
             self._make_block(records)
@@ -139,48 +131,34 @@ class Instantiator:
 
     def blocks(self) -> list[Block]:
         """All ground actions so far."""
-        durative = [block_of(self._durative)] if self._durative else []
-        return [*self._blocks, block_of(self._records), *durative]
+        return [*self._blocks, *(block_of(some) for some in (self._records, self._durative) if some)]
 
     def _block(self, lifted: Lifted, unit: Unit, participants: Participants, product: Product) -> Block:
         atoms = _Atoms(product, self.facts)
         keys = atoms.of(schema_key(lifted), product.everything)
-        pre, neg, add, delete = map(atoms.column, self._conditions(lifted))
-        who = [*participants(keys)]
+        columns = tuple(map(atoms.column, self._parts(lifted)))
         costs = self._costs.of(lifted.schema, unit, product)
-        course = None
-        if lifted.schema.course is not None:
-            columns = tuple(map(atoms.column, self._course(lifted)))
-            course = BlockCourse(columns, self._costs.durations(lifted.schema, unit, product))
-        return Block(keys, who, pre, neg, add, delete, costs, course)
+        durations = self._costs.durations(lifted.schema, unit, product) if lifted.schema.course else None
+        return Block(keys, [*participants(keys)], columns, costs, durations)
 
     def _record(self, lifted: Lifted, unit: Unit, participants: Participants, product: Product) -> Grounded:
         values = product.fixed
         key = ground_key(schema_key(lifted), values)
-        pre, neg, add, delete = (
-            tuple([self.facts[ground_key(atom, values)] for atom in atoms])
-            for atoms in self._conditions(lifted)
+        ids = tuple(
+            [tuple([self.facts[ground_key(atom, values)] for atom in atoms]) for atoms in self._parts(lifted)]
         )
         (who,) = participants([key])
         (cost,) = self._costs.of(lifted.schema, unit, product)
-        course = None
-        if lifted.schema.course is not None:
-            ids = tuple(
-                tuple([self.facts[ground_key(atom, values)] for atom in atoms])
-                for atoms in self._course(lifted)
-            )
-            (duration,) = self._costs.durations(lifted.schema, unit, product)
-            course = GroundedCourse(ids, duration)
-        return Grounded(key, who, pre, neg, add, delete, cost, course)
+        durations = self._costs.durations(lifted.schema, unit, product) if lifted.schema.course else [None]
+        return Grounded(key, who, ids, cost, *durations)
 
-    def _conditions(self, lifted: Lifted) -> tuple[list[Key], list[Key], list[Key], list[Key]]:
-        """The lifted atoms that must be true, must be false, become true, become false."""
-        return (*self._fluent(lifted.precondition), *_by_sign(lifted.effects))
-
-    def _course(self, lifted: Lifted) -> tuple[list[Key], ...]:
-        """The same of the course of a durative action: over all, at end, at start."""
+    def _parts(self, lifted: Lifted) -> tuple[list[Key], ...]:
+        """The lifted atoms of each column of a block."""
+        found = (*self._fluent(lifted.precondition), *_by_sign(lifted.effects))
+        if lifted.schema.course is None:
+            return found
         over, end = self._fluent(lifted.over_all), self._fluent(lifted.at_end)
-        return (*over, *end, *_by_sign(lifted.start_effects))
+        return (*found, *over, *end, *_by_sign(lifted.start_effects))
 
     def _fluent(self, needs: Iterable[Literal]) -> tuple[list[Key], list[Key]]:
         return _by_sign([literal for literal in needs if literal.key[0] in self.relations.fluent])

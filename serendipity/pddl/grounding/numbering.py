@@ -2,13 +2,14 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from collections.abc import Set as AbstractSet
+from dataclasses import replace
 from fractions import Fraction
 from itertools import chain, repeat
 from operator import attrgetter
 from typing import cast
 
 from serendipity.model import Condition, GroundAction, TimedFact
-from serendipity.pddl.grounding.blocks import Block, BlockCourse, Column, facts_of
+from serendipity.pddl.grounding.blocks import Block, Column, facts_of
 from serendipity.pddl.grounding.clock import timed_action
 from serendipity.pddl.grounding.costs import BadCost, Cost
 from serendipity.pddl.parsing.lifted import Key, Literal
@@ -124,15 +125,17 @@ class Numbering:
         """
         actions: list[GroundAction] = []
         for block in self._work.deadline.each(self.blocks, 1):
-            actions += self._ground(block) if block.course is None else self._ground_durative(block, epochs)
+            actions += (
+                self._ground(block) if block.durations is None else self._ground_durative(block, epochs)
+            )
         self._work.stage(f"sorting {len(actions):,} ground actions")
         return in_order(actions)
 
     def _ground(self, block: Block) -> Iterator[GroundAction]:
         block = self._renumbered(block)
-        if all(() in column.table for column in block.conditions):
+        if all(() in column.table for column in block.columns):
             block = self._without_waiting(block)
-        columns = [column.rows() for column in block.conditions]
+        columns = [column.rows() for column in block.columns]
         names = map(" ".join, block.keys)
         return map(GroundAction, names, block.participants, *columns, _checked(block))
 
@@ -146,29 +149,13 @@ class Numbering:
                 yield action
 
     def _renumbered(self, block: Block) -> Block:
-        add, course = _renumbered(block.add, self._changing), block.course
-        if course is not None:
-            start_add = _renumbered(course.start_add, self._changing)
-            (over, over_neg), (end, end_neg) = course.later
-            columns = (
-                _renumbered(over, self._changing),
-                _renumbered(over_neg, self._possible),
-                _renumbered(end, self._changing),
-                _renumbered(end_neg, self._possible),
-                start_add,
-                _without(_renumbered(course.start_delete, self._ids), start_add),
-            )
-            course = BlockCourse(columns, course.durations)
-        return Block(
-            block.keys,
-            block.participants,
-            _renumbered(block.pre, self._changing),
-            _renumbered(block.neg, self._possible),
-            add,
-            _without(_renumbered(block.delete, self._ids), add),
-            block.costs,
-            course,
-        )
+        columns: list[Column] = []
+        for i, column in enumerate(block.columns):
+            if any(column is deleted for deleted in block.deleted):
+                columns.append(_without(_renumbered(column, self._ids), columns[-1]))
+            else:
+                columns.append(_renumbered(column, self._possible if i % 2 else self._changing))
+        return replace(block, columns=tuple(columns))
 
     def _without_waiting(self, block: Block) -> Block:
         """The actions that ask for something, or change something; names of the others are noted."""

@@ -40,11 +40,8 @@ def executable(
 
 
 def _possible(block: Block, lasting: Set[int]) -> Block:
-    if any(block.neg.table):
-        block = block.only(_not_contradictory(block.neg, block.pre, lasting))
-    for when in (0, 1) if block.course is not None else ():
-        assert block.course is not None
-        positive, negative = block.course.later[when]
+    for when in range(len(block.conditions)):
+        positive, negative = block.conditions[when]
         if any(negative.table):
             block = block.only(_not_contradictory(negative, positive, lasting))
     return block
