@@ -15,8 +15,7 @@ from search.modes.scenarios import Candidate
 from serendipity.model import Certificate, Condition, Deadline, InputError, Options, Result, Task
 from serendipity.testing.builders import task as build
 from tests.cli.conftest import Runs
-from tests.search.modes.goals.strategies import literals, rivals
-from tests.search.modes.goals.test_expected_equals_brute_force import _OPTIONS
+from tests.search.modes.goals.strategies import FIXED_OPTIONS, literals, rivals
 from tests.search.modes.goals.test_worked_cases import helped, workshop
 from tests.verify.scenarios.edit import edit
 from verify.base.optimal_plans import OptimalPlans
@@ -28,7 +27,7 @@ def _verdicts(certificate: Certificate) -> dict[str, tuple[str, str]]:
     return {claim.claim: (claim.verdict, claim.reason) for claim in certificate.claims}
 
 
-@given(rivals(), _OPTIONS, st.data())
+@given(rivals(), FIXED_OPTIONS, st.data())
 @settings(max_examples=50)
 def test_every_answer_is_proved(
     rivalry: tuple[Task, list[Candidate]], options: Options, data: st.DataObject

@@ -6,10 +6,19 @@ from fractions import Fraction
 from hypothesis import strategies as st
 
 from search.modes.scenarios import Candidate
-from serendipity.model import Condition, Task
+from serendipity.model import Condition, Options, Task
 from serendipity.testing.oracle import optimal_human_plan
 from serendipity.testing.strategies import tasks
 from serendipity.testing.strategies.tasks import walks
+
+FIXED_OPTIONS = st.builds(
+    Options,
+    discount=st.sampled_from(["0", "0.5", "0.9", "1"]),
+    window_weight=st.sampled_from(["1000", "0", "0.25", "1"]),
+    interference=st.sampled_from(["paper", "strict"]),
+    policy=st.just("fixed"),
+)
+"""Of robots that commit themselves."""
 
 WEIGHTS = (Fraction(1, 2), Fraction(1, 4), Fraction(9, 10))
 

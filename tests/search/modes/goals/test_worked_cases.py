@@ -6,6 +6,7 @@ import serendipity
 from serendipity.model import InputError, Result, Task, UsageError, Window
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import CASE_3_PLAN, case_3
+from tests.model.test_parts_of_results import rivals
 
 
 def workshop(keep: str) -> Task:
@@ -36,6 +37,16 @@ def test_help_that_leaves_the_other_plan_alone() -> None:
     assert (p.cost, p.window) == (2, Window(1, 2))
     assert (z.cost, z.window) == (6, None)
     assert answer.agent_costs == {"h": 3, "r": 1}
+
+
+def test_a_goal_served_at_no_gain() -> None:
+    """Lifting saves 8 if the human wants p; for z they can't ``keep`` beside it but have to ``mend``."""
+    goals = [{"name": "p", "goal": ["p"]}, {"name": "z", "goal": ["z"]}]
+    answer = serendipity.plan(rivals(), goals=goals, horizon=3, interference="strict")
+    p, z = answer.goals or ()
+    assert (answer.opportunity, p.cost, z.cost) == (True, 1.0, 5.0)
+    assert z.window is not None
+    assert [step.action for step in z.plan or ()] == ["lift r", "mend h"]
 
 
 @pytest.mark.parametrize(("p", "z", "cost"), [(9, 1, 2.4), (1, 3, 5), ("1/4", "3/4", 5), (1, 9, 5)])

@@ -7,9 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import serendipity
 from search.modes.scenarios import Candidate
 from serendipity.model import Condition, Options, Task
 from serendipity.model.keywords import CHOICES, Risk
+from serendipity.testing.strategies import Call, calls
+from tests.search.modes.goals.strategies import literals
 from tests.search.modes.scenarios.strategies import scenarios
 from tests.search.modes.scenarios.test_policies_equal_brute_force import solved
 
@@ -98,3 +101,17 @@ def test_order_and_names_make_no_difference(asked: Given, options: Options) -> N
     )
     turned = [replace(c, goal=moved(c.goal), name=f"other {c.name}") for c in reversed(candidates)]
     assert figures(other, options, turned) == figures(task, options, candidates)
+
+
+@given(calls(modes=("serendipity",), ties=False))
+def test_one_goal_is_section_3(call: Call) -> None:
+    named = [{"name": "it", "goal": literals(call.task, call.task.goal)}]
+    options = call.options.to_dict()
+    plain = serendipity.plan(call.task, **options)
+    answer = serendipity.plan(call.task, goals=named, **options)
+    expected, got = plain.to_dict(), answer.to_dict()
+    expected.pop("statistics"), got.pop("statistics")
+    if plain.reason == "no-human-plan":
+        assert (answer.status, answer.reason) == ("infeasible", "no-human-plan")
+    else:
+        assert got == expected
