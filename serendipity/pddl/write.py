@@ -55,14 +55,14 @@ def task_files(task: Task) -> dict[str, tuple[str, str]]:
     files = {}
     for agent, name in enumerate(task.agents):
         own = {names[i]: a for i, a in enumerate(task.actions) if a.participants == (agent,)}
-        goal = _goal(task.goal.positive, task.goal.negative, facts) if agent == task.human else []
+        goal = _literals(task.goal.positive, task.goal.negative, facts) if agent == task.human else []
         mentioned = _mentioned(own.values())
         if agent == task.human:
             mentioned |= {*task.goal.positive, *task.goal.negative}
             mentioned |= {one.fact for one in task.script.facts}
         files[name] = (_domain(own, facts, mentioned), _problem(task, facts, mentioned, goal))
     joint = {names[i]: a for i, a in enumerate(task.actions) if a.joint}
-    goal = _goal(task.robot_goal.positive, task.robot_goal.negative, facts)
+    goal = _literals(task.robot_goal.positive, task.robot_goal.negative, facts)
     everything = set(range(len(facts)))
     files[TEAM] = (_domain(joint, facts, everything), _problem(task, facts, everything, goal))
     return files
@@ -88,7 +88,7 @@ def composite_files(task: Task, discount: Fraction) -> ClassicalFiles:
     }
     everything = set(range(len(facts)))
     goals = (task.goal, task.robot_goal)
-    literals = [text for goal in goals for text in _goal(goal.positive, goal.negative, facts)]
+    literals = [text for goal in goals for text in _literals(goal.positive, goal.negative, facts)]
     return ClassicalFiles(
         _domain(actions, facts, everything), _problem(task, facts, everything, literals), scale
     )
@@ -174,10 +174,6 @@ def _problem(task: Task, facts: Sequence[str], mentioned: set[int], goal: Iterab
         "",
     ]
     return "\n".join(lines)
-
-
-def _goal(positive: Iterable[int], negative: Iterable[int], facts: Sequence[str]) -> list[str]:
-    return _literals(positive, negative, facts)
 
 
 def _literals(positive: Iterable[int], negative: Iterable[int], facts: Sequence[str]) -> list[str]:

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from serendipity.model import Deadline, Options, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_4
-from serendipity.testing.oracle import best, human_plans
-from serendipity.testing.oracle.epochs import action_sets, after
+from serendipity.testing.oracle import action_sets, best, human_plans
+from serendipity.testing.oracle.epochs import after
 from serendipity.testing.strategies import tasks
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant, relevant_part

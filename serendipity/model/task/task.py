@@ -204,13 +204,9 @@ class Task(Told):
             return replayed(self, plan, strict=strict)
         states = [self.init]
         for step, action_id in enumerate(plan, start=1):
-            states.append(self._after(states[-1], action_id, step))
+            states.append(apply(states[-1], self.step_of(states[-1], action_id, step)))
         self.require_goal(states[-1], plan)
         return states
-
-    def _after(self, state: frozenset[int], action_id: int, step: int) -> frozenset[int]:
-        """The state after a step of the human's plan."""
-        return apply(state, self.step_of(state, action_id, step))
 
     def step_of(self, state: AbstractSet[int], action_id: int, step: int) -> GroundAction:
         """The action of a step of the human's plan, which they can begin alone in the state.
@@ -285,17 +281,10 @@ class Task(Told):
         Raises:
             PlanError: a step is not applicable, or the goal is missed.
         """
+        names = [self.actions[i].name for i in plan]
         if self.needs_time or isinstance(plan, TimedPlan):
-            names = (self.actions[i].name for i in plan)
             return plan_in_time(self, zip(self.starts_of(plan), names, strict=True))
-        found: list[int] = []
-        state = self.init
-        for step, action_id in enumerate(plan, start=1):
-            ids = self.named[self.actions[action_id].name]
-            found.append(next((i for i in ids if self.actions[i].applicable(state)), ids[0]))
-            state = self._after(state, found[-1], step)
-        self.require_goal(state, tuple(found))
-        return tuple(found)
+        return self.plan_from_names(names)
 
     def names(self, plan: HumanPlan) -> frozenset[str]:
         """The names of a plan's actions: actions of one name are variants of one (see the class)."""

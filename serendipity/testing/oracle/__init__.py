@@ -11,15 +11,13 @@ against.
 from serendipity.testing.oracle.alone import Alone, human_plans, optimal_human_plan
 from serendipity.testing.oracle.answers import Optimum
 from serendipity.testing.oracle.best import best
-from serendipity.testing.oracle.epochs import action_sets, action_sets_of_names
-from serendipity.testing.oracle.moments import Moment
+from serendipity.testing.oracle.moments import Moment, action_sets
 
 __all__ = [
     "Alone",
     "Moment",
     "Optimum",
     "action_sets",
-    "action_sets_of_names",
     "best",
     "human_plans",
     "optimal_human_plan",

@@ -1,8 +1,8 @@
-"""One epoch: conditions, effects and all applicable action sets (semantics 2)."""
+"""One epoch: conditions, effects, and which actions may share it (semantics 2)."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
-from serendipity.model import Condition, GroundAction, Task
+from serendipity.model import Condition, GroundAction
 
 State = frozenset[int]
 
@@ -36,28 +36,3 @@ def compatible(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
             if set(one.delete) & set(other.pre) or set(one.add) & set(other.neg):
                 return False
     return True
-
-
-def action_sets(
-    task: Task, state: State, candidates: Iterable[int], *, strict: bool = False
-) -> Iterator[tuple[int, ...]]:
-    """Every set of ``candidates`` that is applicable in ``state``, the empty one included."""
-    ready = [i for i in candidates if usable(task.actions[i], state)]
-
-    def extend(chosen: tuple[int, ...], start: int) -> Iterator[tuple[int, ...]]:
-        yield chosen
-        for k in range(start, len(ready)):
-            action = task.actions[ready[k]]
-            if all(compatible(task.actions[i], action, strict=strict) for i in chosen):
-                yield from extend((*chosen, ready[k]), k + 1)
-
-    yield from extend((), 0)
-
-
-def action_sets_of_names(task: Task, *, strict: bool = False) -> set[frozenset[str]]:
-    """The action sets that are applicable initially, by name."""
-    everything = range(len(task.actions))
-    return {
-        frozenset(task.actions[i].name for i in chosen)
-        for chosen in action_sets(task, task.init, everything, strict=strict)
-    }

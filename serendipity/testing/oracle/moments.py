@@ -159,3 +159,10 @@ class World:
             state = (state - {one.fact for one in facts}) | {one.fact for one in facts if one.true}
         going = tuple(sorted((i, k + 1) for i, k in happening if k + 1 < len(self._parts[i])))
         return Moment(state, going, moment.retired)
+
+
+def action_sets(
+    task: Task, state: State, candidates: Iterable[int], *, strict: bool = False
+) -> Iterator[tuple[int, ...]]:
+    """Every set of actions of one epoch each that is applicable in a state, the empty one included."""
+    return (chosen for chosen, _ in World(task, strict=strict).sets(Moment(state), 1, candidates))

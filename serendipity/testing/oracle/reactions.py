@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from serendipity.model import HumanPlan, Options, Task
 from serendipity.testing.oracle.alone import Alone, optimal_human_plan
-from serendipity.testing.oracle.epochs import State, action_sets, after, holds, usable
+from serendipity.testing.oracle.epochs import State, after, holds, usable
 from serendipity.testing.oracle.moments import Moment
 
 Visible = Callable[[int, int, State], bool]
@@ -67,7 +67,8 @@ class _World:
         self.task = task
         self.options = options
         self.visible = visible
-        self.alone = Alone(task)
+        self.alone = Alone(task, strict=options.strict)
+        self.world = self.alone.world
         self.robots = [i for i, a in enumerate(task.actions) if task.human not in a.participants]
         self.joint = [i for i, a in enumerate(task.actions) if a.joint and task.human in a.participants]
 
@@ -115,9 +116,7 @@ class _World:
 
     def _sets(self, state: State, his: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
         """The human's action with each set of robots' actions that may share its epoch."""
-        for chosen in action_sets(
-            self.task, state, [*his, *self.robots], strict=self.options.interference == "strict"
-        ):
+        for chosen, _ in self.world.sets(Moment(state), 1, [*his, *self.robots]):
             if chosen[: len(his)] == his:
                 yield chosen
 
