@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import lru_cache, reduce
 from operator import add, mul, sub, truediv
 from re import compile as regex
-from typing import Final
+from typing import Final, TypeVar
 
 from serendipity.model import InputError
 from serendipity.model.numbers import MOST_DIGITS, fraction
@@ -25,9 +25,20 @@ from serendipity.pddl.parsing.lifted import (
     Quantified,
 )
 from serendipity.pddl.parsing.syntax import VARIABLE, Typed, typed_list
-from serendipity.pddl.parsing.tree import Item, SExpression, expected, name_at, node_at, quoted, refuse_more
+from serendipity.pddl.parsing.tree import (
+    Item,
+    SExpression,
+    expected,
+    name_at,
+    node_at,
+    quoted,
+    refuse_more,
+    shown,
+)
 from serendipity.pddl.parsing.types import ANYTHING, Type, Types, type_text
 from serendipity.pddl.work import Work
+
+T = TypeVar("T")
 
 _MOST_DIGITS: Final = 2 * MOST_DIGITS
 """Digits of a cost: a number in a file may have so many, its exponent included."""
@@ -45,6 +56,8 @@ _NUMBER: Final = regex(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?")
 
 _COMPARISONS: Final = ("<", "<=", ">", ">=")
 NUMERIC_EFFECTS: Final = ("increase", "decrease", "assign", "scale-up", "scale-down")
+
+START, INSIDE, END = "at start", "over all", "at end"
 
 _UNSUPPORTED: Final = {
     "preference": "preferences",
@@ -84,6 +97,7 @@ class Scope:
 
     Attributes:
         variables: types of those in scope, by name.
+        when: the part of a durative action that is read; None within it, and in what is not durative.
         quantified: whether there has been a quantifier.
     """
 
@@ -101,6 +115,7 @@ class Scope:
         self.objects = objects
         self.tick = work.deadline.tick
         self.variables: dict[str, Type] = {}
+        self.when: str | None = None
         self.quantified = False
 
     def parameters(self, definitions: Iterable[Typed]) -> tuple[Parameter, ...]:
@@ -154,8 +169,25 @@ class Scope:
             raise InputError(f"{quoted(word)} {types}", line=node.line_of(i))
         return word
 
+    def condition_at(self, when: str, node: SExpression) -> Formula:
+        """What a durative action asks for at ``when``."""
+        self.when = when
+        found = self.condition(node)
+        self.when = None
+        return found
+
+    def effects_at(self, when: str, node: SExpression) -> tuple[list[Effect], list[Expression]]:
+        """What a durative action changes at ``when``."""
+        self.when = when
+        found = self.effects(node)
+        self.when = None
+        return found
+
     def condition(self, node: SExpression, positive: bool = True) -> Formula:
         """A condition in negation normal form; ``positive`` is False below a negation."""
+        if self.when is not None and node.head not in (None, "and", "forall"):
+            when, part = timed(node, (START, INSIDE, END))
+            return self._within(lambda: self.condition(part)) if when == self.when else And()
         match node.head:
             case None:
                 return And() if positive else Or()
@@ -198,6 +230,8 @@ class Scope:
 
     def effects(self, node: SExpression) -> tuple[list[Effect], list[Expression]]:
         """Effects on facts, and what is added to the total cost."""
+        if self.when is not None and node.head not in (None, "and", "forall"):
+            return self._timed_effects(node)
         match node.head:
             case None:
                 return [], []
@@ -221,6 +255,26 @@ class Scope:
         if node.head in NUMERIC_EFFECTS:
             return [], [self._increase(node)]
         return [Effect(Literal(self.atom(node)))], []
+
+    def _timed_effects(self, node: SExpression) -> tuple[list[Effect], list[Expression]]:
+        if isinstance(node.head, str) and node.head in NUMERIC_EFFECTS:
+            message = f"continuous effects ({quoted(node.head)} without 'at start' or 'at end')"
+            raise InputError(f"{message} are not supported", line=node.line)
+        conditional = node.head == "when"
+        found: tuple[list[Effect], list[Expression]] = [], []
+        if not conditional:
+            when, part = timed(node, (START, END))
+            found = self._within(lambda: self.effects(part)) if when == self.when else found
+        if conditional or any(effect.condition is not None for effect in found[0]):
+            raise InputError("conditional effects of durative actions are not supported", line=node.line)
+        return found
+
+    def _within(self, read: Callable[[], T]) -> T:
+        """What is read where there is no more word of when."""
+        when, self.when = self.when, None
+        found = read()
+        self.when = when
+        return found
 
     def _increase(self, node: SExpression) -> Expression:
         function = node_at(node, 1, "a function")
@@ -256,6 +310,16 @@ class Scope:
         if len(inner.items) < 3:
             raise expected(f"two values to {operator}", inner, len(inner.items))
         return _operation(str(operator), [self.expression(inner, j) for j in _rest(inner)], inner.line)
+
+
+def timed(node: SExpression, allowed: tuple[str, ...]) -> tuple[str, SExpression]:
+    """When something of a durative action is asked, or takes effect, and what."""
+    when = " ".join(item for item in node.items[:2] if isinstance(item, str))
+    if len(node.items) < 2 or when not in allowed:
+        words = " or ".join(f"'({one} ...)'" for one in allowed)
+        raise InputError(f"expected {words}, got {shown(node)}", line=node.line)
+    refuse_more(node, 3)
+    return when, node_at(node, 2, f"brackets behind '{when}'")
 
 
 def _rest(node: SExpression) -> range:
