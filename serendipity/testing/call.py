@@ -1,9 +1,10 @@
-"""One planning call as a value."""
+"""One planning call as a value, and what an answer to it says."""
 
 from dataclasses import dataclass
-from typing import Any
+from fractions import Fraction
+from typing import Any, Protocol
 
-from serendipity.model import HumanPlan, Options, Task
+from serendipity.model import HumanPlan, Options, Task, Window
 from serendipity.model.task.plans import PlanEntry
 from serendipity.model.task.plans_in_time import times_of
 
@@ -33,3 +34,27 @@ class Call:
     def keywords(self, **changes: Any) -> dict[str, Any]:
         """The options as the facade takes them, each of them, with some changed."""
         return {name: getattr(self.options, name) for name in self.options.to_dict()} | changes
+
+
+class Answered(Protocol):
+    """The answer of a planner, or of brute force."""
+
+    @property
+    def status(self) -> str:
+        """``optimal``, ``feasible``, ``infeasible`` or ``unknown``."""
+
+    @property
+    def cost(self) -> Fraction | float | None:
+        """The cost to the team; None without a plan."""
+
+    @property
+    def objective(self) -> Fraction | float | None:
+        """The objective; None without a plan."""
+
+    @property
+    def window(self) -> Window | None:
+        """The window of help; None without help, and in modes without windows."""
+
+    @property
+    def opportunity(self) -> bool:
+        """Whether help pays."""

@@ -7,13 +7,13 @@ from typing import Final
 
 from serendipity.model import INFINITE, Deadline, PlanError, UsageError
 from serendipity.testing.asking import call_of, settled, written
-from serendipity.testing.call import Call
+from serendipity.testing.call import Answered, Call
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall, random_call
 from serendipity.testing.judges import OutsideJudge, Proposal, fault, said
 from serendipity.testing.judges.claims import TIME_LIMIT, cost_of
 from serendipity.testing.judges.in_mode import as_result
-from serendipity.testing.laws import ASKED_IN, JOINT, LAWS, Answered
+from serendipity.testing.laws import ASKED_IN, JOINT, LAWS
 from serendipity.testing.oracle import Optimum, best
 from serendipity.testing.shrinking import shrink
 from serendipity.testing.told_plans import both_plans

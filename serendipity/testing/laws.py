@@ -14,29 +14,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any, Final, Protocol
+from typing import Any, Final
 
-from serendipity.model import INFINITE, Options, Window
-from serendipity.testing.call import Call
+from serendipity.model import INFINITE, Options
+from serendipity.testing.call import Answered, Call
 from serendipity.testing.oracle import Alone, Moment
 from serendipity.testing.rewriting import doubled, renamed, with_idle_robot, with_split_action
-
-
-class Answered(Protocol):
-    """The answer of a planner."""
-
-    @property
-    def cost(self) -> Fraction | float | None:
-        """The cost to the team; None without a plan."""
-
-    @property
-    def objective(self) -> Fraction | float | None:
-        """The objective; None without a plan."""
-
-    @property
-    def window(self) -> Window | None:
-        """The window of help; None without help, and in modes without windows."""
-
 
 Ask = Callable[[Call], Answered]
 """A planner."""

@@ -8,11 +8,12 @@ help, too, say in which epoch each action is, and which window there is (``in_mo
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Final, Protocol
+from typing import Final
 
 from serendipity.model import Deadline, Task
 from serendipity.model.numbers import exact, total
 from serendipity.model.task.actions import apply
+from serendipity.testing.call import Answered
 from serendipity.testing.generator.calls import PlanCall
 
 TIME_LIMIT: Final = "time limit"
@@ -75,27 +76,7 @@ class OutsideJudge:
         return replace(call, task=task, options=options, human_plan=None)
 
 
-class Proved(Protocol):
-    """A proved answer, of brute force or of another judge: ``optimal``, or ``infeasible``."""
-
-    @property
-    def status(self) -> str:
-        """``optimal`` or ``infeasible``."""
-
-    @property
-    def cost(self) -> Fraction | float | None:
-        """The cost to the team; None without a plan."""
-
-    @property
-    def objective(self) -> Fraction | float | None:
-        """The objective; None without a plan."""
-
-    @property
-    def opportunity(self) -> bool:
-        """Whether help pays."""
-
-
-def fault_of_joint(call: PlanCall, claim: Proposal, result: Proved | None) -> str | None:
+def fault_of_joint(call: PlanCall, claim: Proposal, result: Answered | None) -> str | None:
     """The fault in a claim about the joint question, or None.
 
     Args:

@@ -8,15 +8,15 @@ from serendipity.facade.certify import check
 from serendipity.model import Result
 from serendipity.testing.asking import call_of, settled
 from serendipity.testing.by_hand import result as result_of
-from serendipity.testing.call import Call
+from serendipity.testing.call import Answered, Call
 from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.judges.claims import Proposal, Proved, fault_of_joint
+from serendipity.testing.judges.claims import Proposal, fault_of_joint
 
 _HELD: Final = ("replay", "window")
 """Claims of a certificate that are about the plan itself; figures are worked out from it here."""
 
 
-def fault(call: PlanCall, claim: Proposal, proved: Proved | None) -> str | None:
+def fault(call: PlanCall, claim: Proposal, proved: Answered | None) -> str | None:
     """The fault in a claim, or None.
 
     Args:
@@ -60,7 +60,7 @@ def as_result(call: Call, claim: Proposal) -> Result:
     return replace(answer, opportunity=claim.window is not None) if call.options.windowed else answer
 
 
-def _not_the_least(call: Call, claim: Proposal, answer: Result, proved: Proved) -> str | None:
+def _not_the_least(call: Call, claim: Proposal, answer: Result, proved: Answered) -> str | None:
     least, cost = float(proved.objective or 0), float(answer.objective or 0)
     if call.options.windowed and (claim.window is not None) != proved.opportunity:
         if proved.opportunity:

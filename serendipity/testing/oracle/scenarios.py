@@ -3,7 +3,8 @@
 Where robots can't tell scenarios apart, these are a group: they share what robots begin by themselves,
 and so their state, and what is under way in time.  The recursion is over (epoch, group); what comes of it
 are vectors with the worth of each scenario, since ``risk`` decides only at the end which vector is the least.
-Robots that commit themselves see nothing, so each scenario has a worth for each sequence of what they do.
+Robots that commit themselves see nothing: all scenarios stay a group, and what robots begin has to be
+possible in each.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -157,34 +158,12 @@ class _Policies:
         human = [i for i, a in enumerate(task.actions) if task.human in a.participants]
         self.parts: list[int | None] = [None, *(i for i in human if robots or not task.actions[i].joint)]
         self.front, self.part, self.ways = cache(self._front), cache(self._part), cache(self._ways)
-        self.committed = cache(self._committed)
 
     def vectors(self) -> Iterator[tuple[Worth, ...]]:
         """What policies are worth; those that are no better in any scenario than others may be missing."""
         start = tuple(_Situation(k, Moment(self.task.init)) for k in range(len(self.scenarios)))
-        vectors = self.front(1, start) if self.options.policy == "watching" else self._in_common(start)
-        for vector in vectors:
+        for vector in self.front(1, start):
             yield tuple((Fraction(a, self.unit), Fraction(b, self.unit)) for a, b in vector)
-
-    def _in_common(self, start: _Group) -> Iterator[Vector]:
-        """What each sequence is worth that robots can commit themselves to."""
-        first, *others = (self.committed(1, now) for now in start)
-        for sequence, worth in first.items():
-            if all(sequence in other for other in others):
-                yield (worth, *(other[sequence] for other in others))
-
-    def _committed(self, epoch: int, now: _Situation) -> Mapping[tuple[tuple[int, ...], ...], Units]:
-        """The least worth of one scenario from an epoch on, by what robots do by themselves in each epoch."""
-        if epoch > self.horizon:
-            end = self._end(now)
-            return {} if end is None else {(): end}
-        found: dict[tuple[tuple[int, ...], ...], Units] = {}
-        for robots in self._robots(epoch, (now,)):
-            for way in chain.from_iterable(self.ways(epoch, now, robots).values()):
-                for rest, more in self.committed(epoch + 1, way.now).items():
-                    worth = (way.worth[0] + more[0], way.worth[1] + more[1])
-                    found[robots, *rest] = min(worth, found.get((robots, *rest), worth))
-        return found
 
     def _front(self, epoch: int, group: _Group) -> Vectors:
         """What the rest can be worth to a group, from the beginning of an epoch on."""
@@ -229,7 +208,8 @@ class _Policies:
         """Everything that the human may do beside the robots, by what these see of it."""
         found: dict[str | None, list[_Way]] = {}
         for way in self._human(epoch, now, robots):
-            found.setdefault(way.seen, []).append(way)
+            seen = way.seen if self.options.policy == "watching" else None
+            found.setdefault(seen, []).append(way)
         return found
 
     def _human(self, epoch: int, now: _Situation, robots: tuple[int, ...]) -> Iterator[_Way]:
