@@ -200,14 +200,11 @@ def _begun(
     expect_or_none(FUNCTION, visible=visible)
     chosen = options_from(options)
     solver = _solver(chosen)
-    unsure = _unsure(chosen, given, said)
+    read = _unsure(chosen, given, said)
     call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
+    unsure = None if read is None else read(call.task)
     if memory is not None:
-        about = None
-        if unsure is not None:
-            from serendipity.facade.scenarios import asked_about
-
-            about = asked_about(call.task, unsure)
+        about = unsure if unsure is not None and any(unsure[:2]) else None
         plan = None if call.given is None else named_plan(call.task, call.given)
         call = replace(call, question=memory.question(chosen, visible, about, plan))
     if call.known is not None:
@@ -223,8 +220,8 @@ def _begun(
     return call, solver(call)
 
 
-def _unsure(options: Options, given: Given, said: Mapping[str, Any]) -> "Unsure | None":
-    """What is said of a human whose plan is not known; None where it is.
+def _unsure(options: Options, given: Given, said: Mapping[str, Any]) -> "Callable[[Task], Unsure] | None":
+    """Reads what is said of a human whose plan is not known; None where it is.
 
     What answers such calls is loaded here, before time counts, and only for them.
     """
@@ -237,9 +234,9 @@ def _unsure(options: Options, given: Given, said: Mapping[str, Any]) -> "Unsure 
         raise UsageError("plans: go without goals, each plan can name its own")
     if named is not None and options.mode != "serendipity":
         raise UsageError(f"{named}: are for mode 'serendipity' only, not for '{options.mode}'")
-    from serendipity.facade.scenarios import Unsure
+    from serendipity.facade.scenarios import read_unsure
 
-    return Unsure(**said)
+    return partial(read_unsure, **said)
 
 
 def _solver(options: Options) -> Solver:

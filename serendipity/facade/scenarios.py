@@ -4,7 +4,7 @@ Epoch 1 is the first epoch of the human's plans, and observations are actions of
 their current plan for a goal is the canonical optimal plan from ``I`` that embeds them.
 """
 
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -25,7 +25,7 @@ from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.numbers import Number
 from serendipity.model.task.gate import needs_time
 from serendipity.model.task.plans import TimedPlan
-from serendipity.recognition.library import LibraryGiven, plan_library
+from serendipity.recognition.library import LibraryGiven, LibraryPlan, plan_library
 from serendipity.recognition.recognise import (
     CandidateGoal,
     GoalsGiven,
@@ -41,12 +41,40 @@ _FIXED: Final[dict[str, object]] = {"human_model": "omniscient", "max_cost": Non
 
 
 class Unsure(NamedTuple):
-    """What a caller says of a human whose plan is not known; see :func:`serendipity.plan`."""
+    """What is known of a human whose plan is not; equal for equal questions.
 
-    goals: GoalsGiven | None = None
-    observed: ObservedGiven = ()
-    beta: Number = 1
-    plans: LibraryGiven | None = None
+    Attributes:
+        plans: that they may follow; None: of goals all that lead there.
+        goals: that they may have; None: the task's.
+        observed: names of the actions that they have done.
+        beta: how strictly they minimise cost.
+    """
+
+    plans: tuple[LibraryPlan, ...] | None = None
+    goals: tuple[CandidateGoal, ...] | None = None
+    observed: tuple[str, ...] = ()
+    beta: float = 1.0
+
+
+def read_unsure(
+    task: Task,
+    *,
+    goals: GoalsGiven | None = None,
+    observed: ObservedGiven = (),
+    beta: Number = 1,
+    plans: LibraryGiven | None = None,
+) -> Unsure:
+    """What a caller says of such a human; see :func:`serendipity.plan`.
+
+    Raises:
+        InputError: a file or an entry of it is wrong.
+        UsageError: ``beta`` is.
+    """
+    if plans is not None:
+        return Unsure(plan_library(task, plans))
+    if goals is None:
+        return Unsure()
+    return Unsure(None, candidate_goals(task, goals), observed_actions(task, observed), strictness(beta))
 
 
 def settled(call: Request, unsure: Unsure) -> tuple[Request, Solver]:
@@ -56,18 +84,16 @@ def settled(call: Request, unsure: Unsure) -> tuple[Request, Solver]:
     the human can't reach alone, are not considered.  Without the time to find them the answer is ``unknown``.
 
     Raises:
-        InputError: a file or an entry of it is wrong.
         UsageError: an option that has no meaning here; more optimal plans than ``max_ties``.
     """
     recognition = None
     try:
         if unsure.plans is not None:
-            library = plan_library(call.task, unsure.plans)
-            considered = [Candidate(one.goal, one.plan, one.probability, one.name) for one in library]
+            considered = [Candidate(one.goal, one.plan, one.probability, one.name) for one in unsure.plans]
         elif unsure.goals is None:
             considered = _shared(call, [Candidate(call.task.goal, (), Fraction(1))])
         else:
-            considered, recognition = _by_goals(call, unsure)
+            considered, recognition = _by_goals(call, unsure, unsure.goals)
     except LIMITS as limit:
         unknown = Answer("unknown", reason=limit_reason(limit), expanded=None, generated=None)
         return call, lambda _: iter((unknown,))
@@ -91,37 +117,23 @@ def _answers(call: Request) -> Iterator[Answer]:
     return ties.answers(call)
 
 
-def asked_about(task: Task, unsure: Unsure) -> Hashable:
-    """The identity of a question about scenarios.
-
-    Raises:
-        InputError: a file or an entry of it is wrong.
-    """
-    if unsure.goals is None:
-        return None if unsure.plans is None else plan_library(task, unsure.plans)
-    names = observed_actions(task, unsure.observed)
-    return candidate_goals(task, unsure.goals), names, strictness(unsure.beta)
-
-
-def _by_goals(call: Request, unsure: Unsure) -> tuple[list[Candidate], Recognition]:
+def _by_goals(
+    call: Request, unsure: Unsure, candidates: Sequence[CandidateGoal]
+) -> tuple[list[Candidate], Recognition]:
     """A scenario for each goal that is possible, or for each optimal plan to it, and the posterior.
 
     Raises:
-        InputError: a file or an entry of it is wrong.
         UsageError: as :func:`settled`.
         LimitReachedError: a limit came first.
     """
-    assert unsure.goals is not None
-    candidates = candidate_goals(call.task, unsure.goals)
-    names = observed_actions(call.task, unsure.observed)
     if len(candidates) > 1:
         _refuse(call.task, call.options)
     watched = call.options.ties == "watched"
-    if names and call.task.needs_time:
+    if unsure.observed and call.task.needs_time:
         raise UsageError("observed: in time the posterior is not known, only the goals' priors")
-    if names and watched:
+    if unsure.observed and watched:
         raise UsageError("ties: 'watched' goes without observed: each goal's plans are all its optimal ones")
-    recognition, plans = _recognised(call, candidates, names, strictness(unsure.beta))
+    recognition, plans = _recognised(call, candidates, unsure.observed, unsure.beta)
     considered = _considered(candidates, recognition, plans)
     return _shared(call, considered) if watched else considered, recognition
 
