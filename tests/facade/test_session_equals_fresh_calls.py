@@ -1,15 +1,12 @@
 """A session answers what a fresh call on the same state answers, and keeps the human's plan."""
 
-import threading
 from dataclasses import replace
 
 import pytest
-from hypothesis import given
 
 import serendipity
 from serendipity import PlanError, Session, Task, UsageError
-from serendipity.testing.cases import case_1, case_2
-from serendipity.testing.strategies import tasks
+from serendipity.testing.cases import case_1
 
 
 def _fresh(session: Session, **options: object) -> serendipity.Result:
@@ -22,32 +19,6 @@ def _fresh(session: Session, **options: object) -> serendipity.Result:
 
 def _same(one: serendipity.Result, other: serendipity.Result) -> bool:
     return replace(one, statistics={}) == replace(other, statistics={})
-
-
-@pytest.mark.parametrize("case", [case_1, case_2])
-def test_following_the_answer_epoch_by_epoch(case: object) -> None:
-    options = {"discount": 0.9, "window_weight": 0}
-    session = Session(case(), **options)  # type: ignore[operator]
-    result = session.plan()
-    plan = result.plan or ()
-    for epoch in range(1, max(step.epoch for step in plan) + 1):
-        session.execute([step.action for step in plan if step.epoch == epoch])
-        assert _same(session.plan(), _fresh(session, **options))
-    assert session.task.goal.holds(session.task.init)
-    assert session.plan().cost == 0
-
-
-@given(tasks())
-def test_after_any_epoch_it_equals_a_fresh_call(task: Task) -> None:
-    """But for the plan, which may be the rest of the one before, where that is as good as any."""
-    options = {"mode": "composite", "horizon": "inf", "discount": 0.5}
-    for action in [action for action in task.actions if action.applicable(task.init)][:3]:
-        session = Session(task, **options)
-        session.plan()
-        session.execute([action.name])
-        kept, fresh = session.plan(), _fresh(session, **options)
-        assert _same(kept, replace(fresh, plan=kept.plan, agent_costs=kept.agent_costs))
-        assert kept.plan is None or sum(step.cost for step in kept.plan) == pytest.approx(kept.cost)
 
 
 def test_a_fact_that_changes_and_a_new_goal() -> None:
@@ -77,18 +48,6 @@ def test_his_plan_goes_on_behind_his_action_and_waiting_is_none() -> None:
     given.plan()
     given.execute([predicted[0]])
     assert given.human_plan == predicted[1:]
-
-
-def test_cancelled_calls_return_the_incumbent() -> None:
-    cancelled = threading.Event()
-    answers = serendipity.plan_anytime(case_2(), discount=0.5, window_weight=0, cancelled=cancelled)
-    first = next(answers)
-    cancelled.set()
-    *_, last = answers
-    assert first.cost == 9
-    assert last.status == "feasible"
-    assert last.lower_bound is not None
-    assert last.lower_bound <= last.objective
 
 
 def test_a_given_plan_need_not_work_before_what_was_seen_is_told() -> None:

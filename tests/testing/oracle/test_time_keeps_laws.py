@@ -78,13 +78,3 @@ def test_communication_that_is_free_is_composite(call: Call) -> None:
     together = answered(replace(call, options=free.but(mode="composite")))
     if isinstance(announced, Optimum) and isinstance(together, Optimum):
         assert (announced.cost, announced.opportunity) == (together.cost, together.opportunity)
-
-
-@settings(max_examples=60, deadline=None)
-@given(calls_in_time())
-def test_no_answer_costs_more_than_doing_nothing(call: Call) -> None:
-    answer = answered(call)
-    if isinstance(answer, str) or answer.cost is None or answer.human_cost is None:
-        return
-    if not call.task.robot_goal and call.options.mode != "individual":
-        assert answer.cost <= answer.human_cost
