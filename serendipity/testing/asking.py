@@ -4,10 +4,11 @@ from dataclasses import fields, replace
 from typing import Final
 
 from serendipity.facade.call import options_from
-from serendipity.model import INFINITE, Options, UsageError
+from serendipity.model import Options
 from serendipity.testing.call import Call
 from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.oracle import optimal_human_plan
+from serendipity.testing.oracle.plans import Plans
 
 _DEFAULT: Final = Options()
 
@@ -41,14 +42,8 @@ def settled(call: Call) -> Call:
     open, there is no horizon.
 
     Raises:
-        UsageError: the horizon is missing.
+        UsageError: the horizon is missing, or too short.
     """
-    options = call.options
     plan = optimal_human_plan(call.task) if call.human_plan is None else call.human_plan
-    if options.mode == "individual" or (plan is None and options.windowed):
-        return replace(call, options=options.but(horizon=None), human_plan=plan)
-    if options.horizon is None:
-        if plan is None and options.mode != "composite":
-            raise UsageError("horizon: must be given, the human has no plan alone")
-        options = options.but(horizon=INFINITE if plan is None else len(plan))
-    return replace(call, options=options, human_plan=plan)
+    horizon = Plans(call.task, call.options, plan).horizon
+    return replace(call, options=call.options.but(horizon=horizon), human_plan=plan)
