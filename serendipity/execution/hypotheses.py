@@ -24,7 +24,6 @@ from serendipity.facade.results import named_steps
 from serendipity.model import Condition, Deadline, Options, PlanStep, Step, Task
 from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import total
-from serendipity.model.options import MAX_EPOCH
 from serendipity.model.task.execution import actions_of, steps_named
 
 
@@ -266,8 +265,8 @@ def best_for_all(prospects: Sequence[Prospect], deadline: Deadline) -> Prospect 
     """The prospect whose robots' part costs least in the mean over all goals; None if none beats waiting.
 
     Robots' actions are played against the person with each of the goals, by what is known of how they
-    react.  Once a person does something else than with the goal that the plan is for, robots go on as it
-    is best for those who do the same: with that plan, with another one, or not at all.
+    react.  Once people with different goals do different things, robots go on as it is best for those who
+    do the same: with that plan, with another one, or not at all.
     """
     played = _Played(prospects, deadline)
     best: Prospect | None = None
@@ -275,7 +274,8 @@ def best_for_all(prospects: Sequence[Prospect], deadline: Deadline) -> Prospect 
     for prospect in prospects:
         if prospect.pays and (cost := played.mean(prospect, least)) < least:
             best, least = prospect, cost
-    return None if best is not None and played.begins(best) and played.waiting() < least else best
+    waits = best is not None and played.begins(best) and played.mean(None, least) < least
+    return None if waits else best
 
 
 _Robots = tuple[Step, ...]
@@ -299,37 +299,32 @@ class _Played:
 
     def begins(self, chosen: Prospect) -> bool:
         """Whether a prospect's part begins in the epoch that is to come."""
-        return any(step.epoch == 1 for step in self._parts[self._prospects.index(chosen)])
+        return any(step.epoch == 1 for step in self._part(chosen))
 
-    def mean(self, chosen: Prospect, least: Fraction | float) -> Fraction | float:
-        """What it costs to begin with a prospect's part; anything where that is no less than ``least``."""
-        lead = self._prospects.index(chosen)
-        part = self._parts[lead]
-        like = self._deeds(lead, part)
-        groups: dict[tuple[str | None, ...], list[int]] = {}
-        for i in range(len(self._prospects)):
-            same = self._deeds(i, part)
-            groups.setdefault(same[: _alike(like, same) + 1], []).append(i)
-        total: Fraction | float = Fraction(0)
-        for deeds, group in groups.items():
-            told = len(deeds) if lead not in group else MAX_EPOCH
-            total += self._least(
-                group, (_until(part, told) + _after(p, told) for p in (part, (), *self._parts))
-            )
-            if total >= least:
-                break
-        return total
+    def mean(self, chosen: Prospect | None, least: Fraction | float) -> Fraction | float:
+        """What it costs to begin with a prospect's part, or with nothing, until people are told apart.
 
-    def waiting(self) -> Fraction | float:
-        """What it costs to do nothing until it is seen what is best for those who have done the same."""
-        deeds = [self._deeds(i, ()) for i in range(len(self._prospects))]
+        Anything where that is no less than ``least``.
+        """
+        part = () if chosen is None else self._part(chosen)
+        deeds = [self._deeds(i, part) for i in range(len(self._prospects))]
         told = min((_alike(deeds[0], other) for other in deeds[1:]), default=0) + 1
         groups: dict[tuple[str | None, ...], list[int]] = {}
         for i, done in enumerate(deeds):
             groups.setdefault(done[:told], []).append(i)
-        late = (tuple(replace(step, epoch=step.epoch + told) for step in part) for part in self._parts)
-        parts = [(), *(_after(part, told) for part in self._parts), *late]
-        return sum((self._least(group, parts) for group in groups.values()), Fraction(0))
+        begun = tuple(step for step in part if step.epoch <= told)
+        rests = [tuple(step for step in part if step.epoch > told) for part in self._parts]
+        late = [tuple(replace(step, epoch=step.epoch + told) for step in part) for part in self._parts]
+        ways = [part, begun, *(begun + rest for rest in (*rests, *(late if chosen is None else ())))]
+        total: Fraction | float = Fraction(0)
+        for group in groups.values():
+            total += self._least(group, ways)
+            if total >= least:
+                break
+        return total
+
+    def _part(self, prospect: Prospect) -> _Robots:
+        return self._parts[self._prospects.index(prospect)]
 
     def _least(self, group: Sequence[int], parts: Iterable[_Robots]) -> Fraction | float:
         """The weight of some goals times the cost of the part that is best for all of them."""
@@ -362,11 +357,3 @@ def _alike(some: Sequence[object], others: Sequence[object]) -> int:
     return next(
         (i for i, (a, b) in enumerate(zip(some, others, strict=False)) if a != b), min(len(some), len(others))
     )
-
-
-def _until(part: _Robots, epoch: int) -> _Robots:
-    return tuple(step for step in part if step.epoch <= epoch)
-
-
-def _after(part: _Robots, epoch: int) -> _Robots:
-    return tuple(step for step in part if step.epoch > epoch)
