@@ -1,15 +1,15 @@
 """Time of a certificate, and what is proved: on folders of tasks, buildings of any size, suites of domains.
 
-    python -m benchmarks.certificates [FOLDER] [--human H] [--buildings 84x3,84x3x2,210x6] [--seeds 5]
-        [--suite FOLDER] [--domains NAME,...] [--stride N] [--limit N] [--modes NAME,...] [--discounts D,...]
-        [--plan-limit SECONDS] [--time-limit SECONDS] [--encoding automata] [--solver highs] [--method auto]
-        [--methods=-NAME,...] [--proofs] [--apart] [--only WORD] [--record FILE]
+    python -m benchmarks.certificates [FOLDER] [--human H] [--buildings 84x3,84x3x2,210x6] [--suite FOLDER]
+        [--stride N] [--modes NAME,...] [--discounts D,...] [--plan-limit SECONDS] [--time-limit SECONDS]
+        [--encoding automata] [--solver highs] [--method auto] [--methods=-NAME,...] [--proofs] [--apart]
+        [--record FILE]
 
-A building is named by its rooms, medkits and robots.  Each task is read, planned, read again and verified.
-What a limit left unplanned is left out.  ``seconds`` are from the second reading to the verdict, of
-processor time, the solver's included, which other work on the machine leaves as it is; ``by the clock`` is
-the certificate alone; ``decided by`` is the method of the claim that took longest (a program without calls:
-pruning).  With ``--apart`` all is done in processes of their own, whose memory is told.
+A building is named by its rooms, medkits and robots; there are five of each.  A task is read, planned, read
+again and verified.  What a limit left unplanned is left out.  ``seconds`` are from the second reading to the
+verdict, of processor time, the solver's included, which other work on the machine leaves as it is; ``by the
+clock`` is the certificate alone; ``decided by`` is the method of the claim that took longest (a program
+without calls: pruning).  With ``--apart`` all is done in processes of their own, whose memory is told.
 
 ``--methods`` leaves methods out, or all but some (``verify.calls.methods``): what each is good for.
 
@@ -22,57 +22,43 @@ on where the first one stopped.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from itertools import product
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import typer
 
 import serendipity
-from benchmarks.problems import building
-from serendipity import Result, SerendipityError, Task
-from serendipity.evaluation.benchmark.coverage.rows import MODES
+from benchmarks.problems import Source, load, of_suite
+from serendipity import Result, SerendipityError
+from serendipity.evaluation.benchmark.contenders import MODES
 from serendipity.evaluation.measuring.figures import children_memory, peak_memory, percentile, timed
-from serendipity.evaluation.measuring.record import Record
-from serendipity.evaluation.measuring.running import apart, measured
-from serendipity.evaluation.measuring.suites import Problem, Roles, folders, may_alone, problems, roles
+from serendipity.evaluation.measuring.record import apart, measured
+from serendipity.evaluation.measuring.suites import folders, may_alone
 from serendipity.evaluation.measuring.tables import as_markdown, grouped, spreads, table
-from serendipity.model.telling import Line
+from serendipity.model.telling import Grid, Line
 from verify.certificate.certify import certify
 from verify.proofs import checker
 
 FIGURES = ("write", "KiB", "check", "compare", "columns", "rows", "leaves")
+SEEDS = range(1, 6)
 
 Row = Mapping[str, Any]
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """A planning call: a task of a group, by what makes it, and options.
-
-    Attributes:
-        source: a folder and the human; rooms, medkits, robots and seed; or files, human and robots.
-    """
+class Asked(NamedTuple):
+    """A planning call about a task of a group."""
 
     group: str
-    source: tuple[Any, ...]
+    source: Source
     mode: str
     discount: str
     limit: float | None
-
-    def load(self) -> Task:
-        """The task."""
-        if isinstance(self.source[0], int):
-            return building(*self.source)
-        if len(self.source) == 2:
-            return serendipity.load(self.source[0], human=self.source[1])
-        domain, problem, human, *robots = self.source
-        return serendipity.load_pddl(domain, problem, human, robots)
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,17 +68,15 @@ class Job:
     asked: Asked
     how: tuple[tuple[str, Any], ...]
     proofs: bool
+    answer: Row = field(repr=False)
 
 
 def main(
     folder: Annotated[Path | None, typer.Argument()] = None,
     human: str | None = None,
     buildings: str = "",
-    seeds: int = 5,
     suite: Path | None = None,
-    domains: str = "",
     stride: int = 1,
-    limit: int | None = None,
     modes: str = "serendipity,communication",
     discounts: str = "0,0.5,0.9",
     plan_limit: float | None = None,
@@ -103,77 +87,61 @@ def main(
     methods: str = "",
     proofs: bool = False,
     separate: Annotated[bool, typer.Option("--apart")] = False,
-    only: str = "",
     record: Path | None = None,
 ) -> None:
     """Plan, verify, print a table."""
-    sources = (
-        [(place.parent.name, (str(place), human)) for place in folders(folder, stride, limit)]
-        if folder
-        else []
-    )
-    sources += _buildings(buildings, seeds)
-    sources += _problems(suite, domains, stride) if suite else []
     how = {"encoding": encoding, "solver": solver, "method": method, "time_limit": time_limit}
     how |= {"methods": tuple(methods.split(","))} if methods else {}
-    asked = [
+    plan, verify = (partial(apart, work) if separate else work for work in (planned, verified))
+    asked = (
         Asked(group, source, mode, discount, plan_limit)
-        for (group, source), mode, discount in product(sources, modes.split(","), discounts.split(","))
-    ]
-    rows, kept = [], Record(record)
-    for each in (each for each in asked if only in repr(each)):
-        answer = _once(kept, each, planned, separate)
-        if answer["status"] in ("optimal", "infeasible"):
-            job = Job(each, tuple(how.items()), proofs)
-            row = _once(kept, job, partial(verified, answer=answer), separate)
-            rows.append({"group": each.group, "mode": each.mode, "discount": each.discount, **row})
-            if not proofs and row["verdict"] != "proved":
-                print(
-                    f"{each.source} {each.mode} {each.discount}: {row['verdict']}: {row['reason']}",
-                    flush=True,
-                )
+        for group, source in _sources(folder, human, buildings, suite, stride)
+        for mode, discount in product(modes.split(","), discounts.split(","))
+    )
+    answers = measured(asked, plan, record)
+    jobs = (
+        Job(each, tuple(how.items()), proofs, answer)
+        for each, answer in answers
+        if answer["status"] in ("optimal", "infeasible")
+    )
+    rows = []
+    for job, row in measured(jobs, verify, record):
+        group, source, mode, discount, _ = job.asked
+        rows.append({"group": group, "mode": mode, "discount": discount, **row})
+        if not proofs and row["verdict"] != "proved":
+            print(f"{source} {mode} {discount}: {row['verdict']}: {row['reason']}", flush=True)
     print(as_markdown(_proofs(rows) if proofs else [_certificates(rows)]), end="")
 
 
-def _once(record: Record, job: Any, work: Callable[[Any], Any], separate: bool) -> Any:
-    """Result of a job, in a process of its own where that is asked for."""
-    ((_, found),) = measured([job], partial(apart, work) if separate else work, record)
-    return found
+def _sources(
+    folder: Path | None, human: str | None, buildings: str, suite: Path | None, stride: int
+) -> Iterator[tuple[str, Source]]:
+    """Tasks, each with its group."""
+    for place in folders(folder, stride) if folder else ():
+        yield place.parent.name, (str(place), human)
+    for name, seed in product(filter(None, buildings.split(",")), SEEDS):
+        yield name, (*(*map(int, name.split("x")), 1)[:3], seed)
+    for problem, _, source in of_suite(suite, may_alone, stride=stride) if suite else ():
+        yield problem.domain, source
 
 
-def _buildings(names: str, seeds: int) -> Iterator[tuple[str, tuple[Any, ...]]]:
-    for name in filter(None, names.split(",")):
-        size = (*map(int, name.split("x")), 1)[:3]
-        yield from ((name, (*size, seed)) for seed in range(1, seeds + 1))
-
-
-def _problems(suite: Path, domains: str, stride: int) -> Iterator[tuple[str, tuple[Any, ...]]]:
-    for problem in problems(suite, [name for name in domains.split(",") if name], stride):
-        who = apart(_roles, problem)
-        yield problem.domain, (str(problem.domain_file), str(problem.problem_file), who.human, *who.robots)
-
-
-def _roles(problem: Problem) -> Roles:
-    return roles(problem, 2, may_alone)
-
-
-def planned(asked: Asked) -> dict[str, Any]:
+def planned(asked: Asked) -> Row:
     """An answer, as JSON has it."""
     options = {**MODES[asked.mode], "discount": asked.discount, "time_limit": asked.limit}
     try:
-        return serendipity.plan(asked.load(), **options).to_dict()
+        return serendipity.plan(load(asked.source), **options).to_dict()
     except SerendipityError as error:
         return {"status": f"refused: {error}"}
 
 
-def verified(job: Job, answer: dict[str, Any]) -> dict[str, Any]:
+def verified(job: Job) -> Row:
     """Verdict and figures of a certificate."""
-    result, how = Result.from_dict(answer), dict(job.how)
+    result, how = Result.from_dict(dict(job.answer)), dict(job.how)
     if job.proofs:
-        return _proof(job.asked.load, result, how["time_limit"])
+        return _proof(job.asked.source, result, how["time_limit"])
 
     def work() -> tuple[Any, float]:
-        task = job.asked.load()
+        task = load(job.asked.source)
         started = perf_counter()
         return certify(task, result, **how), perf_counter() - started
 
@@ -192,57 +160,53 @@ def verified(job: Job, answer: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _proof(load: Callable[[], Task], result: Result, limit: float | None) -> dict[str, Any]:
+def _proof(source: Source, result: Result, limit: float | None) -> Row:
     with TemporaryDirectory() as scratch:
         file = Path(scratch, "proof.json.gz")
-        _, write = timed(lambda: serendipity.verify(load(), result, proof=file, time_limit=limit))
+        _, write = timed(lambda: serendipity.verify(load(source), result, proof=file, time_limit=limit))
         if not file.exists():
             return {}
         programs, check = timed(lambda: checker.check(checker.read(file)))
-        found, compare = timed(lambda: serendipity.check_proof(file, load(), result))
+        found, compare = timed(lambda: serendipity.check_proof(file, load(source), result))
         figures = (write, file.stat().st_size / 1024, check, compare)
     columns, rows = (max(getattr(each, name) for each in programs) for name in ("columns", "rows"))
     sizes = (columns, rows, sum(each.leaves for each in programs))
     return {"accepted": found.verdict == "accepted", **dict(zip(FIGURES, (*figures, *sizes), strict=True))}
 
 
-def _certificates(rows: Sequence[Row]) -> Any:
+def _certificates(rows: Sequence[Row]) -> Grid:
     def verdicts(of: Sequence[Row], verdict: str) -> int:
         return sum(row["verdict"] == verdict for row in of)
 
-    def middle(of: Sequence[Row], name: str) -> str:
-        return f"{median(row[name] for row in of):.0f}"
+    def told(figure: Callable[[list[float]], float], name: str, digits: int = 3) -> Callable[..., str]:
+        return lambda of: f"{figure([row[name] for row in of]):.{digits}f}"
 
     groups = grouped(rows, lambda row: (row["group"], row["mode"], row["discount"]))
     groups |= {("all", mode, ""): of for mode, of in grouped(rows, lambda row: row["mode"]).items()}
-    return table(
-        ("group", "mode", "discount"),
-        groups | {("all", "", ""): [*rows]},
-        {
-            "certificates": len,
-            **{name: partial(verdicts, verdict=name) for name in ("proved", "undecided", "refuted")},
-            "seconds: median": lambda of: f"{median(row['seconds'] for row in of):.3f}",
-            "95 %": lambda of: f"{percentile([row['seconds'] for row in of], 0.95):.3f}",
-            "longest": lambda of: f"{max(row['seconds'] for row in of):.3f}",
-            "by the clock: median": lambda of: f"{median(row['clock'] for row in of):.3f}",
-            "most": lambda of: f"{max(row['clock'] for row in of):.3f}",
-            "MiB": lambda of: f"{max(row['memory'] for row in of):.0f}",
-            "decided by": lambda of: ", ".join(grouped(of, lambda row: row["method"])),
-            "calls": lambda of: sum(row["calls"] for row in of),
-            **{name: partial(middle, name=name) for name in ("columns", "rows")},
-        },
-    )
+    columns: dict[str, Callable[[Sequence[Row]], object]] = {
+        "certificates": len,
+        **{name: partial(verdicts, verdict=name) for name in ("proved", "undecided", "refuted")},
+        "seconds: median": told(median, "seconds"),
+        "95 %": told(partial(percentile, share=0.95), "seconds"),
+        "longest": told(max, "seconds"),
+        "by the clock: median": told(median, "clock"),
+        "most": told(max, "clock"),
+        "MiB": told(max, "memory", 0),
+        "decided by": lambda of: ", ".join(grouped(of, lambda row: row["method"])),
+        "calls": lambda of: sum(row["calls"] for row in of),
+        "columns": told(median, "columns", 0),
+        "rows": told(median, "rows", 0),
+    }
+    return table(("group", "mode", "discount"), groups | {("all", "", ""): [*rows]}, columns)
 
 
-def _proofs(rows: Sequence[Row]) -> list[Any]:
-    parts: list[Any] = []
+def _proofs(rows: Sequence[Row]) -> Iterator[Line | Grid]:
     for mode, of in [*grouped(rows, lambda row: row["mode"]).items(), ("all", rows)]:
         files = [row for row in of if "accepted" in row]
         accepted = sum(row["accepted"] for row in files)
         figures = {name: lambda row, name=name: float(row[name]) for name in FIGURES}
-        parts.append(Line(f"{mode}: {len(of)} certificates, {len(files)} files, {accepted} accepted"))
-        parts.append(spreads(files, figures))
-    return parts
+        yield Line(f"{mode}: {len(of)} certificates, {len(files)} files, {accepted} accepted")
+        yield spreads(files, figures)
 
 
 if __name__ == "__main__":

@@ -14,31 +14,35 @@ left out (see ``benchmarks.problems``).
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from itertools import product
 from pathlib import Path
-from random import Random
-from typing import Any
+from typing import Any, NamedTuple
 
 import typer
 
 import serendipity
-from benchmarks.problems import PROBLEMS
-from serendipity import SerendipityError, Task
-from serendipity.evaluation.measuring.figures import milliseconds
-from serendipity.evaluation.measuring.record import Record
-from serendipity.evaluation.measuring.running import measured
-from serendipity.evaluation.measuring.suites import Problem, Roles, folders, problems, roles
+from benchmarks.problems import (
+    PROBLEMS,
+    Source,
+    can_some,
+    candidates_in,
+    load,
+    of_suite,
+    usar,
+    with_two_goals,
+)
+from serendipity import Task
+from serendipity.evaluation.measuring.figures import percentile
+from serendipity.evaluation.measuring.record import measured
 from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
 from serendipity.execution import Run
-from serendipity.model import Condition
 from serendipity.model.telling import Grid, Line
 
 DISCOUNT = "0.9"
 PEOPLE = ("observant", "local", "noisy:0.1", "omniscient")
 DOMAINS = ("blocksworld", "driverlog", "rovers", "satellites", "zenotravel")
-MOST_GOALS = 5
 
 SMALLEST = 3
 """Problems of a domain, from its first."""
@@ -46,17 +50,14 @@ SMALLEST = 3
 DRAWS = 200
 """Draws of two goals in each domain, problem after problem."""
 
-Source = Path | tuple[Problem, Roles, int]
-"""A building; or a problem with its roles, and the seed of its goals."""
 
-
-@dataclass(frozen=True, slots=True)
-class Job:
+class Job(NamedTuple):
     """Runs on one task.
 
     Attributes:
         line: of the table that they count for.
         source: the task.
+        drawn: seed by which two of its goals are drawn; empty for all of them.
         human: who the person is.
         ties: which of their plans they follow.
         seeds: how many runs.
@@ -66,6 +67,7 @@ class Job:
 
     line: tuple[str, ...]
     source: Source
+    drawn: str
     human: str
     ties: str
     seeds: int
@@ -73,8 +75,7 @@ class Job:
     deadline: float
 
 
-@dataclass(frozen=True, slots=True)
-class Of:
+class Of(NamedTuple):
     """A run, and what the paper's plan saves on its task; savings are the team's."""
 
     run: Run
@@ -95,22 +96,22 @@ def main(
     record: Path | None = None,
 ) -> None:
     """Measure and print the tables."""
-    kept = Record(record)
     for name in tables.split(","):
         asked = JOBS[name](stride, seeds, deadline)
-        runs: list[tuple[tuple[str, ...], Of]] = []
-        for job, found in measured(asked, done, kept, processes=jobs):
+        lines: dict[tuple[str, ...], list[Of]] = {}
+        for job, found in measured(asked, done, record, processes=jobs):
             if found is not None:
-                runs += [(job.line, Of(Run(**row), found["promised"])) for row in found["rows"]]
-        lines = {line: [run for _, run in of] for line, of in grouped(runs, lambda pair: pair[0]).items()}
-        slowest = milliseconds([of.run.slowest for _, of in runs])
-        told = Line(f"Longest decision of a run: median, 95 % and longest {slowest} ms.")
+                rows = [Of(Run(**row), found["promised"]) for row in found["rows"]]
+                lines.setdefault(job.line, []).extend(rows)
+        slowest = [1000 * of.run.slowest for runs in lines.values() for of in runs]
+        shares = " / ".join(f"{percentile(slowest, share):.3g}" for share in (0.5, 0.95, 1.0) if slowest)
+        told = Line(f"Longest decision of a run: median, 95 % and longest {shares} ms.")
         print(as_markdown([_table(name, lines), told]), flush=True)
 
 
 def done(job: Job) -> dict[str, Any] | None:
     """The paper's saving on the task, and a row a run; None where the person has no plan alone."""
-    task, promised = _task_of(job.source), _promised(job.source)
+    task, promised = _task(job.source, job.drawn), _promised(job.source, job.drawn)
     if promised is None:
         return None
     candidates = candidates_in(task, job.goals) if job.goals > 1 else None
@@ -123,52 +124,38 @@ def done(job: Job) -> dict[str, Any] | None:
 
 
 @lru_cache(maxsize=1)
-def _promised(source: Source) -> float | None:
+def _promised(source: Source, drawn: str) -> float | None:
     """Saving of the paper's plan on a task; None where the person has no plan alone, or nobody knows."""
-    result = serendipity.plan(_task_of(source), discount=DISCOUNT, time_limit=2)
+    result = serendipity.plan(_task(source, drawn), discount=DISCOUNT, time_limit=2)
     return None if result.human_plan is None else result.saving
 
 
-def _task_of(source: Source) -> Task:
-    """A building; or a problem with its roles, and two of its goals."""
-    if isinstance(source, Path):
-        return serendipity.load(source, human="commx")
-    problem, who, seed = source
-    task = problem.task(who)
-    wanted = sorted(Random(f"{problem.domain} {problem.name} {seed}").sample(task.goal.positive, 2))
-    return task.with_goal(Condition(tuple(wanted), ()))
-
-
-def candidates_in(task: Task, count: int) -> list[dict[str, Any]]:
-    """The person's goal and others of its form, each as probable as any."""
-    (own,) = task.goal.positive
-    form = task.facts[own].replace("_", " ").split()[:-1]
-    others = [f for f in task.facts if f.replace("_", " ").split()[:-1] == form and f != task.facts[own]]
-    chosen = [task.facts[own], *Random(f"{task.name} {count}").sample(others, count - 1)]
-    return [{"name": fact, "goal": [fact]} for fact in sorted(chosen)]
+def _task(source: Source, drawn: str) -> Task:
+    return with_two_goals(load(source), drawn) if drawn else load(source)
 
 
 def _people(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
     """Jobs of different people, over the buildings."""
-    for human, ties, folder in product(PEOPLE, ("fixed", "drawn"), _buildings(stride)):
+    for human, ties, source in product(PEOPLE, ("fixed", "drawn"), usar(stride)):
         runs = seeds if human.startswith("noisy") or ties == "drawn" else 1
-        yield Job((human, ties), folder, human, ties, runs, 1, deadline)
+        yield Job((human, ties), source, "", human, ties, runs, 1, deadline)
 
 
 def _domains(stride: int, seeds: int, deadline: float) -> Iterator[Job]:
-    """Jobs in other domains."""
-    known = {name: _smallest(name) for name in DOMAINS}
-    for number, name in product(range(0, DRAWS, stride), filter(known.get, DOMAINS)):
-        problem, able = known[name][number // stride % len(known[name])]
+    """Jobs in other domains, on problems that somebody can do alone."""
+    found = of_suite(PROBLEMS / "codmap15", can_some, domains=DOMAINS, smallest=SMALLEST)
+    known = grouped((each for each in found if each[1].alone), lambda each: each[0].domain)
+    for number, (name, able) in product(range(0, DRAWS, stride), known.items()):
+        problem, _, source = able[number // stride % len(able)]
         for human, (ties, runs) in product(PEOPLE, (("fixed", 1), ("drawn", seeds))):
-            yield Job((name, human, ties), (problem, able, number), human, ties, runs, 1, deadline)
+            drawn = f"{name} {problem.name} {number}"
+            yield Job((name, human, ties), source, drawn, human, ties, runs, 1, deadline)
 
 
 def _goals(stride: int, _seeds: int, deadline: float) -> Iterator[Job]:
     """Jobs with several possible goals, over the buildings."""
-    people = "observant", "omniscient"
-    for human, count, folder in product(people, range(1, MOST_GOALS + 1), _buildings(stride)):
-        yield Job((human, str(count)), folder, human, "fixed", 1, count, deadline)
+    for human, count, source in product(("observant", "omniscient"), range(1, 6), usar(stride)):
+        yield Job((human, str(count)), source, "", human, "fixed", 1, count, deadline)
 
 
 JOBS = {"people": _people, "domains": _domains, "goals": _goals}
@@ -177,31 +164,6 @@ NAMES = {
     "domains": ("domain", "person", "plans"),
     "goals": ("person", "goals"),
 }
-
-
-def _buildings(stride: int) -> list[Path]:
-    """Every so many of the 200."""
-    suite = PROBLEMS / "usar200"
-    return folders(suite, stride) if suite.is_dir() else []
-
-
-def _smallest(domain: str) -> list[tuple[Problem, Roles]]:
-    """A domain's smallest problems that somebody can do alone; none where the domain is not there."""
-    suite = PROBLEMS / "codmap15"
-    found = problems(suite, [domain]) if suite.is_dir() else []
-    first = sorted(found, key=lambda problem: (len(problem.name), problem.name))[:SMALLEST]
-    able = [(problem, roles(problem, 2, can_alone)) for problem in first]
-    return [(problem, who) for problem, who in able if who.alone]
-
-
-def can_alone(problem: Problem, who: Roles) -> bool:
-    """True if a human can reach two of the goals alone."""
-    try:
-        return (
-            serendipity.plan(_task_of((problem, who, 0)), mode="individual", time_limit=60).cost is not None
-        )
-    except (SerendipityError, ValueError):
-        return False
 
 
 def _table(name: str, lines: dict[tuple[str, ...], list[Of]]) -> Grid:
@@ -228,9 +190,9 @@ def _kept(of: Sequence[Of]) -> str:
     return f"{saved:.1f} of {promised:.1f} ({f'{100 * saved / promised:.0f} %' if promised else '-'})"
 
 
-def _in_time(of: Sequence[Of]) -> str:
-    epochs, late = sum(each.run.epochs for each in of), sum(each.run.late for each in of)
-    return f"{100 * (1 - late / epochs):.2f} % of {epochs}"
+def _of_epochs(counts: Callable[[Run], int]) -> Callable[[Sequence[Of]], str]:
+    """The share of the runs' epochs that are counted."""
+    return lambda of: f"{100 * sum(counts(o.run) for o in of) / sum(o.run.epochs for o in of):.2f} %"
 
 
 def _mean(epochs: Sequence[int | None]) -> str:
@@ -246,10 +208,8 @@ COLUMNS: dict[str, Callable[[Sequence[Of]], object]] = {
     "more": _share(lambda run: run.reached and run.human_cost > (run.alone or 0)),
     "saved of what the paper's plans save": _kept,
     "plans spoilt": lambda of: sum(each.run.spoilt for each in of),
-    "decided in time": _in_time,
-    "without a proof": lambda of: (
-        f"{100 * sum(o.run.open for o in of) / sum(o.run.epochs for o in of):.1f} %"
-    ),
+    "decided in time": _of_epochs(lambda run: run.epochs - run.late),
+    "without a proof": _of_epochs(lambda run: run.open),
 }
 
 

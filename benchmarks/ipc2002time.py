@@ -17,6 +17,7 @@ when a plan was known.  All plans are checked by unified-planning on the origina
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import SimpleNamespace
@@ -27,8 +28,7 @@ import typer
 import serendipity
 from benchmarks.problems import PROBLEMS
 from serendipity import Result, SerendipityError, Task
-from serendipity.evaluation.measuring.record import Record
-from serendipity.evaluation.measuring.running import apart, measured
+from serendipity.evaluation.measuring.record import apart, measured
 from serendipity.evaluation.measuring.suites import Problem, Roles, may_alone, problems, roles
 from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
 from serendipity.facade.planning import plan_anytime
@@ -88,14 +88,12 @@ def main(
             if only in f"{problem.domain} {problem.name}"
         ]
         rows: list[Row] = []
-        for one, row in measured(asked, _apart, Record(record)):
+        for one, row in measured(asked, partial(apart, answered), record):
             print(repr(one), " ".join(f"{name}={value}" for name, value in row.items()), flush=True)
             rows.append({"domain": one.domain, "call": one.call, **row})
-    parts = [
-        table(("call", "domain"), grouped(rows, lambda row: (row["call"], row["domain"])), COLUMNS),
-        table(("call",), grouped(rows, lambda row: (row["call"],)), COLUMNS),
-    ]
-    print(as_markdown(parts), end="")
+    groups = grouped(rows, lambda row: (row["call"], row["domain"]))
+    groups |= grouped(rows, lambda row: (row["call"], "all"))
+    print(as_markdown([table(("call", "domain"), groups, COLUMNS)]), end="")
 
 
 def _number(test: Callable[[Row], bool]) -> Callable[[Sequence[Row]], int]:
@@ -111,10 +109,6 @@ COLUMNS: Final[dict[str, Callable[[Sequence[Row]], object]]] = {
     "valid": _number(lambda row: row["valid"] is True),
     "errors": _number(lambda row: row["status"] == "error"),
 }
-
-
-def _apart(asked: Asked) -> Row:
-    return apart(answered, asked)
 
 
 def answered(asked: Asked) -> Row:
@@ -136,26 +130,20 @@ def answered(asked: Asked) -> Row:
         "alone": last.human_cost,
         "first": first,
         "seconds": round(time.process_time() - begun, 2),
-        "valid": None if last.plan is None else _checked(asked, task, last),
+        "valid": None if last.plan is None else is_valid(asked, task, last),
         "reason": last.reason,
     }
 
 
 def _task(asked: Asked) -> Task:
-    source, suite = Path(asked.source) / asked.domain, Path(asked.suite) / asked.domain
-    files = "domain.pddl", f"{asked.name}.pddl"
+    """The task of a call: of one who does all, or of an agent that might do it alone and the next other."""
+    folder = Path(asked.source if asked.call == "one" else asked.suite) / asked.domain
+    problem = Problem(asked.domain, asked.name, folder / "domain.pddl", folder / f"{asked.name}.pddl")
     if asked.call == "one":
-        return serendipity.load_agents({"one": (source / files[0], source / files[1])})
-    problem = Problem(asked.domain, asked.name, suite / files[0], suite / files[1])
-    return problem.task(_roles(problem))
-
-
-def _roles(problem: Problem) -> Roles:
-    """The first agent that might do it alone, or else the first, and the next other."""
-    agents = [
-        name for name, kind in problem.unit().problem.objects.items() if kind == (AGENTS[problem.domain],)
-    ]
-    return roles(problem, 1, may_alone) if len(agents) > 1 else Roles(agents[0], ())
+        return serendipity.load_agents({"one": (problem.domain_file, problem.problem_file)})
+    objects = problem.unit().problem.objects.items()
+    agents = [name for name, kind in objects if kind == (AGENTS[asked.domain],)]
+    return problem.task(roles(problem, 1, may_alone) if len(agents) > 1 else Roles(agents[0], ()))
 
 
 # -- MA-PDDL
@@ -231,13 +219,6 @@ def _written(item: Any) -> str:
 # -- what unified-planning says
 
 
-def _checked(asked: Asked, task: Task, result: Result) -> bool:
-    try:
-        return is_valid(asked, task, result)
-    except PlanError:
-        return False
-
-
 def is_valid(asked: Asked, task: Task, result: Result) -> bool:
     """Whether a plan is one of the original files, by unified-planning's validator of plans with times."""
     from unified_planning.engines.plan_validator import TimeTriggeredPlanValidator
@@ -255,7 +236,11 @@ def is_valid(asked: Asked, task: Task, result: Result) -> bool:
     )
     plan = []
     steps = list(result.plan or ())
-    for step, start in zip(steps, start_times(task, steps, [True] * len(steps)), strict=True):
+    try:
+        starts = start_times(task, steps, [True] * len(steps))
+    except PlanError:
+        return False
+    for step, start in zip(steps, starts, strict=True):
         name, *words = step.action.split()
         if asked.call != "one":
             words = _original(domain, asked.domain, name, words)

@@ -1,17 +1,21 @@
-"""The problems of others, which are not part of this repository."""
+"""The problems of others, which are not part of this repository; and tasks that processes can be told."""
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from random import Random
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import serendipity
 from serendipity import SerendipityError, Task
-from serendipity.evaluation.measuring.suites import Problem, Roles
+from serendipity.evaluation.measuring.suites import Problem, Roles, folders, problems, roles
+from serendipity.evaluation.measuring.tables import grouped
+from serendipity.model import Condition
 
 PROBLEMS = Path(os.environ.get("SERENDIPITY_PROBLEMS") or Path(__file__).resolve().parents[2] / "shared")
-"""The folder with ``usar200``, ``codmap15`` and ``spa``, as far as they are there.
+"""The folder with ``usar200``, ``codmap15``, ``spa`` and ``home``, as far as they are there.
 
 ``SERENDIPITY_PROBLEMS`` names it; without, it is ``../shared``, beside the checkout.
 """
@@ -19,22 +23,20 @@ PROBLEMS = Path(os.environ.get("SERENDIPITY_PROBLEMS") or Path(__file__).resolve
 Pair = tuple[Path, Path]
 """A domain and a problem file."""
 
-
-def silent(folder: Path = PROBLEMS / "spa") -> Iterator[tuple[str, Pair, Pair]]:
-    """The published problems of silent assistance: name, files of the human, *prime*, and the supporter."""
-    found = list(folder.glob("*/*_problem_*_prime.pddl"))
-    for prime in sorted(found, key=lambda path: (path.parent.name, _number(path))):
-        supporter = prime.with_name(prime.name.replace("_prime", "_supporter"))
-        yield (
-            f"{prime.parent.name}/{_number(prime)}",
-            (_domain(prime), prime),
-            (_domain(supporter), supporter),
-        )
+Source = tuple[Any, ...]
+"""A task by what makes it: rooms, medkits, robots and seed of a building; a folder and who is the human; or
+domain and problem files, human and robots.
+"""
 
 
-def silent_task(prime: Pair, supporter: Pair) -> Task:
-    """The task of such a problem."""
-    return serendipity.load_agents({"prime": prime, "supporter": supporter}, human="prime")
+def load(source: Source) -> Task:
+    """The task of a source."""
+    if isinstance(source[0], int):
+        return building(*source)
+    if len(source) == 2:
+        return serendipity.load(source[0], human=source[1])
+    domain, problem, human, *robots = source
+    return serendipity.load_pddl(domain, problem, human, robots)
 
 
 def building(rooms: int, medkits: int, robots: int, seed: int) -> Task:
@@ -44,12 +46,89 @@ def building(rooms: int, medkits: int, robots: int, seed: int) -> Task:
         return serendipity.load(folder)
 
 
+def usar(stride: int = 1) -> list[Source]:
+    """Every so many of the 200 buildings; none where they are not there."""
+    suite = PROBLEMS / "usar200"
+    return [(str(folder), "commx") for folder in folders(suite, stride)] if suite.is_dir() else []
+
+
+def of_suite(
+    suite: Path,
+    able: Callable[[Problem, Roles], bool],
+    *,
+    domains: Sequence[str] = (),
+    stride: int = 1,
+    smallest: int | None = None,
+) -> Iterator[tuple[Problem, Roles, Source]]:
+    """Problems of a suite, with the human and two robots; none where it is not there.
+
+    Args:
+        suite: a folder of domains.
+        able: whether a human is known to have a plan alone.
+        domains: only these; none means all.
+        stride: every so many of a domain's problems.
+        smallest: how many of each domain, from its first.
+    """
+    found = problems(suite, domains, stride) if suite.is_dir() else []
+    for of in grouped(found, lambda problem: problem.domain).values():
+        ordered = sorted(of, key=lambda problem: (len(problem.name), problem.name)) if smallest else of
+        for problem in ordered[:smallest]:
+            who = roles(problem, 2, able)
+            yield (
+                problem,
+                who,
+                (str(problem.domain_file), str(problem.problem_file), who.human, *who.robots),
+            )
+
+
 def can_alone(problem: Problem, who: Roles) -> bool:
     """True if a human is found to have a plan alone, in three seconds."""
+    return _decides(lambda: problem.task(who), 3)
+
+
+def can_some(problem: Problem, who: Roles) -> bool:
+    """True if a human is found to reach two of the goals alone."""
+    return _decides(lambda: with_two_goals(problem.task(who), f"{problem.domain} {problem.name} 0"), 60)
+
+
+def _decides(make: Callable[[], Task], seconds: float) -> bool:
     try:
-        return serendipity.plan(problem.task(who), mode="individual", time_limit=3).cost is not None
-    except SerendipityError:
+        return serendipity.plan(make(), mode="individual", time_limit=seconds).cost is not None
+    except (SerendipityError, ValueError):
         return False
+
+
+def with_two_goals(task: Task, seed: str) -> Task:
+    """The task with two of its goals only.
+
+    Raises:
+        ValueError: it has fewer.
+    """
+    wanted = Random(seed).sample(task.goal.positive, 2)
+    return task.with_goal(Condition(tuple(sorted(wanted)), ()))
+
+
+def candidates_in(task: Task, count: int) -> list[dict[str, Any]]:
+    """The person's goal and others of its form, each as probable as any."""
+    (own,) = task.goal.positive
+    form = task.facts[own].replace("_", " ").split()[:-1]
+    others = [f for f in task.facts if f.replace("_", " ").split()[:-1] == form and f != task.facts[own]]
+    chosen = [task.facts[own], *Random(f"{task.name} {count}").sample(others, count - 1)]
+    return [{"name": fact, "goal": [fact]} for fact in sorted(chosen)]
+
+
+def silent(folder: Path = PROBLEMS / "spa") -> Iterator[tuple[str, Pair, Pair]]:
+    """The published problems of silent assistance: name, files of the human, *prime*, and the supporter."""
+    found = list(folder.glob("*/*_problem_*_prime.pddl"))
+    for prime in sorted(found, key=lambda path: (path.parent.name, _number(path))):
+        supporter = prime.with_name(prime.name.replace("_prime", "_supporter"))
+        name = f"{prime.parent.name}/{_number(prime)}"
+        yield name, (_domain(prime), prime), (_domain(supporter), supporter)
+
+
+def silent_task(prime: Pair, supporter: Pair) -> Task:
+    """The task of such a problem."""
+    return serendipity.load_agents({"prime": prime, "supporter": supporter}, human="prime")
 
 
 def _number(problem: Path) -> int:

@@ -9,23 +9,20 @@ Beside both stands what it would be worth to know the goal from the start: the m
 ``home``: breakfasts, of which all is wanted, or all but one thing.  Problems that are not there are left out.
 """
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import product
 from pathlib import Path
 from random import Random
 from statistics import median
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import typer
 
 import serendipity
-from benchmarks.execution import can_alone, candidates_in
-from benchmarks.problems import PROBLEMS
+from benchmarks.problems import PROBLEMS, Source, can_some, candidates_in, load, of_suite, usar
 from serendipity import Task
-from serendipity.evaluation.measuring.record import Record
-from serendipity.evaluation.measuring.running import measured
-from serendipity.evaluation.measuring.suites import Problem, Roles, folders, problems, roles
+from serendipity.evaluation.measuring.record import measured
 from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
 
 DISCOUNT = "0.9"
@@ -33,22 +30,14 @@ COUNTS = (2, 3, 4, 5)
 SMALLEST = 3
 """Problems of a domain, from its first."""
 
-Goals = list[dict[str, Any]]
+Row = Mapping[str, Any]
 
 
-@dataclass(frozen=True, slots=True)
-class Job:
-    """A task and its possible goals.
-
-    Attributes:
-        family: the table's line.
-        source: a building, a breakfast, or a problem with its roles.
-        count: how many goals are possible.
-        limit: seconds for each answer.
-    """
+class Job(NamedTuple):
+    """A task of a family, the table's line; how many goals are possible; and seconds for each answer."""
 
     family: str
-    source: Path | tuple[Problem, Roles]
+    source: Source
     count: int
     limit: float
 
@@ -61,15 +50,17 @@ def main(
     record: Path | None = None,
 ) -> None:
     """Measure and print the table."""
-    asked = (job for name in tables.split(",") for job in JOBS[name](stride, limit))
-    rows = [(job.family, row) for job, row in measured(asked, done, Record(record), processes=jobs) if row]
-    lines = {name: [row for _, row in of] for name, of in grouped(rows, lambda pair: pair[0]).items()}
-    print(as_markdown([table(("family",), {(name,): of for name, of in lines.items()}, COLUMNS)]), flush=True)
+    asked = (Job(*job, limit) for name in tables.split(",") for job in JOBS[name](stride))
+    rows = [
+        {"family": job.family, **row} for job, row in measured(asked, done, record, processes=jobs) if row
+    ]
+    lines = grouped(rows, lambda row: (row["family"],))
+    print(as_markdown([table(("family",), lines, COLUMNS)]), flush=True)
 
 
-def done(job: Job) -> dict[str, Any] | None:
+def done(job: Job) -> Row | None:
     """What each kind of robots comes to; None where the person can reach none of the goals alone."""
-    task = _task_of(job)
+    task = load(job.source)
     goals = _goals_of(task, job)
     found: dict[str, Any] = {}
     for policy in ("watching", "fixed"):
@@ -91,16 +82,7 @@ def done(job: Job) -> dict[str, Any] | None:
     return found | {"knowing": sum(costs) if known else None}
 
 
-def _task_of(job: Job) -> Task:
-    if isinstance(job.source, tuple):
-        problem, who = job.source
-        return problem.task(who)
-    if job.source.is_dir():
-        return serendipity.load(job.source, human="commx")
-    return serendipity.load_pddl(job.source.with_name("domain.pddl"), job.source, human="ann")
-
-
-def _goals_of(task: Task, job: Job) -> Goals:
+def _goals_of(task: Task, job: Job) -> list[dict[str, Any]]:
     """The goals that are possible, the same for the same job."""
     if job.family == "buildings":
         return candidates_in(task, job.count)
@@ -114,51 +96,48 @@ def _goals_of(task: Task, job: Job) -> Goals:
             for one in left_out
         ]
     drawn = [sorted(dice.sample(positive, 2)) for _ in range(job.count)]
-    return [_goal(str(number), goal) for number, goal in enumerate(drawn)]
+    return [{"name": str(number), "goal": goal} for number, goal in enumerate(drawn)]
 
 
-def _goal(name: str, literals: list[str]) -> dict[str, Any]:
-    return {"name": name, "goal": literals}
+Asked = Iterator[tuple[str, Source, int]]
 
 
-def _buildings(stride: int, limit: float) -> Iterator[Job]:
-    suite = PROBLEMS / "usar200"
-    for number, folder in enumerate(folders(suite, stride) if suite.is_dir() else []):
-        yield Job("buildings", folder, COUNTS[number % len(COUNTS)], limit)
+def _buildings(stride: int) -> Asked:
+    for number, source in enumerate(usar(stride)):
+        yield "buildings", source, COUNTS[number % len(COUNTS)]
 
 
-def _domains(stride: int, limit: float) -> Iterator[Job]:
-    suite = PROBLEMS / "codmap15"
-    found = problems(suite) if suite.is_dir() else []
-    for name, of in grouped(found, lambda problem: problem.domain).items():
-        first = sorted(of, key=lambda problem: (len(problem.name), problem.name))[:SMALLEST]
-        for number, problem in enumerate(first[::stride]):
-            who = roles(problem, 2, can_alone)
+def _domains(stride: int) -> Asked:
+    found = of_suite(PROBLEMS / "codmap15", can_some, smallest=SMALLEST)
+    for name, of in grouped(found, lambda each: each[0].domain).items():
+        for number, (_, who, source) in enumerate(of[::stride]):
             if who.alone:
-                yield Job(name, (problem, who), COUNTS[number % len(COUNTS)], limit)
+                yield name, source, COUNTS[number % len(COUNTS)]
 
 
-def _home(stride: int, limit: float) -> Iterator[Job]:
+def _home(stride: int) -> Asked:
     found = sorted((PROBLEMS / "home").glob("p*.pddl"))
-    for path in found[::stride]:
-        for count in COUNTS[:3]:
-            yield Job("home", path, count, limit)
+    for path, count in product(found[::stride], COUNTS[:3]):
+        yield "home", (str(path.with_name("domain.pddl")), str(path), "ann"), count
 
 
 JOBS = {"buildings": _buildings, "domains": _domains, "home": _home}
 
 
-def _proved(policy: str, of: Sequence[dict[str, Any]]) -> str:
-    number = sum(row[policy]["status"] == "optimal" for row in of)
-    return f"{number} ({100 * number / len(of):.0f} %)"
+def _proved(policy: str) -> Callable[[Sequence[Row]], str]:
+    def cell(of: Sequence[Row]) -> str:
+        number = sum(row[policy]["status"] == "optimal" for row in of)
+        return f"{number} ({100 * number / len(of):.0f} %)"
+
+    return cell
 
 
-def _seconds(of: Sequence[dict[str, Any]]) -> str:
-    times = sorted(row["watching"]["seconds"] for row in of)
-    return f"{median(times):.2f}, {times[-1]:.1f}"
+def _seconds(of: Sequence[Row]) -> str:
+    times = [row["watching"]["seconds"] for row in of]
+    return f"{median(times):.2f}, {max(times):.1f}"
 
 
-def _closed(of: Sequence[dict[str, Any]]) -> str:
+def _closed(of: Sequence[Row]) -> str:
     """The share of what knowing saves beyond committed robots that those who watch save, too."""
     rows = [row for row in of if row["knowing"] is not None and row["watching"]["cost"] is not None]
     gap = sum(row["fixed"]["cost"] - row["knowing"] for row in rows)
@@ -166,24 +145,19 @@ def _closed(of: Sequence[dict[str, Any]]) -> str:
     return f"{won:.2f} of {gap:.2f} ({100 * won / gap:.0f} %)" if gap > 1e-9 else "-"
 
 
-def _sum(name: str, of: Sequence[dict[str, Any]]) -> str:
-    costs = [row[name]["cost"] if isinstance(row[name], dict) else row[name] for row in of]
-    return f"{sum(cost for cost in costs if cost is not None):.1f}"
+def _sum(cost: Callable[[Row], float | None]) -> Callable[[Sequence[Row]], str]:
+    return lambda of: f"{sum(cost(row) or 0 for row in of):.1f}"
 
 
-def _dearer(row: dict[str, Any]) -> bool:
-    return (row["watching"]["cost"] or 0) > (row["idle"] or 0) + 1e-9
-
-
-COLUMNS = {
+COLUMNS: dict[str, Callable[[Sequence[Row]], object]] = {
     "calls": len,
-    "idle": lambda of: _sum("idle", of),
-    "committed": lambda of: _sum("fixed", of),
-    "watching": lambda of: _sum("watching", of),
-    "knowing": lambda of: _sum("knowing", of),
+    "idle": _sum(lambda row: row["idle"]),
+    "committed": _sum(lambda row: row["fixed"]["cost"]),
+    "watching": _sum(lambda row: row["watching"]["cost"]),
+    "knowing": _sum(lambda row: row["knowing"]),
     "gap closed": _closed,
-    "proved": lambda of: _proved("watching", of),
-    "proved, committed": lambda of: _proved("fixed", of),
+    "proved": _proved("watching"),
+    "proved, committed": _proved("fixed"),
     "median, longest s": _seconds,
     "dearer than idle": lambda of: sum(
         (row["watching"]["cost"] or 0) > (row["idle"] or 0) + 1e-9 for row in of

@@ -10,11 +10,11 @@ import pytest
 
 from serendipity.evaluation.benchmark import fast_downward
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome
-from serendipity.evaluation.benchmark.coverage.rows import CONTENDERS as SUITE_CONTENDERS
-from serendipity.evaluation.benchmark.coverage.rows import Call, Row
-from serendipity.evaluation.benchmark.coverage.table import as_table
-from serendipity.evaluation.benchmark.measure import CONTENDERS
-from serendipity.evaluation.benchmark.scaling import AXES, Axis, Size
+from serendipity.evaluation.benchmark.coverage import CONTENDERS as SUITE_CONTENDERS
+from serendipity.evaluation.benchmark.coverage import Call
+from serendipity.evaluation.benchmark.rows import Row, as_table
+from serendipity.evaluation.benchmark.scaling import AXES, Axis
+from serendipity.evaluation.benchmark.side_by_side import CONTENDERS
 from serendipity.scenarios.examples import DATA
 from serendipity.writing.rows import written
 from tests.cli.conftest import Runs
@@ -57,13 +57,13 @@ def test_plots_are_pictures(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("matplotlib")
     words = "bench --rooms 6 --seeds 2 --discounts 0.9 --repeat 1 --contenders search,automata"
     assert run(f"{words} --plot b.png").code == 0
-    monkeypatch.setitem(AXES, "rooms", Axis("rooms", "rooms", tuple((n, Size(rooms=n)) for n in (4, 8))))
-    monkeypatch.setitem(AXES, "modes", Axis("modes", "mode", ((0, Size(rooms=4)),), labels=("serendipity",)))
+    monkeypatch.setitem(AXES, "rooms", Axis("rooms", (4, 8)))
+    monkeypatch.setitem(AXES, "modes", Axis("modes", ("serendipity",), {"rooms": 4}))
     assert run("bench --scaling rooms,modes --seeds 2 -o s.csv --plot s.svg").code == 0
     assert Path("b.png").read_bytes().startswith(b"\x89PNG")
     assert "<svg" in Path("s.svg").read_text()
-    measured = [(row["axis"], row["rooms"]) for row in rows_of(Path("s.csv"))]
-    assert measured == [("rooms", "4")] * 2 + [("rooms", "8")] * 2 + [("modes", "4")] * 2
+    measured = [(row["domain"], row["task"]) for row in rows_of(Path("s.csv"))]
+    assert measured == [("rooms", "4")] * 2 + [("rooms", "8")] * 2 + [("modes", "serendipity")] * 2
 
 
 def test_a_suite_is_measured_and_its_tables_are_printed_again(run: Runs) -> None:
@@ -90,7 +90,9 @@ def test_optima_of_a_suite_that_differ_are_an_error(run: Runs) -> None:
     done = run("bench rows.csv")
     assert done.code == 2
     assert "Calls decided" in done.out
-    assert done.err == "Error: d t, individual: the proved optima differ: search 1.0, fast-downward 2.0\n"
+    assert (
+        done.err == "Error: d t, individual at 0.9: the proved optima differ: search 1.0, fast-downward 2.0\n"
+    )
 
 
 def test_coverage_over_time_is_drawn(run: Runs) -> None:

@@ -8,8 +8,7 @@ import pytest
 
 import serendipity
 from serendipity.evaluation.benchmark.contenders import Outcome
-from serendipity.evaluation.benchmark.coverage.rows import Row
-from serendipity.evaluation.benchmark.coverage.table import as_table, read_rows
+from serendipity.evaluation.benchmark.rows import Row, as_table, read_rows
 from serendipity.model.table import Table
 from serendipity.writing.rows import FORMATS
 from serendipity.writing.rows import written as written_as

@@ -13,23 +13,22 @@ from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
 from serendipity.cli.streams.stderr import broken_tasks
 from serendipity.cli.text.render import rendered
-from serendipity.model import InputError, Table, Task, UsageError
-from serendipity.model.errors import DisagreementError
-from serendipity.model.table import table_of
+from serendipity.model import InputError, Task, UsageError
+from serendipity.model.errors import DisagreementError, told
 from serendipity.model.telling import Grid, Line
 from serendipity.writing.rows import FORMATS as ROWS
 from serendipity.writing.rows import written
 
 if TYPE_CHECKING:
     from serendipity.evaluation.benchmark.contenders import Contender
-    from serendipity.evaluation.benchmark.coverage.rows import Row
+    from serendipity.evaluation.benchmark.rows import Row
 
 _MODES: Final = ("serendipity", "communication", "composite-inf")
 _DISCOUNTS: Final = ("0", "0.5", "0.9")
 _CONTENDERS: Final = ("search", "in-turn", "automata", "fast-downward")
 
-_Tell = Callable[[str, Table | None, str, Sequence[Any]], None]
-"""Prints a text, writes a table where there is one, and plots rows by that name where it is asked for."""
+_Tell = Callable[[str, "Sequence[Row]", str], None]
+"""Prints a text, writes rows where there are some, and plots them by that name where it is asked for."""
 
 
 def bench(
@@ -100,31 +99,34 @@ def bench(
     """Measure the search beside integer programs and others. -o writes every timing."""
     form = _checked_form(output_file, plot)
 
-    def told(text: str, table: Table | None, plotted: str, rows: Sequence[Any]) -> None:
+    def tell(text: str, rows: "Sequence[Row]", plotted: str) -> None:
+        from serendipity.evaluation.benchmark.rows import as_table
+
         answers = [output.Answer(text, None)]
-        if output_file is not None and table is not None:
-            answers.append(output.Answer(written(table, form), output_file))
+        if output_file is not None and rows:
+            answers.append(output.Answer(written(as_table(rows), form), output_file))
         if plot is not None:
             from serendipity.evaluation.benchmark import plot as plots
 
-            answers.append(output.Answer(getattr(plots, plotted)(rows, plot.suffix), plot, "--plot"))
+            drawn = [row for row in rows if row.outcome.status != "error"]
+            answers.append(output.Answer(getattr(plots, plotted)(drawn, plot.suffix), plot, "--plot"))
         output.write_answers(answers)
 
     if scaling is not None:
         if folder is not None:
             raise UsageError("--scaling: generates its buildings, so it takes no folder")
-        return _scaling(scaling, seeds or 5, time_limit, told)
-    from serendipity.evaluation.benchmark.coverage.table import read_rows
+        return _scaling(scaling, seeds or 5, time_limit, tell)
+    from serendipity.evaluation.benchmark.rows import read_rows
     from serendipity.evaluation.measuring.figures import machine
     from serendipity.evaluation.measuring.suites import is_suite
 
     if folder is not None and folder.is_file():
-        return _covered(read_rows(folder), [], told, markdown=markdown)
+        return _covered(read_rows(folder), [], tell, markdown=markdown)
     if folder is not None and folder.is_dir() and is_suite(folder):
         asked = {"discount": discounts or "0.9", "robots": robots or 2, "time_limit": time_limit}
         rows, complete = _suite(folder, _listed(domains, ()), stride, modes, contenders, **asked)
         where = f"{machine()}; at most {time_limit:g} s a call by the clock."
-        code = _covered(rows, [Line(where), Line()], told, markdown=markdown)
+        code = _covered(rows, [Line(where), Line()], tell, markdown=markdown)
         return code if complete else ExitCode.INTERRUPTED
     errors: dict[str, Exception] = {}
     if folder is None:
@@ -132,7 +134,7 @@ def bench(
     else:
         tasks = list(_loaded(folder, stride, errors))
     calls = (_listed(modes, _MODES), _listed(discounts, _DISCOUNTS), _listed(contenders, _CONTENDERS))
-    return _side_by_side(tasks, errors, calls, told, repeat=repeat, time_limit=time_limit)
+    return _side_by_side(tasks, errors, calls, tell, repeat=repeat, time_limit=time_limit)
 
 
 def _side_by_side(
@@ -145,18 +147,19 @@ def _side_by_side(
     time_limit: float,
 ) -> int:
     """Contenders on some modes and discounts of tasks; beside tasks that can't be read."""
-    from serendipity.evaluation.benchmark.measure import CONTENDERS, MeasuredCall, broken, measure
-    from serendipity.evaluation.benchmark.report import ratios, times
+    from serendipity.evaluation.benchmark.contenders import Outcome
+    from serendipity.evaluation.benchmark.rows import Row
+    from serendipity.evaluation.benchmark.side_by_side import CONTENDERS, measure, ratios, times
     from serendipity.evaluation.measuring.figures import machine, peak_memory
 
     modes, discounts, names = calls
     present, absent = _present(names, CONTENDERS)
-    timings: list[MeasuredCall] = []
+    rows: list[Row] = []
     found = measure(tasks, modes, discounts, present, repeat=repeat, time_limit=time_limit)
     with progress.counting("tasks") as on_progress:
-        for timing in found:
-            timings.append(timing)
-            on_progress(len({timing.task for timing in timings}), len(tasks))
+        for row in found:
+            rows.append(row)
+            on_progress(len({row.task for row in rows}), len(tasks))
     output.warn(*absent)
     most = f"{peak_memory():.0f} MiB with all tasks in memory"
     parts: list[Line | Grid] = [
@@ -164,23 +167,22 @@ def _side_by_side(
         Line(f"Processor time; at most {time_limit:g} s a call; {most}."),
         Line(),
     ]
-    compared = ratios(timings)
+    compared = ratios(rows)
     parts += [compared, Line()] if compared.rows else []
-    unread = [broken(task, error) for task, error in errors.items()]
-    every = [*timings, *unread]
-
-    text = rendered([*parts, times(timings)])
-    tell(text, table_of(MeasuredCall, every) if every else None, "side_by_side", timings)
-    return (
-        broken_tasks({timing.task: timing.reason or "" for timing in unread}) if unread else ExitCode.ANSWERED
-    )
+    reasons = {task: told(error) for task, error in errors.items()}
+    unread = [
+        Row("", task, "", "", False, "", 0.0, "", Outcome("error", reason=why))
+        for task, why in reasons.items()
+    ]
+    tell(rendered([*parts, times(rows)]), [*rows, *unread], "side_by_side")
+    return broken_tasks(reasons) if reasons else ExitCode.ANSWERED
 
 
 def _suite(
     folder: Path, domains: Sequence[str], stride: int, modes: str | None, contenders: str | None, **asked: Any
 ) -> "tuple[list[Row], bool]":
     """The rows of a suite's calls, and whether these are all; Ctrl-C leaves those that are there."""
-    from serendipity.evaluation.benchmark.coverage.rows import CONTENDERS, MODES, measure
+    from serendipity.evaluation.benchmark.coverage import CONTENDERS, MODES, measure
     from serendipity.evaluation.measuring.suites import problems
 
     present, absent = _present(_listed(contenders, CONTENDERS), CONTENDERS)
@@ -202,16 +204,15 @@ def _covered(rows: "Sequence[Row]", where: list[Line | Grid], tell: _Tell, *, ma
     Raises:
         DisagreementError: contenders have proved what can't all be true.
     """
-    from serendipity.evaluation.benchmark.coverage import report
-    from serendipity.evaluation.benchmark.coverage.table import as_table
+    from serendipity.evaluation.benchmark import coverage as report
+    from serendipity.evaluation.benchmark.rows import disagreements
     from serendipity.evaluation.measuring.tables import as_markdown
 
     output.warn(*report.failures(rows))
     text = (as_markdown if markdown else rendered)([*where, *report.tables(rows)])
-    tell(text, as_table(rows), "over_time", rows)
-    differing = report.disagreements(rows)
-    if differing:
-        raise DisagreementError("; ".join(differing))
+    tell(text, rows, "over_time")
+    if differing := "; ".join(disagreements(rows)):
+        raise DisagreementError(differing)
     errors = report.errors(rows)
     return broken_tasks(errors) if errors else ExitCode.ANSWERED
 
@@ -222,23 +223,22 @@ def _scaling(axes: str, seeds: int, time_limit: float, tell: _Tell) -> int:
 
     names = list(scaled.AXES) if axes == "all" else axes.split(",")
     total = len(scaled.planned(names, seeds))
-    samples: list[scaled.Sample] = []
+    rows: list[Row] = []
     with progress.counting("tasks") as on_progress:
-        for sample in scaled.scale(names, seeds=seeds, time_limit=time_limit):
-            samples.append(sample)
-            on_progress(len(samples), total)
+        for row in scaled.scale(names, seeds=seeds, time_limit=time_limit):
+            rows.append(row)
+            on_progress(len(rows), total)
     parts: list[Line | Grid] = [
-        Line(f"{len(samples)} tasks, each in a process of its own; {machine()}"),
+        Line(f"{len(rows)} tasks, each in a process of its own; {machine()}"),
         Line(f"Medians of processor time, at most {time_limit:g} s a call; the most memory."),
         Line(),
-        scaled.scaling_table(samples),
+        scaled.scaling_table(rows),
         Line(),
         Line("Exponents of time and memory, fitted to all tasks of an axis on a log-log scale:"),
         Line(),
-        scaled.exponents(samples),
+        scaled.exponents(rows),
     ]
-
-    tell(rendered(parts), table_of(scaled.Sample, samples), "series", samples)
+    tell(rendered(parts), rows, "series")
     return ExitCode.ANSWERED
 
 
@@ -272,19 +272,20 @@ def _loaded(folder: Path, stride: int, errors: dict[str, Exception]) -> Iterator
     Raises:
         InputError: there is none that can be read.
     """
+    from serendipity.evaluation.measuring.suites import folders
     from serendipity.pddl import read_folder
 
     if not folder.is_dir():
         raise InputError("expected a folder of tasks", folder)
-    found = sorted(path for path in folder.iterdir() if path.is_dir())
+    found = folders(folder, stride)
     if not found:
         raise InputError("expected a folder for each task in it", folder)
-    for path in found[::stride]:
+    for path in found:
         try:
             yield read_folder(path)
         except Exception as error:  # one broken task does not end a suite
             errors[path.name] = error
-    if len(errors) == len(found[::stride]):
+    if len(errors) == len(found):
         raise next(iter(errors.values()))
 
 

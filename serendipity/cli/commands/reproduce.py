@@ -15,6 +15,7 @@ from serendipity.cli.streams.stderr import broken_tasks, is_terminal, tell
 from serendipity.model.options import limit_of
 from serendipity.model.printable import message
 from serendipity.model.telling import json_of
+from serendipity.writing.csv_text import as_csv
 from serendipity.writing.rows import FORMATS as ROWS
 from serendipity.writing.rows import written
 
@@ -111,18 +112,18 @@ def _listed(text: str) -> list[Any]:
 
 
 def _answer(form: str, run: "Reproduction", tables: "Tables") -> str | bytes:
-    from serendipity.evaluation.reproduction import formats
+    from serendipity.evaluation.reproduction.tables import as_json
 
     if form == "csv":
-        return formats.rows_as_csv(run)
+        return as_csv([*run.table().columns], (row.cells() for row in run.rows))
     if form == "json":
-        return json_of(formats.as_json(run, tables))
+        return json_of(as_json(run, tables))
     return written(run.table(), form) if form in ROWS else _text(run, tables)
 
 
 def _text(run: "Reproduction", tables: "Tables") -> str:
     from serendipity.cli.text.render import rendered
-    from serendipity.evaluation.reproduction.report import examples_grid, table_1_grid, table_2_grid
+    from serendipity.evaluation.reproduction.report import titled
     from serendipity.evaluation.reproduction.rows import COLUMNS, SHORT
     from serendipity.model.telling import Grid, Line
 
@@ -130,11 +131,7 @@ def _text(run: "Reproduction", tables: "Tables") -> str:
     if run.unproved:
         late = f"{run.unproved} of {len(run.rows)} rows are not proved: a limit came first"
         parts.append(Line(late, "yellow"))
-    for title, grid in (
-        ("Table I: mean cost (number of tasks in which a robot helps)", table_1_grid(tables.costs)),
-        ("Table II: seconds of a planning call", table_2_grid(tables.times)),
-        ("The paper's examples, sections III-B to III-D", examples_grid(tables.examples)),
-    ):
+    for title, grid in titled(tables):
         parts += [Line(), Line(title, "bold"), grid]
     return rendered(parts)
 
@@ -143,8 +140,8 @@ def _extras(
     report: Path | None, prefix: Path | None, run: "Reproduction", tables: "Tables"
 ) -> Iterator[output.Answer]:
     """What was asked for besides the answer."""
-    from serendipity.evaluation.reproduction.formats import table_as_csv
     from serendipity.evaluation.reproduction.report import html_report
+    from serendipity.evaluation.reproduction.tables import table_as_csv
 
     if report is not None:
         yield output.Answer(html_report(run, tables), report, "--report")

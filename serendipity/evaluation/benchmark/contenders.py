@@ -1,12 +1,19 @@
 """Contenders of a benchmark, and their answers to its calls."""
 
+import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any, Final, TypeVar
 
-from serendipity.evaluation.measuring.tables import Proved
-from serendipity.model.errors import UsageError
-from serendipity.model.options import INFINITE
+from search import prepare, solve
+from serendipity.evaluation.measuring.figures import peak_memory, timed
+from serendipity.model.answers.answer import Answer
+from serendipity.model.errors import LIMITS, UsageError
+from serendipity.model.options import INFINITE, Options
+from serendipity.model.resources.collection import no_collection
+from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import Task
 
 T = TypeVar("T")
 
@@ -22,7 +29,7 @@ MODES: Final[dict[str, dict[str, Any]]] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome(Proved):
+class Outcome:
     """A contender's answer, and the time and memory it took.
 
     Attributes:
@@ -30,11 +37,15 @@ class Outcome(Proved):
         cost: of its plan, for the team, in the domain's unit; None without one.
         lower_bound: of the objective; None where none is known.
         expanded: nodes.
-        seconds: until the answer, once the files are read and ground.
+        seconds: until the answer, once the files are read and ground; a median where it was asked again.
         plan_seconds: likewise until the first plan; None without one.
         read_seconds: of reading, grounding, and looking for variables.
+        prepare_seconds: of ``seconds``, what is done once for a task.
+        again_seconds: of the same call once more, where it was asked again after all.
         process_seconds: processor time of all that it did, where that is looked at.
         memory: its peak in MiB, where that is known.
+        actions: ground actions of the task; ``length`` is that of the human's plan.
+        fastest: the least seconds of several calls, ``slowest`` the greatest, ``repeats`` their number.
         reason: why it failed, or what is broken.
     """
 
@@ -45,9 +56,21 @@ class Outcome(Proved):
     seconds: float = 0.0
     plan_seconds: float | None = None
     read_seconds: float = 0.0
+    prepare_seconds: float = 0.0
+    again_seconds: float | None = None
     process_seconds: float = 0.0
     memory: float | None = None
+    actions: int = 0
+    length: int = 0
+    fastest: float | None = None
+    slowest: float | None = None
+    repeats: int = 1
     reason: str = ""
+
+    @property
+    def proved(self) -> bool:
+        """True if no limit came before the proof."""
+        return self.status in ("optimal", "infeasible")
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,3 +105,53 @@ def chosen(names: Iterable[str], known: Mapping[str, T], what: str, where: str =
             raise UsageError(f"{what}: expected some of {', '.join(known)}{where}, got '{name}'")
         found[name] = known[name]
     return found
+
+
+def searched(
+    load: Callable[..., Task],
+    options: Mapping[str, Any],
+    time_limit: float,
+    *,
+    reading: float | None = None,
+    again: bool = False,
+) -> Outcome:
+    """The search's answer, for a process of its own: no other call warms it up, and all memory is its own.
+
+    Args:
+        load: reads the task within a ``deadline``.
+        options: of the call.
+        time_limit: seconds by the clock for preparing and planning.
+        reading: seconds for reading, or None.
+        again: whether to ask the same call once more.
+    """
+    asked = Options(**options)
+    try:
+        task, read_seconds = timed(lambda: load(deadline=Deadline(reading)))
+    except LIMITS:
+        return Outcome("unknown", process_seconds=time.process_time(), memory=peak_memory())
+    answer, prepared, packed, first, repeated = Answer("unknown"), None, 0.0, None, None
+    deadline, began = Deadline(time_limit), time.process_time()
+    with suppress(*LIMITS), no_collection():  # as `plan` does
+        prepared = prepare(task, deadline)
+        packed = time.process_time() - began
+        for answer in solve(prepared, asked, deadline=deadline):
+            if first is None and answer.cost is not None:
+                first = time.process_time() - began
+    seconds = time.process_time() - began
+    if again and prepared is not None:
+        _, repeated = timed(lambda: [*solve(prepared, asked, deadline=Deadline(time_limit))])
+    return Outcome(
+        answer.status,
+        None if answer.cost is None else float(answer.cost),
+        None if answer.lower_bound is None else float(answer.lower_bound),
+        answer.expanded or 0,
+        seconds=seconds,
+        plan_seconds=first,
+        read_seconds=read_seconds,
+        prepare_seconds=packed,
+        again_seconds=repeated,
+        process_seconds=time.process_time(),
+        memory=peak_memory(),
+        actions=len(task.actions),
+        length=len(answer.human_plan or ()),
+    )

@@ -1,37 +1,31 @@
 """Growth of time and memory along one axis while the others stay: generated buildings.
 
-Each task is answered from its PDDL files in a process of its own.
+Each task is answered from its PDDL files in a process of its own.  Of its row, ``domain`` is the axis and
+``task`` the value on it.
 """
 
 import statistics
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from typing import Any, Final
 
-from serendipity.evaluation.benchmark.child import in_child
-from serendipity.evaluation.benchmark.measure import MODES
+from serendipity.evaluation.benchmark.contenders import searched
+from serendipity.evaluation.benchmark.rows import Row
+from serendipity.evaluation.benchmark.side_by_side import MODES
 from serendipity.evaluation.measuring.figures import power_law
-from serendipity.evaluation.measuring.tables import Proved, grouped, table
+from serendipity.evaluation.measuring.record import apart
+from serendipity.evaluation.measuring.tables import grouped, table
 from serendipity.model.errors import SerendipityError, UsageError
 from serendipity.model.telling import Grid
+from serendipity.pddl import read_folder
 from serendipity.scenarios.generate import generate_usar
 
+_USUAL: Final[dict[str, Any]] = {"rooms": 210, "medkits": 2, "robots": 1, "corridors": None}
 _LONG_CORRIDORS: Final = 16
 """A quarter of what chance makes of 840 rooms: plans come out from 13 to over 100 actions."""
-
-
-@dataclass(frozen=True, slots=True)
-class Size:
-    """Size of a generated task, and the mode and discount that it is planned with."""
-
-    rooms: int = 210
-    medkits: int = 2
-    robots: int = 1
-    corridors: int | None = None
-    mode: str = "serendipity"
-    discount: str = "0.9"
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,100 +34,40 @@ class Axis:
 
     Attributes:
         title: what is varied, and what is fixed.
-        unit: of its values.
-        sizes: a value and the tasks of that value; ``length`` is measured, not chosen.
-        labels: names of the values 0, 1, ... where they are no numbers.
+        values: of what it is called; none for the length of the human's plan, which is measured, not chosen.
+        fixed: other things than usual; ``mode`` and ``discount``, too.
     """
 
     title: str
-    unit: str
-    sizes: tuple[tuple[float, Size], ...]
-    labels: tuple[str, ...] = ()
-    measured: bool = False
-
-    @property
-    def numeric(self) -> bool:
-        """True if its values are numbers with a power law."""
-        return not self.labels
-
-
-def _axis(title: str, field: str, values: Iterable[Any], **fixed: Any) -> Axis:
-    """An axis of the values of one field of :class:`Size`, the others ``fixed``."""
-    sizes = [(value, Size(**fixed, **{field: value})) for value in values]
-    if isinstance(sizes[0][0], str):
-        return Axis(title, field, tuple((i, size) for i, (_, size) in enumerate(sizes)), tuple(values))
-    return Axis(title, field, tuple(sizes))
+    values: tuple[Any, ...] = ()
+    fixed: dict[str, Any] | None = None
 
 
 AXES: Final[dict[str, Axis]] = {
-    "rooms": _axis("rooms (2 medkits, 1 robot, 0.9)", "rooms", (21, 42, 84, 210, 420, 840, 2100)),
-    "medkits": _axis("medkits (210 rooms, 1 robot, 0.9)", "medkits", (2, 4, 6, 8, 10)),
-    "robots": _axis("robots (84 rooms, 4 medkits, 0.9)", "robots", (1, 2, 3), rooms=84, medkits=4),
+    "rooms": Axis("rooms (2 medkits, 1 robot, 0.9)", (21, 42, 84, 210, 420, 840, 2100)),
+    "medkits": Axis("medkits (210 rooms, 1 robot, 0.9)", (2, 4, 6, 8, 10)),
+    "robots": Axis("robots (84 rooms, 4 medkits, 0.9)", (1, 2, 3), {"rooms": 84, "medkits": 4}),
     "length": Axis(
         "length of his plan (840 rooms, 16 corridors, 2 medkits, 1 robot, 0.9)",
-        "actions",
-        ((0, Size(rooms=840, corridors=_LONG_CORRIDORS)),),
-        measured=True,
+        fixed={"rooms": 840, "corridors": _LONG_CORRIDORS},
     ),
-    "modes": _axis("modes (84 rooms, 2 medkits, 1 robot, 0.9)", "mode", MODES, rooms=84),
-    "discounts": _axis(
+    "modes": Axis("modes (84 rooms, 2 medkits, 1 robot, 0.9)", tuple(MODES), {"rooms": 84}),
+    "discounts": Axis(
         "discounts (84 rooms, 2 medkits, communication)",
-        "discount",
         ("0", "0.1", "0.3", "0.5", "0.7", "0.9"),
-        rooms=84,
-        mode="communication",
+        {"rooms": 84, "mode": "communication"},
     ),
 }
 """Axes of ``bench --scaling``."""
+
+_OPTIONS: Final = {"modes": "mode", "discounts": "discount"}
+"""Axes of which values are no numbers with a power law."""
 
 _MORE_SEEDS: Final = 4
 """Tasks of one size differ in length by chance, so it takes more of them to see a trend."""
 
 
-@dataclass(frozen=True, slots=True)
-class Sample(Proved):
-    """One task of a series.
-
-    Attributes:
-        axis: a key of ``AXES``.
-        value: on that axis; the index of a label where it has labels.
-        actions: ground actions.
-        length: actions of the human's plan, 0 where they have none.
-        read_seconds: parsing, uniting, grounding.
-        pack_seconds: finite-domain variables and packed actions, once a task.
-        search_seconds: the first call.
-        again_seconds: the same call again.
-        memory: peak of the process, in MiB.
-        status: as in results; the first call's.
-    """
-
-    axis: str
-    value: float
-    rooms: int
-    medkits: int
-    robots: int
-    corridors: int | None
-    mode: str
-    discount: str
-    seed: int
-    actions: int
-    length: int
-    read_seconds: float
-    pack_seconds: float
-    search_seconds: float
-    again_seconds: float
-    memory: float
-    status: str
-    cost: float | None
-    expanded: int
-
-    @property
-    def before_seconds(self) -> float:
-        """Of what is done before the first call."""
-        return self.read_seconds + self.pack_seconds
-
-
-def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> Iterator[Sample]:
+def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> Iterator[Row]:
     """Answer the tasks of each axis, one after another.
 
     Args:
@@ -146,90 +80,102 @@ def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> I
         UsageError: there is no such axis.
         SerendipityError: a process fails.
     """
-    for name, value, size, seed in planned(axes, seeds):
-        options = {"discount": size.discount, **MODES[size.mode]}
-        building = {name: getattr(size, name) for name in ("rooms", "medkits", "robots", "corridors")}
+    for name, value, seed in planned(axes, seeds):
+        size = {"mode": "serendipity", "discount": "0.9", **_USUAL, **(AXES[name].fixed or {})}
+        size |= {} if value is None else {_OPTIONS.get(name, name): value}
+        mode, discount = size.pop("mode"), size.pop("discount")
         with tempfile.TemporaryDirectory() as folder:
-            generate_usar(folder, **building, seed=seed, extra_edges=size.rooms // 20 if seed % 2 else 0)
+            generate_usar(folder, **size, seed=seed, extra_edges=size["rooms"] // 20 if seed % 2 else 0)
+            load, options = partial(read_folder, folder), {"discount": discount, **MODES[mode]}
             try:
-                found = in_child("series", folder=folder, options=options, time_limit=time_limit)
+                outcome = apart(partial(searched, again=True), load, options, time_limit)
             except SerendipityError as error:
                 raise SerendipityError(f"scaling: {size} with seed {seed} failed: {error}") from None
-        at = max(1, found["length"]) if AXES[name].measured else value
-        yield Sample(axis=name, value=at, seed=seed, **asdict(size), **found)
+        at = max(1, outcome.length) if value is None else value
+        yield Row(name, str(at), "", "", True, mode, float(discount), "search", outcome)
 
 
-def planned(axes: Iterable[str], seeds: int) -> list[tuple[str, float, Size, int]]:
-    """The tasks of series: axis, value on it, what to generate from, seed.
+def planned(axes: Iterable[str], seeds: int) -> list[tuple[str, Any, int]]:
+    """The tasks of series: axis, value on it or None, seed.
 
     Raises:
         UsageError: there is no such axis.
     """
-    tasks = []
+    tasks: list[tuple[str, Any, int]] = []
     for name in axes:
         if name not in AXES:
             raise UsageError(f"--scaling: expected some of {', '.join(AXES)}, got '{name}'")
-        axis = AXES[name]
-        each = range(seeds * _MORE_SEEDS if axis.measured else seeds)
-        tasks += [(name, value, size, seed) for value, size in axis.sizes for seed in each]
+        if AXES[name].values:
+            tasks += [(name, value, seed) for value in AXES[name].values for seed in range(seeds)]
+        else:
+            tasks += [(name, None, seed) for seed in range(seeds * _MORE_SEEDS)]
     return tasks
 
 
-def scaling_table(samples: Sequence[Sample]) -> Grid:
+def is_numeric(axis: str) -> bool:
+    """True if an axis has numbers with a power law."""
+    return axis not in _OPTIONS
+
+
+def first_seconds(row: Row) -> float:
+    """Seconds of the first call, once the task is prepared."""
+    return row.outcome.seconds - row.outcome.prepare_seconds
+
+
+def _before(row: Row) -> float:
+    return row.outcome.read_seconds + row.outcome.prepare_seconds
+
+
+def scaling_table(rows: Sequence[Row]) -> Grid:
     """A row for each value, medians but for the longest first call; measured axes are cut into quarters."""
-    return table(
-        ("axis", "value"),
-        {
-            (name, label): group
-            for name, members in grouped(samples, lambda sample: sample.axis).items()
-            for label, group in _values(AXES[name], sorted(members, key=lambda sample: sample.value))
-        },
-        {
-            "tasks": len,
-            "proved": lambda of: sum(sample.proved for sample in of),
-            "first call": lambda of: _shown(statistics.median(s.search_seconds for s in of)),
-            "longest": lambda of: _shown(max(s.search_seconds for s in of)),
-            "again": lambda of: _shown(statistics.median(s.again_seconds for s in of)),
-            "read + pack": lambda of: _shown(statistics.median(s.before_seconds for s in of)),
-            "MiB": lambda of: f"{max(s.memory for s in of):.0f}",
-        },
-    )
+    groups = {
+        (axis, label): group
+        for axis, of in grouped(rows, lambda row: row.domain).items()
+        for label, group in _values(axis, of)
+    }
+    columns = {
+        "tasks": len,
+        "proved": lambda of: sum(row.outcome.proved for row in of),
+        "first call": lambda of: _shown(statistics.median(map(first_seconds, of))),
+        "longest": lambda of: _shown(max(map(first_seconds, of))),
+        "again": lambda of: _shown(statistics.median(row.outcome.again_seconds or 0 for row in of)),
+        "read + pack": lambda of: _shown(statistics.median(map(_before, of))),
+        "MiB": lambda of: f"{max(row.outcome.memory or 0 for row in of):.0f}",
+    }
+    return table(("axis", "value"), groups, columns)
 
 
 def _shown(seconds: float) -> str:
     return f"{seconds * 1000:.1f} ms"
 
 
-def _values(axis: Axis, members: Sequence[Sample]) -> Iterator[tuple[str, Sequence[Sample]]]:
-    if axis.measured:
-        cuts = [round(len(members) * i / 4) for i in range(5)]
-        groups = [members[a:b] for a, b in pairwise(cuts) if a < b]
-        yield from ((f"{group[0].value:g}-{group[-1].value:g}", group) for group in groups)
+def _values(axis: str, rows: Sequence[Row]) -> Iterator[tuple[str, Sequence[Row]]]:
+    if AXES[axis].values:
+        yield from grouped(rows, lambda row: row.task).items()
         return
-    for value, group in grouped(members, lambda sample: sample.value).items():
-        yield f"{value:g}" if axis.numeric else axis.labels[int(value)], group
+    ordered = sorted(rows, key=lambda row: float(row.task))
+    cuts = [round(len(ordered) * i / 4) for i in range(5)]
+    groups = [ordered[a:b] for a, b in pairwise(cuts) if a < b]
+    yield from ((f"{group[0].task}-{group[-1].task}", group) for group in groups)
 
 
-def exponents(samples: Sequence[Sample]) -> Grid:
+def exponents(rows: Sequence[Row]) -> Grid:
     """For each numeric axis the powers of time and memory, and their standard errors.
 
     Calls that met the limit count with the limit; ``>=`` marks a power that this makes too small.
     """
-    numeric = (sample for sample in samples if AXES[sample.axis].numeric)
-    return table(
-        ("axis",),
-        grouped(numeric, lambda sample: (sample.axis,)),
-        {
-            "first call": lambda of: (
-                ("" if all(s.proved for s in of) else ">= ")
-                + _power([(s.value, s.search_seconds) for s in of])
-            ),
-            "read + pack": lambda of: _power([(s.value, s.before_seconds) for s in of]),
-            "memory": lambda of: _power([(s.value, s.memory) for s in of]),
-        },
-    )
 
+    def power(of: Sequence[Row], figures: Iterable[float]) -> str:
+        fit = power_law([float(row.task) for row in of], figures)
+        return "" if fit is None else f"{fit.exponent:.2f} +- {fit.error:.2f}"
 
-def _power(points: Sequence[tuple[float, float]]) -> str:
-    fit = power_law(points)
-    return "" if fit is None else f"{fit.exponent:.2f} +- {fit.error:.2f}"
+    def first_call(of: Sequence[Row]) -> str:
+        return f"{'>= ' * (not all(row.outcome.proved for row in of))}{power(of, map(first_seconds, of))}"
+
+    columns = {
+        "first call": first_call,
+        "read + pack": lambda of: power(of, map(_before, of)),
+        "memory": lambda of: power(of, (row.outcome.memory or 0 for row in of)),
+    }
+    numeric = (row for row in rows if is_numeric(row.domain))
+    return table(("axis",), grouped(numeric, lambda row: (row.domain,)), columns)

@@ -4,9 +4,8 @@ import math
 import os
 import platform
 import resource
-import statistics
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, TypeVar
@@ -99,19 +98,16 @@ class PowerLaw:
         return float(self.factor * x**self.exponent)
 
 
-def power_law(points: Sequence[tuple[float, float]]) -> PowerLaw | None:
-    """The power law of least squared distance between logarithms.
-
-    Args:
-        points: positive ``(x, y)``.
+def power_law(xs: Iterable[float], ys: Iterable[float]) -> PowerLaw | None:
+    """The power law of least squared distance between logarithms of positive figures.
 
     Returns:
         None for fewer than three points, or a single x.
     """
-    xs, ys = [math.log(x) for x, _ in points], [math.log(y) for _, y in points]
-    if len(points) < 3 or len(set(xs)) < 2:
+    at, found = [math.log(x) for x in xs], [math.log(y) for y in ys]
+    if len(at) < 3 or len({*at}) < 2:
         return None
-    slope, start = statistics.linear_regression(xs, ys)
-    left = math.fsum((y - start - slope * x) ** 2 for x, y in zip(xs, ys, strict=True))
-    spread = statistics.pvariance(xs) * len(xs)
-    return PowerLaw(slope, math.exp(start), math.sqrt(left / (len(xs) - 2) / spread))
+    import numpy  # here: what is measured in this process may do without
+
+    (exponent, start), spread = numpy.polyfit(at, found, 1, cov=True)
+    return PowerLaw(float(exponent), math.exp(start), math.sqrt(max(spread[0][0], 0.0)))

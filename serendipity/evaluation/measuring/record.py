@@ -1,14 +1,17 @@
-"""Files that grow by a line of JSON, so that work that was stopped goes on where it was."""
+"""Jobs in processes, and files that grow by a line of JSON: work that was stopped goes on where it was."""
 
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
 from serendipity.model.errors import InputError, UsageError
+from serendipity.model.resources.processes import in_processes
 from serendipity.writing.together import append
 
+J = TypeVar("J")
 T = TypeVar("T")
 
 
@@ -65,25 +68,50 @@ class Lines:
             raise UsageError(f"journal: {self.path} can't be written: {error.strerror}") from None
 
 
-class Record:
-    """Results of jobs, each found again by its key.
+def measured(
+    jobs: Iterable[J], work: Callable[[J], Any], file: Path | None = None, *, processes: int = 1
+) -> Iterator[tuple[J, Any]]:
+    """Each job and what it came to: plain values, as JSON has them.
 
     Args:
-        file: where it stands; None: nowhere but in memory.
+        jobs: values that are told apart by their ``repr``.
+        work: a function of a module.
+        file: where results are written as they come, and not worked out again if they are there; or None.
+        processes: how many; with several, jobs come as they are finished.
     """
+    lines = None if file is None else Lines(file, "a record of what was measured", (b'["',))
+    known = {} if lines is None else dict(lines.read(lambda pair, _: pair))
+    todo = []
 
-    def __init__(self, file: Path | None = None) -> None:
-        self._lines = None if file is None else Lines(file, "a record of what was measured", (b'["',))
-        self._known: dict[str, Any] = dict(self._lines.read(lambda pair, _: pair) if self._lines else ())
+    def noted(job: J, found: Any) -> tuple[J, Any]:
+        if lines is not None:
+            lines.append([repr(job), found])
+        return job, found
 
-    def __contains__(self, key: str) -> bool:
-        return key in self._known
+    for job in jobs:
+        if repr(job) in known:
+            yield job, known[repr(job)]
+        elif processes > 1:
+            todo.append(job)
+        else:
+            yield noted(job, work(job))
+    for job, found in in_processes(partial(_with_job, work), todo, processes):
+        yield noted(job, found)
 
-    def __getitem__(self, key: str) -> Any:
-        return self._known[key]
 
-    def add(self, key: str, found: Any) -> None:
-        """Note what a job has come to, and write it down at once."""
-        self._known[key] = found
-        if self._lines is not None:
-            self._lines.append([key, found])
+def _with_job(work: Callable[[J], Any], job: J) -> tuple[J, Any]:
+    return job, work(job)
+
+
+def apart(work: Callable[..., T], *given: Any) -> T:
+    """Result of a function of a module in a process of its own, whose memory is its own.
+
+    Raises:
+        SerendipityError: the process was killed, twice.
+    """
+    (found,) = in_processes(partial(_called, work), [given], 1)
+    return found
+
+
+def _called(work: Callable[..., T], given: tuple[Any, ...]) -> T:
+    return work(*given)

@@ -3,6 +3,7 @@
 A domain's folder has ``domain.pddl`` and problem files.
 """
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -55,10 +56,15 @@ class Roles:
     alone: bool = False
 
 
-def folders(suite: Path, stride: int = 1, limit: int | None = None) -> list[Path]:
-    """The folders in a suite, ``test2`` before ``test10``: every ``stride``-th, ``limit`` at most."""
+def folders(suite: Path, stride: int = 1) -> list[Path]:
+    """Every ``stride``-th of the folders in a suite, ``test2`` before ``test10``."""
     found = (path for path in suite.iterdir() if path.is_dir())
-    return sorted(found, key=lambda path: (len(path.name), path.name))[::stride][:limit]
+    return sorted(found, key=lambda path: natural(path.name))[::stride]
+
+
+def natural(name: str) -> tuple[tuple[int, str], ...]:
+    """Sorting key by which 2 comes before 10."""
+    return tuple((int(part), "") if part.isdecimal() else (0, part) for part in re.split(r"(\d+)", name))
 
 
 def is_suite(folder: Path) -> bool:

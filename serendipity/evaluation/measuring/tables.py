@@ -11,19 +11,6 @@ N = TypeVar("N", bound=tuple[str, ...])
 R = TypeVar("R")
 
 
-class Proved:
-    """A row about an answer, with the answer's status, which is as in results."""
-
-    __slots__ = ()
-
-    status: str
-
-    @property
-    def proved(self) -> bool:
-        """True if no limit came before the proof."""
-        return self.status in ("optimal", "infeasible")
-
-
 def grouped(rows: Iterable[R], key: Callable[[R], K]) -> dict[K, list[R]]:
     """Rows by their key, in the order in which keys are first met."""
     groups: dict[K, list[R]] = {}

@@ -1,26 +1,25 @@
-"""A run as one HTML page that needs nothing else: tables and charts."""
+"""A run as tables for people, and as one HTML page that needs nothing else: tables and charts."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from math import floor
 from typing import Final
 
+from serendipity.evaluation.measuring.plots import Labels, bars, lines
 from serendipity.evaluation.measuring.tables import grouped
-from serendipity.evaluation.reproduction.charts import Labels, Points, bars, lines
 from serendipity.evaluation.reproduction.run import Reproduction
-from serendipity.evaluation.reproduction.tables import Entry, ExampleAnswer, Tables, Times
+from serendipity.evaluation.reproduction.tables import Entry, Tables
 from serendipity.model.errors import UsageError
 from serendipity.model.printable import markup
-from serendipity.model.telling import Grid
+from serendipity.model.telling import Grid, as_html
 
+_TITLE: Final = "Planning for serendipity: a reproduction"
 _STYLE: Final = """
 :root { color-scheme: light dark; }
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; }
 table { border-collapse: collapse; margin: 1rem 0; }
 .wide { overflow-x: auto; }
-th, td { padding: .25rem .75rem; text-align: right; border-bottom: 1px solid #8886; white-space: nowrap; }
-th { white-space: normal; vertical-align: bottom; }
-th:first-child, td:first-child { text-align: left; }
+th, td { padding: .25rem .75rem; border-bottom: 1px solid #8886; white-space: nowrap; }
 svg { width: 100%; min-width: 36rem; max-width: 44rem; height: auto; }
 """
 _MOST_BINS: Final = 16
@@ -29,141 +28,103 @@ _LEAST_SECONDS: Final = 1e-6
 
 
 def html_report(run: Reproduction, tables: Tables) -> str:
-    """The page; its charts need matplotlib."""
+    """The page; its charts need matplotlib, and scroll by themselves, so that it fits narrow screens."""
+    parts = "\n".join(f"<h2>{title}</h2>\n{_wide(as_html([grid]))}" for title, grid in titled(tables))
+    try:
+        charts = "\n".join(map(_wide, _charts(run, tables.costs)))
+    except UsageError as error:
+        charts = f"<p>{markup(str(error))}</p>"
     tests = len({row.test for row in run.rows})
-    body = [
-        "<h1>Planning for serendipity: a reproduction</h1>",
-        f"<p>{tests} tasks, modes {markup(', '.join(run.modes))}.</p>",
-        "<h2>Table I: cost, and tasks in which a robot helps</h2>",
-        _table(table_1_grid(tables.costs)),
-        "<h2>Table II: seconds of a planning call</h2>",
-        _table(table_2_grid(tables.times)),
-        "<h2>The examples of sections III-B to III-D</h2>",
-        _table(examples_grid(tables.examples)),
-        "<h2>Charts</h2>",
-        *_charts(run, tables.costs),
-    ]
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>Planning for serendipity: a reproduction</title><style>{_STYLE}</style></head>\n"
-        "<body>\n" + "\n".join(body) + "\n</body></html>\n"
+        f"<title>{_TITLE}</title><style>{_STYLE}</style></head>\n<body>\n<h1>{_TITLE}</h1>\n"
+        f"<p>{tests} tasks, modes {markup(', '.join(run.modes))}.</p>\n{parts}\n"
+        f"<h2>Charts</h2>\n{charts}\n</body></html>\n"
     )
 
 
-def table_1_grid(entries: Sequence[Entry]) -> Grid:
-    """Table I: a row per discount, a column per variant, the paper's figures beside."""
-    variants = list(dict.fromkeys(entry.variant for entry in entries))
-    found = {(entry.discount, entry.variant): entry for entry in entries}
-    printed = {entry.variant for entry in entries if entry.paper_mean_cost is not None}
-    header = ["discount"]
-    for variant in variants:
-        header.append(variant)
-        if variant in printed:
-            header.append("paper")
+def _wide(part: str) -> str:
+    return f'<div class="wide">{part}</div>'
+
+
+def titled(tables: Tables) -> Iterator[tuple[str, Grid]]:
+    """Each of the tables under its title."""
+    yield "Table I: mean cost (number of tasks in which a robot helps)", _table_1(tables.costs)
+    header = ["mode", "calls", "mean", "median", "max", "paper (2015, its machine)"]
+    printed = any(of.paper_2015_seconds is not None for of in tables.times)
     rows = []
-    for discount in dict.fromkeys(entry.discount for entry in entries):
+    for of in tables.times:
+        seconds = (f"{x:.6f}" for x in (of.mean_seconds, of.median_seconds, of.max_seconds))
+        rows.append([of.mode, str(of.calls), *seconds, _shown(of.paper_2015_seconds, ".2f")][: 5 + printed])
+    yield "Table II: seconds of a planning call", Grid(header[: 5 + printed], rows)
+    header, rows = ["example", "mode", "discount", "alone", "cost", "window"], []
+    for one in tables.examples:
+        window = "[{start}, {end})".format(**one["window"]) if one["window"] else ""
+        figures = (_shown(one[name], ".10g") for name in ("discount", "human_cost", "cost"))
+        rows.append([f"{one['section']} ({one['example']})", one["mode"], *figures, window])
+    yield "The paper's examples, sections III-B to III-D", Grid(header, rows)
+
+
+def _table_1(entries: Sequence[Entry]) -> Grid:
+    """A row per discount, a column per variant, the paper's figures beside."""
+    header, rows = ["discount"], []
+    for variant, of in grouped(entries, lambda entry: entry.variant).items():
+        header += [variant, *["paper"] * any(entry.paper_mean_cost is not None for entry in of)]
+    printed = {entry.variant for entry in entries if entry.paper_mean_cost is not None}
+    for discount, of in grouped(entries, lambda entry: entry.discount).items():
         row = [f"{float(discount):.10g}"]
-        for variant in variants:
-            entry = found[discount, variant]
-            mean, theirs = entry.mean_cost, entry.paper_mean_cost
-            row.append("-" if mean is None else f"{float(mean):.6g} ({entry.improved})")
-            if variant in printed:
-                row.append("-" if theirs is None else f"{float(theirs):.2f} ({entry.paper_improved})")
+        for entry in of:
+            row.append(_shown(entry.mean_cost, ".6g", entry.improved))
+            row += [_shown(entry.paper_mean_cost, ".2f", entry.paper_improved)] * (entry.variant in printed)
         rows.append(row)
     return Grid(header, rows)
 
 
-def table_2_grid(times: Sequence[Times]) -> Grid:
-    """Table II: a row per mode."""
-    header = ["mode", "calls", "mean", "median", "max"]
-    printed = any(time.paper_2015_seconds is not None for time in times)
-    rows = []
-    for time in times:
-        row = [
-            time.mode,
-            str(time.calls),
-            *(f"{x:.6f}" for x in (time.mean_seconds, time.median_seconds, time.max_seconds)),
-        ]
-        if printed:
-            row.append("-" if time.paper_2015_seconds is None else f"{time.paper_2015_seconds:.2f}")
-        rows.append(row)
-    return Grid([*header, *(["paper (2015, its machine)"] if printed else [])], rows)
+def _shown(value: float | Fraction | None, form: str, count: int | None = None) -> str:
+    """A figure, and a count in brackets."""
+    told = "" if count is None else f" ({count})"
+    return "-" if value is None else f"{float(value):{form}}{told}"
 
 
-def examples_grid(answers: Sequence[ExampleAnswer]) -> Grid:
-    """The paper's examples: a row per example, mode and discount."""
-    rows = []
-    for answer in answers:
-        window = "" if answer.window is None else f"[{answer.window.start}, {answer.window.end})"
-        costs = [f"{cost:.10g}" if cost is not None else "-" for cost in (answer.human_cost, answer.cost)]
-        name = f"{answer.section} ({answer.example})"
-        rows.append([name, answer.mode, f"{float(answer.discount):.10g}", *costs, window])
-    return Grid(["example", "mode", "discount", "alone", "cost", "window"], rows)
-
-
-def _table(grid: Grid) -> str:
-    head = "".join(f"<th>{markup(cell)}</th>" for cell in grid.header)
-    body = "".join(
-        "<tr>" + "".join(f"<td>{markup(cell)}</td>" for cell in row) + "</tr>\n" for row in grid.rows
-    )
-    return f'<div class="wide"><table><thead><tr>{head}</tr></thead>\n<tbody>{body}</tbody></table></div>'
-
-
-def _charts(run: Reproduction, entries: Sequence[Entry]) -> list[str]:
-    """Charts that scroll by themselves, so that the page fits narrow screens; without matplotlib a hint."""
+def _charts(run: Reproduction, entries: Sequence[Entry]) -> Iterator[str]:
     shown = [entry for entry in entries if entry.mean_cost is not None]
     helped = [entry for entry in shown if entry.variant != "individual"]
-    try:
-        charts = [
-            _by_discount("Mean cost", "mean cost", shown, lambda entry: float(entry.mean_cost or 0)),
-            _by_discount("Opportunities", "tasks", helped, lambda entry: entry.improved),
-            _chart_of_savings(run),
-            _chart_of_times(run),
-        ]
-    except UsageError as error:
-        return [f"<p>{markup(str(error))}</p>"]
-    return [f'<div class="wide">{chart}</div>' for chart in charts if chart]
-
-
-def _by_discount(title: str, y: str, entries: Sequence[Entry], figure: Callable[[Entry], float]) -> str:
-    series = {
-        variant: [(float(entry.discount), figure(entry)) for entry in of]
-        for variant, of in grouped(entries, lambda entry: entry.variant).items()
-    }
-    return lines(Labels(f"{title} against discount", "discount", y), series) if series else ""
-
-
-def _chart_of_savings(run: Reproduction) -> str:
-    """Histogram of savings at the greatest discount, where something is saved."""
-    most = max(run.discounts)
-    saved: dict[str, list[Fraction]] = {}
-    for row in run.rows:
-        if row.discount == most and row.opportunity and row.cost is not None and row.human_cost is not None:
-            saved.setdefault(row.mode, []).append(row.human_cost - row.cost)
-    if not saved:
-        return ""
-    width = _width(max(max(values) for values in saved.values()))
-    last = max(floor(value / width) for values in saved.values() for value in values)
-    groups = [f"{float(i * width):g}-" for i in range(last + 1)]
-    series = {
-        mode: [sum(floor(value / width) == i for value in saved[mode]) for i in range(last + 1)]
-        for mode in run.modes
-        if mode in saved
-    }
-    labels = Labels(f"Savings at discount {float(most):g}", "saved cost, from", "tasks")
-    return bars(labels, groups, series)
-
-
-def _width(most: Fraction) -> Fraction:
-    """The finest round width that makes no more than ``_MOST_BINS`` bins."""
-    return next(width for width in _WIDTHS if most / width < _MOST_BINS)
-
-
-def _chart_of_times(run: Reproduction) -> str:
-    series: dict[str, Points] = {}
-    for mode in run.modes:
-        seconds = sorted(max(row.seconds, _LEAST_SECONDS) for row in run.rows if row.mode == mode)
+    yield from _by_discount("Mean cost", "mean cost", shown, lambda entry: float(entry.mean_cost or 0))
+    yield from _by_discount("Opportunities", "tasks", helped, lambda entry: entry.improved)
+    yield from _savings(run)
+    series = {}
+    for mode, of in grouped(run.rows, lambda row: row.mode).items():
+        seconds = sorted(max(row.seconds, _LEAST_SECONDS) for row in of)
         series[mode] = [(value, 100 * (i + 1) / len(seconds)) for i, value in enumerate(seconds)]
     labels = Labels("Planning calls answered within a time", "seconds", "percent of calls")
-    return lines(labels, series, log_x=True)
+    yield lines(labels, series, log_x=True)
+
+
+def _by_discount(
+    title: str, y: str, entries: Sequence[Entry], figure: Callable[[Entry], float]
+) -> Iterator[str]:
+    variants = grouped(entries, lambda entry: entry.variant)
+    series = {name: [(float(entry.discount), figure(entry)) for entry in of] for name, of in variants.items()}
+    if series:
+        yield lines(Labels(f"{title} against discount", "discount", y), series)
+
+
+def _savings(run: Reproduction) -> Iterator[str]:
+    """A histogram of savings at the greatest discount, where something is saved."""
+    most = max(run.discounts)
+    helped = [row for row in run.rows if row.discount == most and row.opportunity and row.human_cost]
+    saved = {
+        mode: [(row.human_cost or 0) - (row.cost or 0) for row in of]
+        for mode, of in grouped(helped, lambda row: row.mode).items()
+    }
+    if saved:
+        greatest = max(value for values in saved.values() for value in values)
+        width = next(width for width in _WIDTHS if greatest / width < _MOST_BINS)
+        bins = range(floor(greatest / width) + 1)
+        series = {
+            mode: [sum(floor(value / width) == i for value in values) for i in bins]
+            for mode, values in saved.items()
+        }
+        labels = Labels(f"Savings at discount {float(most):g}", "saved cost, from", "tasks")
+        yield bars(labels, [f"{float(i * width):g}-" for i in bins], series)

@@ -15,15 +15,7 @@ from serendipity.evaluation.measuring.record import Lines
 from serendipity.evaluation.reproduction.pool import on_dask
 from serendipity.evaluation.reproduction.rows import KINDS, Row
 from serendipity.evaluation.reproduction.suite import TaskFolder, find_tasks
-from serendipity.evaluation.reproduction.work import (
-    Assignment,
-    Call,
-    Limits,
-    TaskRows,
-    killed,
-    solve,
-    unknown,
-)
+from serendipity.evaluation.reproduction.work import Assignment, Call, TaskRows, killed, solve, unknown
 from serendipity.model import Deadline, InputError, Options, UsageError
 from serendipity.model.arguments import DEADLINE, FUNCTION, LIST, PATH, TEXT, WHOLE, expect, expect_or_none
 from serendipity.model.keywords import Mode
@@ -167,13 +159,14 @@ def reproduce(
     book = None if journal is None else Journal(Path(journal))
     known = {} if book is None else _by_call(book.read(), proved=True)
     whole = deadline or Deadline()
-    limits = _limits(time_limit, memory_limit, whole)
-    assignments = [left for task in tasks if (left := _left(task, calls, known, limits)) is not None]
+    options, left = Options(time_limit=time_limit, memory_limit=memory_limit), whole.left()
+    limits = (options.time_limit, options.memory_limit, None if left is None else time() + left)
+    keys = {(task, call): _key(task, call) for task in tasks for call in calls}
+    missing = {task: tuple(call for call in calls if keys[task, call] not in known) for task in tasks}
+    assignments = [Assignment(task, of, *limits) for task, of in missing.items() if of]
     report = on_progress or (lambda _: None)
     done = len(tasks) - len(assignments)
-    helped = sum(
-        known[_key(task, call)].opportunity for task in tasks for call in calls if _key(task, call) in known
-    )
+    helped = sum(known[key].opportunity for key in keys.values() if key in known)
     report(Progress(done, len(tasks), helped))
     with closing(_work(assignments, jobs, dask)) as records:
         for record in records:
@@ -185,10 +178,9 @@ def reproduce(
             report(Progress(done, len(tasks), helped))
             if whole.reached() is not None:
                 break
-    rows = tuple(known.get(_key(task, call)) or unknown(task.test, call) for task in tasks for call in calls)
-    return Reproduction(
-        tuple(dict.fromkeys(c.mode for c in calls)), tuple(dict.fromkeys(c.discount for c in calls)), rows
-    )
+    rows = (known.get(key) or unknown(task.test, call) for (task, call), key in keys.items())
+    each_mode, each_discount = (tuple(dict.fromkeys(values)) for values in zip(*calls, strict=True))
+    return Reproduction(each_mode, each_discount, tuple(rows))
 
 
 _Key = tuple[str, str, Call]
@@ -217,22 +209,6 @@ def _by_call(records: Iterable[TaskRows], *, proved: bool = False) -> dict[_Key,
         for row in record.rows
         if row.proved or not proved
     }
-
-
-def _left(
-    task: TaskFolder, calls: Sequence[Call], known: dict[_Key, Row], limits: Limits
-) -> Assignment | None:
-    """The calls that are still to be made for a task; None without any."""
-    missing = tuple(call for call in calls if _key(task, call) not in known)
-    return Assignment(task.test, task.path, task.fingerprint, missing, limits) if missing else None
-
-
-def _limits(time_limit: float | None, memory_limit: float | None, whole: Deadline) -> Limits:
-    """The limits of each row, checked, and when the whole run has to be over."""
-    options = Options(time_limit=time_limit, memory_limit=memory_limit)
-    left = whole.left()
-    until = None if left is None else time() + left
-    return Limits(options.time_limit, options.memory_limit, until)
 
 
 def _work(assignments: Sequence[Assignment], jobs: int, dask: str | None) -> Generator[TaskRows]:

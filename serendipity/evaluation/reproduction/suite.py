@@ -6,6 +6,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from serendipity.evaluation.measuring.suites import natural
 from serendipity.model import InputError, UsageError
 
 _NUMBERED = re.compile(r"test(\d+)")
@@ -46,11 +47,6 @@ def find_tasks(folder: Path) -> tuple[TaskFolder, ...]:
         raise InputError("no task in this folder: expected testN/AGENT/domain.pddl", folder)
     tasks = (TaskFolder(_name(path), path, _fingerprint(path)) for path in found)
     return tuple(sorted(tasks, key=lambda task: natural(task.test)))
-
-
-def natural(name: str) -> tuple[tuple[int, str], ...]:
-    """Sorting key by which 2 comes before 10."""
-    return tuple((int(part), "") if part.isdecimal() else (0, part) for part in re.split(r"(\d+)", name))
 
 
 def _is_task(path: Path) -> bool:

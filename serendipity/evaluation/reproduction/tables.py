@@ -1,7 +1,6 @@
-"""Means and counts by discount (Table I), times by mode (Table II), the paper's examples."""
+"""Means and counts by discount (Table I), times by mode (Table II), the paper's examples; as JSON and CSV."""
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from itertools import product
 from statistics import fmean, median
@@ -10,49 +9,42 @@ from typing import Any, Final, NamedTuple
 from serendipity.evaluation.reproduction.rows import Row
 from serendipity.evaluation.reproduction.run import Reproduction
 from serendipity.facade.planning import plan
-from serendipity.model import Window
 from serendipity.model.keywords import Mode
 from serendipity.scenarios.examples import example
+from serendipity.writing.csv_text import as_csv
+
+SCHEMA: Final = "serendipity.reproduction/1"
 
 TESTS: Final = frozenset(str(number) for number in range(1, 201))
 """The paper's 200 problems (Chakraborti et al., IROS 2015), by number."""
 
-
-class Printed(NamedTuple):
-    """One entry of Table I: the mean cost, and the number of problems in brackets."""
-
-    mean: Fraction
-    improved: int
-
-
-def _column(text: str) -> dict[Fraction, Printed]:
-    table = {}
-    for entry in text.split(";"):
-        discount, mean, improved = entry.split()
-        table[Fraction(discount)] = Printed(Fraction(mean), int(improved))
-    return table
-
+_DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
+_SERENDIPITY: Final = ((9.82, 1), (9.81, 7), (9.79, 7), (9.76, 12), (9.68, 29), (9.55, 32))
+_TOGETHER: Final = ((9.72, 13), (9.65, 23), (9.48, 34), (9.25, 40), (8.93, 62), (8.51, 70))
 
 TABLE_1: Final = {
-    "serendipity": _column("0 9.82 1; 0.1 9.81 7; 0.3 9.79 7; 0.5 9.76 12; 0.7 9.68 29; 0.9 9.55 32"),
-    "communication": _column("0 9.72 13; 0.1 9.65 23; 0.3 9.48 34; 0.5 9.25 40; 0.7 8.93 62; 0.9 8.51 70"),
+    mode: dict(zip(map(Fraction, _DISCOUNTS), column, strict=True))
+    for mode, column in (
+        ("serendipity", _SERENDIPITY),
+        ("communication", _TOGETHER),
+        ("composite", _TOGETHER),
+    )
 }
-"""By mode and discount; the second column stands for composite planning too."""
+"""By mode and discount: the mean cost, and the number of problems in brackets."""
 
 TABLE_2: Final = {"serendipity": 28.68, "communication": 33.93, "composite": 44.96}
 """Seconds by mode, on an Intel Xeon E5-1620 v2 with Gurobi, in 2015."""
-
 
 _EXAMPLES: Final = {"room5": "III-B", "room2": "III-C", "room7": "III-D"}
 _EXAMPLE_MODES: Final[tuple[Mode, ...]] = ("serendipity", "communication")
 _EXAMPLE_DISCOUNTS: Final = ("0.5", "0.6", "0.9")
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(NamedTuple):
     """One entry of Table I.
 
     Attributes:
+        discount: what robots do costs so much less.
         variant: a mode, or ``serendipity, best tie`` and ``serendipity, worst tie``: over
             the human's optimal plans.
         mean_cost: over the tasks that have a plan, or None without any.
@@ -67,12 +59,11 @@ class Entry:
     mean_cost: Fraction | None
     improved: int
     tasks: int
-    paper_mean_cost: Fraction | None = None
+    paper_mean_cost: float | None = None
     paper_improved: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Times:
+class Times(NamedTuple):
     """One row of Table II: planning calls.
 
     ``paper_2015_seconds``: as printed, of its own machine and solver, where the tasks are the paper's.
@@ -86,37 +77,12 @@ class Times:
     paper_2015_seconds: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class ExampleAnswer:
-    """One of the paper's examples, at one discount."""
+class Tables(NamedTuple):
+    """The tables of a run: Table I, Table II, and the paper's examples beside them, as JSON has those."""
 
-    section: str
-    example: str
-    mode: str
-    discount: Fraction
-    human_cost: float | None
-    cost: float | None
-    window: Window | None
-
-
-@dataclass(frozen=True, slots=True)
-class Tables:
-    """The tables of a run: Table I, Table II, and the paper's examples beside them."""
-
-    costs: tuple[Entry, ...]
-    times: tuple[Times, ...]
-    examples: tuple[ExampleAnswer, ...]
-
-
-def plain(line: Entry | Times | ExampleAnswer) -> dict[str, Any]:
-    """A line of a table as a JSON object."""
-    values = {each.name: getattr(line, each.name) for each in fields(line)}
-    for name, value in values.items():
-        if isinstance(value, Fraction):
-            values[name] = float(value)
-        elif isinstance(value, Window):
-            values[name] = value.to_dict()
-    return values
+    costs: Sequence[Entry]
+    times: Sequence[Times]
+    examples: Sequence[dict[str, Any]]
 
 
 def tables(run: Reproduction) -> Tables:
@@ -124,62 +90,80 @@ def tables(run: Reproduction) -> Tables:
     return Tables(table_1(run), table_2(run), examples())
 
 
-def table_1(run: Reproduction) -> tuple[Entry, ...]:
+def table_1(run: Reproduction) -> list[Entry]:
     """Mean costs and numbers of improved tasks, by discount and variant."""
-    printed = _papers_own(run)
+    known = TABLE_1 if _papers_own(run) else {}
     entries = []
-    for discount in run.discounts:
-        for variant, mode, cost in _variants(run.modes):
-            rows = [row for row in run.rows if row.mode == mode and row.discount == discount]
-            known = TABLE_1.get(variant, TABLE_1["communication"] if variant == "composite" else {})
-            entry = _entry(discount, variant, rows, cost)
-            if printed and discount in known:
-                entry = replace(
-                    entry, paper_mean_cost=known[discount].mean, paper_improved=known[discount].improved
-                )
-            entries.append(entry)
-    return tuple(entries)
+    for discount, (variant, mode, cost) in product(run.discounts, _variants(run.modes)):
+        rows = [row for row in run.rows if row.mode == mode and row.discount == discount]
+        costs = [(value, row) for row in rows if (value := cost(row)) is not None]
+        mean = sum((value for value, _ in costs), Fraction(0)) / len(costs) if costs else None
+        improved = sum(row.human_cost is not None and value < row.human_cost for value, row in costs)
+        theirs = known.get(variant, {}).get(discount, (None, None))
+        entries.append(Entry(discount, variant, mean, improved, len(costs), *theirs))
+    return entries
 
 
-def table_2(run: Reproduction) -> tuple[Times, ...]:
+def table_2(run: Reproduction) -> list[Times]:
     """Times of planning calls by mode."""
-    printed = _papers_own(run)
+    known = TABLE_2 if _papers_own(run) else {}
     times = []
     for mode in run.modes:
         told = [row.seconds for row in run.rows if row.mode == mode and row.status != "error"]
         seconds = told or [0.0]
-        paper = TABLE_2.get(mode) if printed else None
-        times.append(Times(mode, len(told), fmean(seconds), median(seconds), max(seconds), paper))
-    return tuple(times)
+        times.append(Times(mode, len(told), fmean(seconds), median(seconds), max(seconds), known.get(mode)))
+    return times
 
 
-def examples() -> tuple[ExampleAnswer, ...]:
+def examples() -> list[dict[str, Any]]:
     """Sections III-B, III-C and III-D of the paper, planned."""
     answers = []
     for (name, section), mode, discount in product(_EXAMPLES.items(), _EXAMPLE_MODES, _EXAMPLE_DISCOUNTS):
         found = plan(example(name), mode=mode, discount=discount)
-        told = (found.human_cost, found.cost, found.window)
-        answers.append(ExampleAnswer(section, name, mode, Fraction(discount), *told))
-    return tuple(answers)
+        about = {"section": section, "example": name, "mode": mode, "discount": float(discount)}
+        window = None if found.window is None else found.window.to_dict()
+        answers.append({**about, "human_cost": found.human_cost, "cost": found.cost, "window": window})
+    return answers
 
 
 _Cost = Callable[[Row], Fraction | None]
 
 
-def _variants(modes: Iterable[str]) -> Iterable[tuple[str, str, _Cost]]:
+def _variants(modes: Iterable[str]) -> list[tuple[str, str, _Cost]]:
+    found: list[tuple[str, str, _Cost]] = []
     for mode in modes:
-        yield mode, mode, lambda row: row.cost
+        found.append((mode, mode, lambda row: row.cost))
         if mode == "serendipity":
-            yield f"{mode}, best tie", mode, lambda row: row.best_tie
-            yield f"{mode}, worst tie", mode, lambda row: row.worst_tie
-
-
-def _entry(discount: Fraction, variant: str, rows: list[Row], cost: _Cost) -> Entry:
-    costs = [(value, row) for row in rows if (value := cost(row)) is not None]
-    mean = sum((value for value, _ in costs), Fraction(0)) / len(costs) if costs else None
-    improved = sum(row.human_cost is not None and value < row.human_cost for value, row in costs)
-    return Entry(discount, variant, mean, improved, len(costs))
+            found.append((f"{mode}, best tie", mode, lambda row: row.best_tie))
+            found.append((f"{mode}, worst tie", mode, lambda row: row.worst_tie))
+    return found
 
 
 def _papers_own(run: Reproduction) -> bool:
     return {row.test for row in run.rows} == TESTS
+
+
+def as_json(run: Reproduction, tables: Tables) -> dict[str, Any]:
+    """The JSON object (schema ``serendipity.reproduction/1``)."""
+    return {
+        "schema": SCHEMA,
+        "complete": run.complete,
+        "modes": list(run.modes),
+        "discounts": [float(discount) for discount in run.discounts],
+        "rows": [row.to_dict() for row in run.rows],
+        "table_1": [*map(_plain, tables.costs)],
+        "table_2": [*map(_plain, tables.times)],
+        "examples": [*tables.examples],
+    }
+
+
+def table_as_csv(lines: Sequence[Entry] | Sequence[Times]) -> str:
+    """Table I or II, one entry a line."""
+    cells = (["" if value is None else value for value in _plain(line).values()] for line in lines)
+    return as_csv(lines[0]._fields, cells)
+
+
+def _plain(line: Entry | Times) -> dict[str, Any]:
+    """A line of a table as a JSON object."""
+    values = line._asdict().items()
+    return {name: float(value) if isinstance(value, Fraction) else value for name, value in values}

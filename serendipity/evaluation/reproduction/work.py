@@ -1,13 +1,13 @@
 """The unit of work: one task, read once, through some modes and discounts."""
 
 import logging
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
-from pathlib import Path
 from time import perf_counter, time
 from typing import Final, NamedTuple
 
 from serendipity.evaluation.reproduction.rows import Row, exact_cost
+from serendipity.evaluation.reproduction.suite import TaskFolder
 from serendipity.facade.loading import load
 from serendipity.facade.planning import plan
 from serendipity.model import Deadline, Result, Task
@@ -15,10 +15,6 @@ from serendipity.model.errors import LIMITS, told
 from serendipity.model.keywords import Ties
 
 log = logging.getLogger("serendipity.reproduce")
-
-_TIED: Final = ("serendipity",)
-"""Modes whose cost depends on which of the human's optimal plans the human follows."""
-
 
 _BEST_AND_WORST: Final[tuple[Ties, ...]] = ("optimistic", "robust")
 
@@ -30,16 +26,19 @@ class Call(NamedTuple):
     discount: Fraction
 
 
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """Limits that other processes can be told.
+class Assignment(NamedTuple):
+    """A task, the calls that are still to be made for it, and limits that other processes can be told.
 
     Attributes:
+        task: its folder.
+        calls: to be made.
         time_limit: seconds for reading a task, and for each call; or None.
         memory_limit: what a process may have in memory, in MiB, or None.
         until: when the whole run has to be over, by the clock of ``time.time()``, or None.
     """
 
+    task: TaskFolder
+    calls: tuple[Call, ...]
     time_limit: float | None = None
     memory_limit: float | None = None
     until: float | None = None
@@ -50,20 +49,8 @@ class Limits:
         return Deadline(left).within(self.time_limit, self.memory_limit)
 
 
-@dataclass(frozen=True, slots=True)
-class Assignment:
-    """A task, the calls that are still to be made for it, and their limits."""
-
-    test: str
-    path: Path
-    fingerprint: str
-    calls: tuple[Call, ...]
-    limits: Limits
-
-
-@dataclass(frozen=True, slots=True)
-class TaskRows:
-    """The rows of an assignment."""
+class TaskRows(NamedTuple):
+    """The rows of an assignment, by the task's name and fingerprint."""
 
     test: str
     fingerprint: str
@@ -75,21 +62,23 @@ def solve(assignment: Assignment) -> TaskRows:
 
     What a limit leaves no time or memory for is ``unknown``, what is broken an ``error``.
     """
+    given = assignment.task
     try:
-        task = load(assignment.path, deadline=assignment.limits.from_now())
+        task = load(given.path, deadline=assignment.from_now())
     except LIMITS:
-        rows = tuple(unknown(assignment.test, call) for call in assignment.calls)
+        rows = tuple(unknown(given.test, call) for call in assignment.calls)
     except Exception as error:  # one broken task does not end a suite
         return failed(assignment, _logged(error))
     else:
         rows = tuple(_row(assignment, task, call) for call in assignment.calls)
-    return TaskRows(assignment.test, assignment.fingerprint, rows)
+    return TaskRows(given.test, given.fingerprint, rows)
 
 
 def failed(assignment: Assignment, reason: str) -> TaskRows:
     """The rows of a task that could not be worked on."""
-    rows = tuple(unknown(assignment.test, call, "error", reason) for call in assignment.calls)
-    return TaskRows(assignment.test, assignment.fingerprint, rows)
+    given = assignment.task
+    rows = tuple(unknown(given.test, call, "error", reason) for call in assignment.calls)
+    return TaskRows(given.test, given.fingerprint, rows)
 
 
 def killed(assignment: Assignment) -> TaskRows:
@@ -108,17 +97,17 @@ def unknown(test: str, call: Call, status: str = "unknown", reason: str | None =
 
 
 def _row(assignment: Assignment, task: Task, call: Call) -> Row:
-    start, limits = perf_counter(), assignment.limits.from_now()
+    test, start, limits = assignment.task.test, perf_counter(), assignment.from_now()
     try:
         result = plan(task, deadline=limits, **call._asdict())
         seconds = perf_counter() - start
         best, worst = _ties(task, call, result, limits)
     except LIMITS:
-        return unknown(assignment.test, call)
+        return unknown(test, call)
     except Exception as error:  # see above
-        return unknown(assignment.test, call, "error", _logged(error))
+        return unknown(test, call, "error", _logged(error))
     return replace(
-        unknown(assignment.test, call),
+        unknown(test, call),
         status=result.status,
         cost=exact_cost(result.cost),
         human_cost=exact_cost(result.human_cost),
@@ -133,8 +122,8 @@ def _row(assignment: Assignment, task: Task, call: Call) -> Row:
 def _ties(
     task: Task, call: Call, result: Result, limits: Deadline
 ) -> tuple[Fraction | None, Fraction | None]:
-    """Least and greatest cost over the human's optimal plans."""
-    if call.mode not in _TIED or result.cost is None:
+    """Least and greatest cost over the human's optimal plans, on which other modes do not depend."""
+    if call.mode != "serendipity" or result.cost is None:
         return exact_cost(result.cost), exact_cost(result.cost)
     best, worst = (plan(task, ties=ties, deadline=limits, **call._asdict()) for ties in _BEST_AND_WORST)
     if best.status != "optimal" or worst.status != "optimal":

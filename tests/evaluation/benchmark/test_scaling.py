@@ -5,10 +5,12 @@ from dataclasses import replace
 import pytest
 
 from serendipity import UsageError, generate_usar, load, plan
-from serendipity.evaluation.benchmark.scaling import AXES, Axis, Sample, Size, exponents, scale, scaling_table
+from serendipity.evaluation.benchmark.contenders import Outcome
+from serendipity.evaluation.benchmark.rows import Row
+from serendipity.evaluation.benchmark.scaling import AXES, Axis, exponents, scale, scaling_table
 
-SMALL = Axis("rooms", "rooms", ((4, Size(rooms=4)), (8, Size(rooms=8))))
-MEASURED = Axis("length", "actions", ((0, Size(rooms=8)),), measured=True)
+SMALL = Axis("rooms", (4, 8))
+MEASURED = Axis("length", fixed={"rooms": 8})
 
 
 def test_a_sample_is_the_planners_answer(
@@ -16,24 +18,25 @@ def test_a_sample_is_the_planners_answer(
 ) -> None:
     monkeypatch.setitem(AXES, "rooms", SMALL)
     found = list(scale(["rooms"], seeds=2))
-    assert [(s.value, s.rooms, s.seed) for s in found] == [(4, 4, 0), (4, 4, 1), (8, 8, 0), (8, 8, 1)]
-    for sample in found:
-        folder = tmp_path_factory.mktemp("task")
-        generate_usar(folder, rooms=sample.rooms, seed=sample.seed)  # too few rooms for a cycle
+    assert [(row.domain, row.task) for row in found] == [("rooms", value) for value in "4488"]
+    for row, seed in zip(found, (0, 1, 0, 1), strict=True):
+        sample, folder = row.outcome, tmp_path_factory.mktemp("task")
+        generate_usar(folder, rooms=int(row.task), seed=seed)  # too few rooms for a cycle
         task = load(folder)
         answer = plan(task, discount="0.9")
         assert (sample.cost, sample.actions) == (answer.cost, len(task.actions))
         assert sample.length == len(answer.human_plan or ())
         assert sample.proved
         assert sample.memory > 5
-        assert min(sample.read_seconds, sample.pack_seconds, sample.search_seconds) > 0
+        assert min(sample.read_seconds, sample.prepare_seconds, sample.again_seconds or 0) > 0
+        assert sample.seconds > sample.prepare_seconds
 
 
 def test_a_measured_axis_has_the_length_of_his_plan(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(AXES, "length", MEASURED)
     found = list(scale(["length"], seeds=1))
-    assert all(sample.value == max(1, sample.length) for sample in found)
-    assert len({sample.value for sample in found}) > 1
+    assert all(row.task == str(max(1, row.outcome.length)) for row in found)
+    assert len({row.task for row in found}) > 1
 
 
 def test_an_unknown_axis() -> None:
@@ -41,24 +44,24 @@ def test_an_unknown_axis() -> None:
         list(scale(["rooms", "width"]))
 
 
-def sample(value: float, seconds: float, *, axis: str = "rooms", status: str = "optimal") -> Sample:
-    size = (21, 2, 1, None, "serendipity", "0.9", 0, 100, 9)
-    return Sample(axis, value, *size, 1.0, 1.0, seconds, seconds, 20 * value, status, 1.0, 5)
+def sample(value: object, seconds: float, memory: float = 20.0, *, axis: str = "rooms") -> Row:
+    times = {"seconds": seconds + 1, "read_seconds": 1.0, "prepare_seconds": 1.0, "again_seconds": seconds}
+    outcome = Outcome("optimal", 1.0, memory=memory, **times)
+    return Row(axis, str(value), "", "", True, "serendipity", 0.9, "search", outcome)
 
 
 def test_exponents_are_those_of_the_samples() -> None:
-    found = [sample(x, 0.001 * x**2) for x in (10, 20, 40)]
+    found = [sample(x, 0.001 * x**2, 20 * x) for x in (10, 20, 40)]
     assert exponents(found).rows == [["rooms", "2.00 +- 0.00", "0.00 +- 0.00", "1.00 +- 0.00"]]
-    found[-1] = replace(found[-1], status="feasible")
+    found[-1] = replace(found[-1], outcome=replace(found[-1].outcome, status="feasible"))
     assert exponents(found).rows[0][1] == ">= 2.00 +- 0.00"
 
 
 def test_axes_without_numbers_have_no_exponent() -> None:
-    found = [sample(i, 1.0, axis="modes") for i in range(3)]
+    modes = ("individual", "serendipity", "communication")
+    found = [sample(mode, 1.0, axis="modes") for mode in modes]
     assert not exponents(found).rows
-    assert [row[:4] for row in scaling_table(found).rows] == [
-        ["modes", mode, "1", "1"] for mode in ("individual", "serendipity", "communication")
-    ]
+    assert [row[:4] for row in scaling_table(found).rows] == [["modes", mode, "1", "1"] for mode in modes]
 
 
 def test_lengths_are_shown_in_quarters() -> None:

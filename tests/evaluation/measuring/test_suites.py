@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from serendipity import InputError, UsageError, generate_usar
-from serendipity.evaluation.benchmark.coverage.rows import can_alone
+from serendipity.evaluation.benchmark.coverage import can_alone
 from serendipity.evaluation.measuring.suites import (
     Problem,
     Roles,
@@ -72,4 +72,4 @@ def test_folders_stand_in_the_order_of_their_numbers(tmp_path: Path) -> None:
         (tmp_path / f"test{number}").mkdir()
     (tmp_path / "notes").touch()
     assert [path.name for path in folders(tmp_path)] == ["test1", "test2", "test9", "test10"]
-    assert [path.name for path in folders(tmp_path, stride=3, limit=1)] == ["test1"]
+    assert [path.name for path in folders(tmp_path, stride=3)] == ["test1", "test10"]

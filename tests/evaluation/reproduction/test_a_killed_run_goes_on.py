@@ -25,7 +25,7 @@ def solved(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     solve = run.solve
 
     def counted(assignment: run.Assignment) -> run.TaskRows:
-        names.append(assignment.test)
+        names.append(assignment.task.test)
         return solve(assignment)
 
     monkeypatch.setattr(run, "solve", counted)

@@ -16,7 +16,8 @@ import pytest
 import serendipity
 from serendipity.evaluation.reproduction import reproduce, work
 from serendipity.evaluation.reproduction.pool import on_dask
-from serendipity.evaluation.reproduction.work import Assignment, Call, Limits, TaskRows
+from serendipity.evaluation.reproduction.suite import TaskFolder
+from serendipity.evaluation.reproduction.work import Assignment, Call, TaskRows
 from serendipity.model import SerendipityError
 from serendipity.model.resources.processes import in_processes
 
@@ -75,11 +76,11 @@ def test_a_killed_process_is_tried_again_alone(tmp_path: Path) -> None:
 
 
 def assignment(name: str) -> Assignment:
-    return Assignment(name, Path(name), "", (Call("individual", Fraction(0)),), Limits())
+    return Assignment(TaskFolder(name, Path(name), ""), (Call("individual", Fraction(0)),))
 
 
 def die(given: Assignment) -> TaskRows:
-    if given.test == "fatal":
+    if given.task.test == "fatal":
         os.kill(os.getpid(), signal.SIGKILL)
     return work.failed(given, "not asked")
 

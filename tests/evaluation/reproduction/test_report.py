@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from serendipity.evaluation.measuring.plots import Labels, bars, lines
 from serendipity.evaluation.reproduction import Reproduction, reproduce
-from serendipity.evaluation.reproduction.charts import Labels, bars, lines
 from serendipity.evaluation.reproduction.report import html_report
 from serendipity.evaluation.reproduction.tables import tables
 

@@ -9,8 +9,7 @@ import pytest
 import serendipity
 from serendipity import Deadline, UsageError
 from serendipity.evaluation.reproduction import Reproduction, Row
-from serendipity.evaluation.reproduction.formats import as_json
-from serendipity.evaluation.reproduction.tables import Tables
+from serendipity.evaluation.reproduction.tables import Tables, as_json
 
 SHORT: dict[str, Any] = {"modes": ["serendipity", "individual"], "discounts": ["0.6"]}
 

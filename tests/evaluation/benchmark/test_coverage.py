@@ -6,10 +6,11 @@ from pathlib import Path
 import pytest
 
 from serendipity import InputError, UsageError, example, plan
+from serendipity.evaluation.benchmark import coverage as report
 from serendipity.evaluation.benchmark import fast_downward
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome
-from serendipity.evaluation.benchmark.coverage import report, table
-from serendipity.evaluation.benchmark.coverage.rows import CONTENDERS, MODES, Call, Row, measure
+from serendipity.evaluation.benchmark.coverage import CONTENDERS, MODES, Call, measure
+from serendipity.evaluation.benchmark.rows import Row, as_table, disagreements, read_rows
 from serendipity.evaluation.measuring.suites import Roles, problems
 from serendipity.model.telling import Grid
 from serendipity.writing.rows import written
@@ -55,7 +56,7 @@ def test_where_nobody_can_alone_only_what_needs_no_plan_is_asked(
     suite: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(CONTENDERS, "nobody", Contender(lambda _: Outcome("unknown")))
-    monkeypatch.setattr("serendipity.evaluation.benchmark.coverage.rows.can_alone", lambda *_: False)
+    monkeypatch.setattr("serendipity.evaluation.benchmark.coverage.can_alone", lambda *_: False)
     rows = measure(problems(suite, ["flights"]), MODES, ["nobody"])
     assert [row.mode for row in rows] == ["individual", "composite-inf"]
 
@@ -73,17 +74,17 @@ def test_all_contenders_prove_the_same(suite: Path) -> None:
     rows = list(measure(problems(suite), ["individual", "composite-inf"], CONTENDERS))
     assert len(rows) == 3 * 2 * 3
     assert all(row.outcome.proved for row in rows)
-    assert report.disagreements(rows) == []
+    assert list(disagreements(rows)) == []
 
 
 def test_what_can_not_all_be_true_is_told() -> None:
-    (told,) = report.disagreements([row("t"), row("t", "other", cost=2.0), row("u"), row("u", "other")])
-    assert told == "d t, composite-inf: the proved optima differ: search 1.0, other 2.0"
-    (told,) = report.disagreements([row("t"), row("t", "other", "infeasible", None)])
+    (told,) = disagreements([row("t"), row("t", "other", cost=2.0), row("u"), row("u", "other")])
+    assert told == "d t, composite-inf at 0.9: the proved optima differ: search 1.0, other 2.0"
+    (told,) = disagreements([row("t"), row("t", "other", "infeasible", None)])
     assert told.endswith("search 1.0, other no plan")
-    (told,) = report.disagreements([row("t"), row("t", "other", "unknown", None, lower_bound=1.5)])
+    (told,) = disagreements([row("t"), row("t", "other", "unknown", None, lower_bound=1.5)])
     assert told.endswith("a plan of search costs 1.0, and other says at least 1.5")
-    assert report.disagreements([row("t"), row("t", "other", "feasible", 3.0, lower_bound=0.5)]) == []
+    assert not list(disagreements([row("t"), row("t", "other", "feasible", 3.0, lower_bound=0.5)]))
 
 
 def test_unknown_names_are_refused(suite: Path) -> None:
@@ -132,10 +133,10 @@ def test_failures_are_told_with_their_reason() -> None:
 
 def test_rows_are_read_as_they_were_written(tmp_path: Path) -> None:
     file = tmp_path / "rows.csv"
-    text = written(table.as_table(ROWS), "csv")
+    text = written(as_table(ROWS), "csv")
     file.write_text(text + text)
-    assert table.read_rows(file) == ROWS + ROWS
+    assert read_rows(file) == ROWS + ROWS
     for wrong in ("a,b\n", text.replace("0.05", "soon"), "", text.splitlines()[0], "a" * 200_000):
         file.write_text(wrong)
         with pytest.raises(InputError, match=r"expected (a row|rows) that"):
-            table.read_rows(file)
+            read_rows(file)

@@ -1,21 +1,27 @@
-"""Side by side: each contender on each call, one after another, warmed up."""
+"""Side by side: each contender on each call, one after another, warmed up; and what the others take over the
+search.
+
+``>=`` marks figures that would be, or might be, larger if calls had not met their limit.
+"""
 
 import gc
 import statistics
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 from search import PreparedTask, prepare, solve
 from serendipity.evaluation.benchmark import contenders as every
 from serendipity.evaluation.benchmark import fast_downward
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome, chosen
-from serendipity.evaluation.measuring.figures import timed
-from serendipity.evaluation.measuring.tables import Proved
-from serendipity.model.errors import DisagreementError, told
+from serendipity.evaluation.benchmark.rows import Row, disagreements
+from serendipity.evaluation.measuring.figures import percentile, timed
+from serendipity.evaluation.measuring.tables import grouped
+from serendipity.model.errors import DisagreementError
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
+from serendipity.model.telling import Grid
 from serendipity.pddl.write import composite_files
 
 MODES: Final = {name: options for name, options in every.MODES.items() if name != "serendipity-k0"}
@@ -65,37 +71,6 @@ SEARCHES: Final = ("search", "in-turn", "again")
 """Ways to call our search: what the others are compared with."""
 
 
-@dataclass(frozen=True, slots=True)
-class MeasuredCall(Proved):
-    """One contender's answer to one call.
-
-    Attributes:
-        task: its name.
-        mode: a key of ``MODES``.
-        seconds: median of the repetitions.
-        fastest: the least of them; ``slowest`` the greatest.
-        repeats: how many there were.
-        cost: None where there is none, or the limit came first.
-        process_seconds: median for contenders that are processes, from files to answer.
-        memory: peak memory of such a process, in MiB.
-        reason: of an ``error``, which stands for all calls of a task.
-    """
-
-    task: str
-    mode: str
-    discount: str
-    contender: str
-    seconds: float
-    fastest: float
-    slowest: float
-    repeats: int
-    status: str
-    cost: float | None
-    process_seconds: float | None
-    memory: float | None
-    reason: str | None = None
-
-
 def measure(
     tasks: Iterable[Task],
     modes: Iterable[str],
@@ -104,7 +79,7 @@ def measure(
     *,
     repeat: int = 5,
     time_limit: float | None = None,
-) -> Iterator[MeasuredCall]:
+) -> Iterator[Row]:
     """Time each contender on each call of a mode that it knows.
 
     Args:
@@ -133,19 +108,14 @@ def measure(
                     for name, contender in who.items()
                     if mode in contender.modes
                 }
-                for i, discount in enumerate(discounts):
-                    found = [
-                        _timing((task.name, mode, discount, name), of[i]) for name, of in answers.items()
-                    ]
-                    _compare(found)
-                    yield from found
+                for i, options in enumerate(asked):
+                    call = ("", task.name, "", "", True, mode, float(options.discount))
+                    rows = [Row(*call, name, _median(of[i])) for name, of in answers.items()]
+                    for told in disagreements(rows):
+                        raise DisagreementError(told)
+                    yield from rows
     finally:
         gc.unfreeze()
-
-
-def broken(task: str, error: Exception) -> MeasuredCall:
-    """The row that stands for all calls of a task that can't be read."""
-    return MeasuredCall(task, "", "", "", 0.0, 0.0, 0.0, 0, "error", None, None, None, told(error))
 
 
 def _answers(
@@ -171,27 +141,92 @@ def _pass(contender: Contender, prepared: PreparedTask, calls: Sequence[Options]
     return [contender.answer(prepared, options) for options in calls]
 
 
-def _timing(call: tuple[str, str, str, str], answers: Sequence[Outcome]) -> MeasuredCall:
+def _median(answers: Sequence[Outcome]) -> Outcome:
     seconds = [answer.seconds for answer in answers]
-    last = answers[-1]
-    return MeasuredCall(
-        *call,
+    return replace(
+        answers[-1],
         seconds=statistics.median(seconds),
         fastest=min(seconds),
         slowest=max(seconds),
         repeats=len(answers),
-        status=last.status,
-        cost=last.cost,
-        process_seconds=statistics.median(answer.process_seconds for answer in answers) or None,
-        memory=last.memory,
+        process_seconds=statistics.median(answer.process_seconds for answer in answers),
     )
 
 
-def _compare(found: list[MeasuredCall]) -> None:
-    costs = {timing.contender: timing.cost for timing in found if timing.proved}
-    if len(set(costs.values())) > 1:
-        told = ", ".join(f"{name} {cost}" for name, cost in costs.items())
-        call = found[0]
-        raise DisagreementError(
-            f"{call.task}, {call.mode} at {call.discount}: the proved optima differ: {told}"
-        )
+Figure = tuple[float, bool]
+"""A time or a ratio, and whether a limit made it too small."""
+
+
+def ratios(rows: Sequence[Row]) -> Grid:
+    """Times of each contender as multiples of each way to call the search, on the same calls.
+
+    First the ratios of medians and of 95th percentiles, then percentiles of the ratios of
+    single calls.  Calls that met the limit count with what they had taken by then.  Calls that the
+    search itself did not prove are left out: ``calls`` says how many are counted, of how many.
+    """
+    groups = _groups(rows)
+    header = ["mode", "contender", "over", "calls", "of medians", "of 95 %", "call by call: 50 %", "95 %"]
+    lines = [
+        [mode, contender, search, *_ratios(of, groups[mode, search])]
+        for (mode, contender), of in groups.items()
+        for search in (SEARCHES if contender not in SEARCHES else ())
+        if (mode, search) in groups
+    ]
+    return Grid([*header, "least"], lines)
+
+
+def _ratios(of: Sequence[Row], searches: Sequence[Row]) -> Iterator[str]:
+    base = {(row.task, row.discount): row.outcome.seconds for row in searches if row.outcome.proved}
+    pairs = [(_seconds(row), base[row.task, row.discount]) for row in of if (row.task, row.discount) in base]
+    yield str(len(of)) if len(pairs) == len(of) else f"{len(pairs)} of {len(of)}"
+    if not pairs:
+        yield from ("",) * 5
+        return
+    for share in (0.5, 0.95):
+        value, cut = _percentile([theirs for theirs, _ in pairs], share)
+        yield _ratio(value / percentile([ours for _, ours in pairs], share), cut)
+    single = [(value / ours, cut) for (value, cut), ours in pairs]
+    yield from (_ratio(*_percentile(single, share)) for share in (0.5, 0.95, 0.0))
+
+
+def times(rows: Sequence[Row]) -> Grid:
+    """A row for each mode and contender: of the median times of each call, but for min-max."""
+    header = ["mode", "contender", "calls", "proved", "median", "95 %", "longest", "min-max"]
+    return Grid(header, [[*key, *_times(of)] for key, of in _groups(rows).items()])
+
+
+def _times(rows: Sequence[Row]) -> Iterator[str]:
+    outcomes = [row.outcome for row in rows]
+    yield from (str(len(rows)), str(sum(outcome.proved for outcome in outcomes)))
+    for share in (0.5, 0.95, 1.0):
+        value, cut = _percentile([*map(_seconds, rows)], share)
+        yield f"{'>= ' * cut}{value * 1000:.2f} ms"
+    least, most = (min(o.fastest or 0 for o in outcomes), max(o.slowest or 0 for o in outcomes))
+    yield f"{least * 1000:.2f}-{most * 1000:.2f} ms"
+
+
+def _groups(rows: Sequence[Row]) -> dict[tuple[str, str], list[Row]]:
+    """Rows by mode and contender; an outside process is a contender beside what it says of itself."""
+    return grouped(_with_processes(rows), lambda row: (row.mode, row.contender))
+
+
+def _with_processes(rows: Sequence[Row]) -> Iterator[Row]:
+    for row in rows:
+        yield row
+        if seconds := row.outcome.process_seconds:
+            outcome = replace(row.outcome, seconds=seconds, fastest=seconds, slowest=seconds)
+            yield replace(row, contender=f"{row.contender}, process", outcome=outcome)
+
+
+def _seconds(row: Row) -> Figure:
+    return row.outcome.seconds, not row.outcome.proved
+
+
+def _percentile(figures: Sequence[Figure], share: float) -> Figure:
+    """The figure below which a share of them lies; cut if it could be larger without a limit."""
+    value = percentile([figure for figure, _ in figures], share)
+    return value, any(cut and figure <= value for figure, cut in figures)
+
+
+def _ratio(value: float, cut: bool) -> str:
+    return f"{'>= ' * cut}{value:,.{2 if value < 10 else 0}f} x"

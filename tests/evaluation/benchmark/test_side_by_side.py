@@ -7,8 +7,8 @@ import pytest
 from search import PreparedTask
 from serendipity import UsageError, example
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome
-from serendipity.evaluation.benchmark.measure import CONTENDERS, MeasuredCall, measure
-from serendipity.evaluation.benchmark.report import ratios, times
+from serendipity.evaluation.benchmark.rows import Row
+from serendipity.evaluation.benchmark.side_by_side import CONTENDERS, measure, ratios, times
 from serendipity.evaluation.measuring import figures
 from serendipity.model import Options
 from serendipity.model.errors import DisagreementError
@@ -27,7 +27,7 @@ class Scripted:
         return Outcome(self.status, self.cost, seconds=self.seconds.pop(0))
 
 
-def timings(monkeypatch: pytest.MonkeyPatch, **contenders: Scripted) -> list[MeasuredCall]:
+def timings(monkeypatch: pytest.MonkeyPatch, **contenders: Scripted) -> list[Row]:
     for name, contender in contenders.items():
         monkeypatch.setitem(CONTENDERS, name, Contender(contender))
     return list(measure([example("room2")], ["serendipity"], ["0.6"], contenders, repeat=3))
@@ -35,12 +35,13 @@ def timings(monkeypatch: pytest.MonkeyPatch, **contenders: Scripted) -> list[Mea
 
 def test_the_first_call_warms_up(monkeypatch: pytest.MonkeyPatch) -> None:
     (timing,) = timings(monkeypatch, search=Scripted(0.9, 0.2, 0.1, 0.3))
-    assert (timing.fastest, timing.seconds, timing.slowest, timing.repeats) == (0.1, 0.2, 0.3, 3)
+    of = timing.outcome
+    assert (of.fastest, of.seconds, of.slowest, of.repeats) == (0.1, 0.2, 0.3, 3)
 
 
 def test_a_slow_call_is_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
     (timing,) = timings(monkeypatch, search=Scripted(1.5))
-    assert (timing.seconds, timing.repeats) == (1.5, 1)
+    assert (timing.outcome.seconds, timing.outcome.repeats) == (1.5, 1)
 
 
 def test_proved_answers_that_differ_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -50,7 +51,7 @@ def test_proved_answers_that_differ_are_an_error(monkeypatch: pytest.MonkeyPatch
 
 def test_an_unproved_answer_may_differ(monkeypatch: pytest.MonkeyPatch) -> None:
     found = timings(monkeypatch, search=Scripted(2), other=Scripted(2, cost=2.0, status="feasible"))
-    assert [timing.proved for timing in found] == [True, False]
+    assert [timing.outcome.proved for timing in found] == [True, False]
 
 
 def test_calls_that_a_contender_cannot_answer_are_left_out() -> None:
@@ -94,12 +95,12 @@ def test_what_earlier_calls_leave_behind(name: str, monkeypatch: pytest.MonkeyPa
     monkeypatch.setitem(CONTENDERS, name, replace(CONTENDERS[name], answer=answer))
     timings = list(measure([example("room2")], ["serendipity"], ["0", "0.5"], [name], repeat=2))
     assert found == KEPT[name]
-    assert [(timing.discount, timing.repeats) for timing in timings] == [("0", 2), ("0.5", 2)]
+    assert [(timing.discount, timing.outcome.repeats) for timing in timings] == [(0, 2), (0.5, 2)]
 
 
-def timing(task: str, contender: str, seconds: float, **other: object) -> MeasuredCall:
-    fixed = {"repeats": 1, "status": "optimal", "cost": 1.0, "process_seconds": None, "memory": None}
-    return MeasuredCall(task, "composite", "0", contender, seconds, seconds, seconds, **{**fixed, **other})  # type: ignore[arg-type]
+def timing(task: str, contender: str, seconds: float, status: str = "optimal") -> Row:
+    outcome = Outcome(status, 1.0, seconds=seconds, fastest=seconds, slowest=seconds)
+    return Row("", task, "", "", True, "composite", 0.0, contender, outcome)
 
 
 def rows_of(grid: Grid) -> list[dict[str, str]]:
@@ -124,7 +125,7 @@ def test_figures_that_a_limit_made_too_small_are_marked() -> None:
     """Three of four calls end: only what the fourth one's time decides is uncertain."""
     found = [timing(name, "search", 0.1) for name in "abcd"]
     found += [timing(name, "other", seconds) for name, seconds in zip("abc", (1, 2, 3), strict=True)]
-    found.append(timing("d", "other", 10.0, status="unknown", cost=None))
+    found.append(timing("d", "other", 10.0, status="unknown"))
     (row,) = rows_of(ratios(found))
     assert (row["of medians"], row["of 95 %"]) == ("30 x", ">= 100 x")
     assert (row["call by call: 50 %"], row["95 %"], row["least"]) == ("30 x", ">= 100 x", "10 x")
