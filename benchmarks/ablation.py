@@ -26,25 +26,16 @@ import typer
 
 import serendipity
 from benchmarks.families import FAMILIES
-from benchmarks.problems import PROBLEMS, building, can_alone
+from benchmarks.problems import PROBLEMS, building, can_alone, of_suite
 from benchmarks.techniques import NAMES
 from benchmarks.techniques import without as doing_without
 from search.strategies.portfolio import STRATEGIES, TURNS
 from serendipity import SerendipityError, Task
+from serendipity.evaluation.benchmark.contenders import MODES
 from serendipity.evaluation.measuring.record import Lines
-from serendipity.evaluation.measuring.suites import problems, roles
 from serendipity.evaluation.measuring.tables import as_markdown, table
 from serendipity.model.resources import deadline
 from serendipity.model.telling import Line
-
-CALLS: dict[str, dict[str, Any]] = {
-    "serendipity": {"discount": "0.9"},
-    "K = 0": {"discount": "0.9", "window_weight": 0},
-    "communication": {"discount": "0.9", "mode": "communication"},
-    "composite": {"discount": "0.9", "mode": "composite"},
-    "composite-inf": {"discount": "0.9", "mode": "composite", "horizon": "inf"},
-    "individual": {"mode": "individual"},
-}
 
 _TAKES: Final = 0.05
 """A turn that takes this share of the time is looked at though nothing came of it."""
@@ -70,7 +61,7 @@ def main(
     limits: str = "2,10",
     suites: str = "families,buildings,competition",
     stride: int = 1,
-    calls: str = ",".join(CALLS),
+    calls: str = ",".join(MODES),
     techniques: Annotated[bool, typer.Option("--techniques")] = False,
     only_print: Annotated[bool, typer.Option("--table")] = False,
 ) -> None:
@@ -99,8 +90,8 @@ def _key(row: Row) -> tuple[Any, ...]:
 
 
 def _competition(stride: int) -> Iterator[tuple[str, str, Task]]:
-    for problem in problems(PROBLEMS / "codmap15", (), stride):
-        yield f"codmap {problem.domain}", problem.name, problem.task(roles(problem, 2, can_alone))
+    for problem, who, _ in of_suite(PROBLEMS / "codmap15", can_alone, stride=stride):
+        yield f"codmap {problem.domain}", problem.name, problem.task(who)
 
 
 def _buildings(_: int) -> Iterator[tuple[str, str, Task]]:
@@ -151,7 +142,7 @@ def _asked(task: Task, where: Row, without: str) -> Row:
     more = {"strategies": f"-{without}"} if without and without not in NAMES else {}
     begun = time.process_time()
     try:
-        options = {**CALLS[where["call"]], **more, "time_limit": where["limit"]}
+        options = {"discount": "0.9", **MODES[where["call"]], **more, "time_limit": where["limit"]}
         with doing_without(without):
             answer = serendipity.plan(task.at(task.init), **options)
     except SerendipityError as error:

@@ -12,20 +12,21 @@ or is told of the robot's plan (``knowing``); what was promised, over scenarios 
 decision's lower bound says can be saved at most.
 """
 
-import inspect
 import os
 import tempfile
 import time
 from collections.abc import Callable, Iterable, Sequence
 from datetime import date, timedelta
+from functools import partial
 from pathlib import Path
 from random import Random
 from statistics import fmean
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import typer
 
 import serendipity
+from serendipity.evaluation.measuring.tables import as_markdown, table
 from serendipity.execution import Habits, learn
 from serendipity.model import Condition, PlanStep, Result, Script, Task
 from serendipity.model.task.actions import apply
@@ -53,7 +54,6 @@ ACTIVITIES: Final = (
     Activity("laundry", "bath", "basket", 0.1, 0.8),
     Activity("plants", "balcony", "can", 0.2, 0.6),
 )
-_HEADS: Final = ("looking", "knowing", "promised", "at most", "seconds")
 _STROLL: Final = ("walk ann bed hall", "walk ann hall bed")
 _MONDAY: Final = date(2026, 1, 5)
 
@@ -139,13 +139,11 @@ def by_frequency(task: Task, habits: Habits) -> Decision:
     return Decision(dict(enumerate(steps, start=1)))
 
 
-def over_scenarios(task: Task, habits: Habits, most: int, seconds: float) -> Policy | None:
-    """Help for the likeliest plans, on a day that for the one that begins most like hers; or None."""
-    if "plans" not in inspect.signature(serendipity.plan).parameters:
-        return None
+def over_scenarios(task: Task, habits: Habits, most: int, seconds: float) -> Policy:
+    """Help for the likeliest plans, on a day that for the one that begins most like hers."""
     likely = habits.plans[:most]
-    asked: dict[str, Any] = {"plans": [plan.to_dict() for plan in likely], "window_weight": 0}
-    result = serendipity.plan(task, discount=1, time_limit=seconds, **asked)
+    plans = [plan.to_dict() for plan in likely]
+    result = serendipity.plan(task, discount=1, time_limit=seconds, plans=plans, window_weight=0)
     alone = sum(p.probability * len(p.plan) for p in likely) / sum(p.probability for p in likely)
     told = {goal.name: goal.plan or () for goal in result.goals or ()}
 
@@ -160,8 +158,7 @@ def over_scenarios(task: Task, habits: Habits, most: int, seconds: float) -> Pol
 def knowing(task: Task, day: Day, seconds: float) -> Decision:
     """Help for what Ann does on that very day."""
     aimed = task.with_goal(_done(task, day.activities))
-    asked: dict[str, Any] = {"discount": 1, "window_weight": 0, "time_limit": seconds}
-    result = serendipity.plan(aimed, human_plan=day.plan, **asked)
+    result = serendipity.plan(aimed, human_plan=day.plan, discount=1, window_weight=0, time_limit=seconds)
     return _decided(result, result.plan or (), len(day.plan))
 
 
@@ -211,23 +208,24 @@ def _done(task: Task, activities: Iterable[str]) -> Condition:
 def main(
     households: int = 3, learnt: int = 60, helped: int = 10, most: int = 2, time_limit: float = 10
 ) -> None:
-    """Print a line for each policy of each household."""
-    print(f"{'household, robot':<24}{''.join(f'{head:>11}' for head in _HEADS)}")
+    """Print a table for each household, a line for each policy."""
     for seed in range(households):
         task, days = household(seed, learnt + helped)
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "days.csv"
             file.write_text(log(days[:learnt], seed))
             habits = {on: learn(task, file, on=on) for on in ("weekday", "weekend")}
+        lines = {}
         for name in ("does nothing", "frequencies", "scenarios", "knows the day"):
-            began, kinds = time.process_time(), habits.items()
-            policies = {on: _policy(name, task, known, most, time_limit) for on, known in kinds}
-            made = [policy(day) for day in days[learnt:] if (policy := policies[day.kind]) is not None]
-            took = time.process_time() - began
-            print(_row(f"{seed}, {name}", task, days[learnt:], made, took), flush=True)
+            began = time.process_time()
+            policies = {on: _policy(name, task, known, most, time_limit) for on, known in habits.items()}
+            made = [(day, policies[day.kind](day)) for day in days[learnt:]]
+            took = (time.process_time() - began) / helped
+            lines[str(seed), name] = [(*_figures(task, day, one), took) for day, one in made]
+        print(as_markdown([table(("household", "robot"), lines, COLUMNS)]), flush=True)
 
 
-def _policy(name: str, task: Task, habits: Habits, most: int, seconds: float) -> Policy | None:
+def _policy(name: str, task: Task, habits: Habits, most: int, seconds: float) -> Policy:
     if name == "scenarios":
         return over_scenarios(task, habits, most, seconds)
     if name == "knows the day":
@@ -236,14 +234,21 @@ def _policy(name: str, task: Task, habits: Habits, most: int, seconds: float) ->
     return lambda _: decision
 
 
-def _row(label: str, task: Task, days: Sequence[Day], made: Sequence[Decision], took: float) -> str:
-    if not made:
-        return f"{label:<24}{'-':>11}"
-    figures: list[list[float | None]] = [[one.promised for one in made], [one.most for one in made]]
-    for paid in (paid_knowing, paid_looking):
-        figures.insert(0, [len(d.plan) - paid(task, d, one) for d, one in zip(days, made, strict=True)])
-    told = ["-" if None in some else f"{fmean(x or 0 for x in some):.2f}" for some in figures]
-    return f"{label:<24}{''.join(f'{text:>11}' for text in (*told, f'{took:.1f}'))}"
+def _figures(task: Task, day: Day, one: Decision) -> tuple[float | None, ...]:
+    """What is saved, promised, and can be saved at most."""
+    paid = (pays(task, day, one) for pays in (paid_looking, paid_knowing))
+    return (*(len(day.plan) - each for each in paid), one.promised, one.most)
+
+
+def _mean(of: Sequence[tuple[float | None, ...]], figure: int) -> str:
+    found = [each for row in of if (each := row[figure]) is not None]
+    return f"{fmean(found):.2f}" if len(found) == len(of) else "-"
+
+
+COLUMNS: Final = {
+    head: partial(_mean, figure=i)
+    for i, head in enumerate(("looking", "knowing", "promised", "at most", "seconds"))
+}
 
 
 if __name__ == "__main__":

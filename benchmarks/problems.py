@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
@@ -56,7 +56,6 @@ def of_suite(
     suite: Path,
     able: Callable[[Problem, Roles], bool],
     *,
-    domains: Sequence[str] = (),
     stride: int = 1,
     smallest: int | None = None,
 ) -> Iterator[tuple[Problem, Roles, Source]]:
@@ -65,11 +64,10 @@ def of_suite(
     Args:
         suite: a folder of domains.
         able: whether a human is known to have a plan alone.
-        domains: only these; none means all.
         stride: every so many of a domain's problems.
         smallest: how many of each domain, from its first.
     """
-    found = problems(suite, domains, stride) if suite.is_dir() else []
+    found = problems(suite, stride=stride) if suite.is_dir() else []
     for of in grouped(found, lambda problem: problem.domain).values():
         ordered = sorted(of, key=lambda problem: (len(problem.name), problem.name)) if smallest else of
         for problem in ordered[:smallest]:
@@ -88,7 +86,13 @@ def can_alone(problem: Problem, who: Roles) -> bool:
 
 def can_some(problem: Problem, who: Roles) -> bool:
     """True if a human is found to reach two of the goals alone."""
-    return _decides(lambda: with_two_goals(problem.task(who), f"{problem.domain} {problem.name} 0"), 60)
+
+    def with_two_goals() -> Task:
+        task = problem.task(who)
+        wanted = Random(f"{problem.domain} {problem.name} 0").sample(task.goal.positive, 2)
+        return task.with_goal(Condition(tuple(sorted(wanted)), ()))
+
+    return _decides(with_two_goals, 60)
 
 
 def _decides(make: Callable[[], Task], seconds: float) -> bool:
@@ -96,25 +100,6 @@ def _decides(make: Callable[[], Task], seconds: float) -> bool:
         return serendipity.plan(make(), mode="individual", time_limit=seconds).cost is not None
     except (SerendipityError, ValueError):
         return False
-
-
-def with_two_goals(task: Task, seed: str) -> Task:
-    """The task with two of its goals only.
-
-    Raises:
-        ValueError: it has fewer.
-    """
-    wanted = Random(seed).sample(task.goal.positive, 2)
-    return task.with_goal(Condition(tuple(sorted(wanted)), ()))
-
-
-def candidates_in(task: Task, count: int) -> list[dict[str, Any]]:
-    """The person's goal and others of its form, each as probable as any."""
-    (own,) = task.goal.positive
-    form = task.facts[own].replace("_", " ").split()[:-1]
-    others = [f for f in task.facts if f.replace("_", " ").split()[:-1] == form and f != task.facts[own]]
-    chosen = [task.facts[own], *Random(f"{task.name} {count}").sample(others, count - 1)]
-    return [{"name": fact, "goal": [fact]} for fact in sorted(chosen)]
 
 
 def silent(folder: Path = PROBLEMS / "spa") -> Iterator[tuple[str, Pair, Pair]]:

@@ -2,25 +2,28 @@
 
     python -m benchmarks.scenarios [--tables buildings,domains,home] [--stride N] [--limit S] [--jobs N]
         [--record FILE]
+    python -m benchmarks.scenarios --tables runs [--limit 0.1] [...]
 
 Beside both stands what it would be worth to know the goal from the start: the mean of the answers for each.
 ``buildings``: the 200 buildings, in each two to five rooms, in turn, where triage may be wanted.
 ``domains``: the smallest problems of each domain of CoDMAP 2015, with two of their goals at a time.
-``home``: breakfasts, of which all is wanted, or all but one thing.  Problems that are not there are left out.
+``home``: breakfasts, of which all is wanted, or all but one thing.
+``runs``: what help comes to while it happens (``execute``) in the buildings, for one to five goals; the limit
+is for each epoch then.  Problems that are not there are left out.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import product
 from pathlib import Path
 from random import Random
-from statistics import median
+from statistics import fmean, median
 from time import perf_counter
 from typing import Any, NamedTuple
 
 import typer
 
 import serendipity
-from benchmarks.problems import PROBLEMS, Source, can_some, candidates_in, load, of_suite, usar
+from benchmarks.problems import PROBLEMS, Source, can_some, load, of_suite, usar
 from serendipity import Task
 from serendipity.evaluation.measuring.record import measured
 from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
@@ -31,48 +34,60 @@ SMALLEST = 3
 """Problems of a domain, from its first."""
 
 Row = Mapping[str, Any]
+Cell = Callable[[Sequence[Row]], object]
 
 
 class Job(NamedTuple):
-    """A task of a family, the table's line; how many goals are possible; and seconds for each answer."""
+    """A task of a family, the table's line; how many goals are possible; and seconds for each answer.
+
+    ``person``: who executes it; empty where it is planned only.
+    """
 
     family: str
     source: Source
     count: int
     limit: float
+    person: str
 
 
 def main(
     tables: str = "buildings,domains,home",
     stride: int = 1,
-    limit: float = 10,
+    limit: float | None = None,
     jobs: int = 1,
     record: Path | None = None,
 ) -> None:
     """Measure and print the table."""
-    asked = (Job(*job, limit) for name in tables.split(",") for job in JOBS[name](stride))
-    rows = [
-        {"family": job.family, **row} for job, row in measured(asked, done, record, processes=jobs) if row
-    ]
-    lines = grouped(rows, lambda row: (row["family"],))
-    print(as_markdown([table(("family",), lines, COLUMNS)]), flush=True)
+    runs = tables == "runs"
+    seconds = limit or (0.1 if runs else 10)
+    asked = (
+        Job(family, source, count, seconds, person)
+        for name in tables.split(",")
+        for family, source, count, person in JOBS[name](stride)
+    )
+    found = measured(asked, executed if runs else planned, record, processes=jobs)
+    rows = [{"family": job.family, "goals": str(job.count), **row} for job, row in found if row]
+    names = ("family", "goals")[: 1 + runs]
+    lines = grouped(rows, lambda row: tuple(row[name] for name in names))
+    print(as_markdown([table(names, lines, RUNS if runs else COLUMNS)]), flush=True)
 
 
-def done(job: Job) -> Row | None:
+def planned(job: Job) -> Row | None:
     """What each kind of robots comes to; None where the person can reach none of the goals alone."""
     task = load(job.source)
     goals = _goals_of(task, job)
+    asked = {"discount": DISCOUNT, "time_limit": job.limit}
     found: dict[str, Any] = {}
     for policy in ("watching", "fixed"):
         begun = perf_counter()
-        result = serendipity.plan(task, goals=goals, policy=policy, discount=DISCOUNT, time_limit=job.limit)
+        result = serendipity.plan(task, goals=goals, policy=policy, **asked)
         if result.status == "infeasible":
             return None
         took = perf_counter() - begun
         found[policy] = {"status": result.status, "cost": result.cost, "seconds": took}
         found["idle"] = None if result.cost is None else result.cost + (result.saving or 0)
     singles = [
-        (served.probability, serendipity.plan(task, goals=[goal], discount=DISCOUNT, time_limit=job.limit))
+        (served.probability, serendipity.plan(task, goals=[goal], **asked))
         for goal in goals
         for served in result.goals or ()
         if served.name == goal["name"]
@@ -82,10 +97,20 @@ def done(job: Job) -> Row | None:
     return found | {"knowing": sum(costs) if known else None}
 
 
+def executed(job: Job) -> Row | None:
+    """A run, and what the paper's plan saves on its task; None where the person has no plan alone."""
+    task = load(job.source)
+    paper = serendipity.plan(task, discount=DISCOUNT, time_limit=2)
+    if paper.human_plan is None:
+        return None
+    goals = _goals_of(task, job) if job.count > 1 else None
+    (run,) = serendipity.execute(task, job.person, deadline=job.limit, discount=DISCOUNT, goals=goals).rows
+    saved = (run.alone or 0) - run.cost if run.reached else 0
+    return {"promised": paper.saving, "saved": saved, **run.to_dict()}
+
+
 def _goals_of(task: Task, job: Job) -> list[dict[str, Any]]:
     """The goals that are possible, the same for the same job."""
-    if job.family == "buildings":
-        return candidates_in(task, job.count)
     dice = Random(f"{task.name} {job.count}")
     positive = sorted(task.facts[i] for i in task.goal.positive)
     others = [f"!{task.facts[i]}" for i in task.goal.negative]
@@ -95,16 +120,20 @@ def _goals_of(task: Task, job: Job) -> list[dict[str, Any]]:
             {"name": f"without {one}", "goal": [*(f for f in positive if f != one), *others]}
             for one in left_out
         ]
-    drawn = [sorted(dice.sample(positive, 2)) for _ in range(job.count)]
-    return [{"name": str(number), "goal": goal} for number, goal in enumerate(drawn)]
+    if len(positive) > 1:
+        drawn = [sorted(dice.sample(positive, 2)) for _ in range(job.count)]
+        return [{"name": str(number), "goal": goal} for number, goal in enumerate(drawn)]
+    form = positive[0].replace("_", " ").split()[:-1]
+    like = [f for f in task.facts if f.replace("_", " ").split()[:-1] == form and f != positive[0]]
+    return [{"name": fact, "goal": [fact]} for fact in sorted([*positive, *dice.sample(like, job.count - 1)])]
 
 
-Asked = Iterator[tuple[str, Source, int]]
+Asked = Iterator[tuple[str, Source, int, str]]
 
 
 def _buildings(stride: int) -> Asked:
     for number, source in enumerate(usar(stride)):
-        yield "buildings", source, COUNTS[number % len(COUNTS)]
+        yield "buildings", source, COUNTS[number % len(COUNTS)], ""
 
 
 def _domains(stride: int) -> Asked:
@@ -112,21 +141,28 @@ def _domains(stride: int) -> Asked:
     for name, of in grouped(found, lambda each: each[0].domain).items():
         for number, (_, who, source) in enumerate(of[::stride]):
             if who.alone:
-                yield name, source, COUNTS[number % len(COUNTS)]
+                yield name, source, COUNTS[number % len(COUNTS)], ""
 
 
 def _home(stride: int) -> Asked:
     found = sorted((PROBLEMS / "home").glob("p*.pddl"))
     for path, count in product(found[::stride], COUNTS[:3]):
-        yield "home", (str(path.with_name("domain.pddl")), str(path), "ann"), count
+        yield "home", (str(path.with_name("domain.pddl")), str(path), "ann"), count, ""
 
 
-JOBS = {"buildings": _buildings, "domains": _domains, "home": _home}
+def _runs(stride: int) -> Asked:
+    for person, count, source in product(("observant", "omniscient"), (1, *COUNTS), usar(stride)):
+        yield person, source, count, person
 
 
-def _proved(policy: str) -> Callable[[Sequence[Row]], str]:
+JOBS = {"buildings": _buildings, "domains": _domains, "home": _home, "runs": _runs}
+
+
+def _number(counts: Callable[[Row], bool]) -> Cell:
+    """For how many rows something holds, and the share of them."""
+
     def cell(of: Sequence[Row]) -> str:
-        number = sum(row[policy]["status"] == "optimal" for row in of)
+        number = sum(map(counts, of))
         return f"{number} ({100 * number / len(of):.0f} %)"
 
     return cell
@@ -145,23 +181,45 @@ def _closed(of: Sequence[Row]) -> str:
     return f"{won:.2f} of {gap:.2f} ({100 * won / gap:.0f} %)" if gap > 1e-9 else "-"
 
 
-def _sum(cost: Callable[[Row], float | None]) -> Callable[[Sequence[Row]], str]:
+def _sum(cost: Callable[[Row], float | None]) -> Cell:
     return lambda of: f"{sum(cost(row) or 0 for row in of):.1f}"
 
 
-COLUMNS: dict[str, Callable[[Sequence[Row]], object]] = {
+def _mean(name: str) -> Cell:
+    def cell(of: Sequence[Row]) -> str:
+        found = [row[name] for row in of if row[name] is not None]
+        return f"{fmean(found):.1f} ({len(found)} runs)" if found else "-"
+
+    return cell
+
+
+COLUMNS: dict[str, Cell] = {
     "calls": len,
     "idle": _sum(lambda row: row["idle"]),
     "committed": _sum(lambda row: row["fixed"]["cost"]),
     "watching": _sum(lambda row: row["watching"]["cost"]),
     "knowing": _sum(lambda row: row["knowing"]),
     "gap closed": _closed,
-    "proved": _proved("watching"),
-    "proved, committed": _proved("fixed"),
+    "proved": _number(lambda row: row["watching"]["status"] == "optimal"),
+    "proved, committed": _number(lambda row: row["fixed"]["status"] == "optimal"),
     "median, longest s": _seconds,
     "dearer than idle": lambda of: sum(
         (row["watching"]["cost"] or 0) > (row["idle"] or 0) + 1e-9 for row in of
     ),
+}
+
+RUNS: dict[str, Cell] = {
+    "runs": len,
+    "goal reached": _number(lambda row: row["reached"]),
+    "paid more than alone": _number(lambda row: row["reached"] and row["human_cost"] > (row["alone"] or 0)),
+    "saved": _sum(lambda row: row["saved"]),
+    "of what the paper's plans save": _sum(lambda row: row["promised"]),
+    "plans spoilt": lambda of: sum(row["spoilt"] for row in of),
+    "late epochs": lambda of: f"{sum(row['late'] for row in of)} of {sum(row['epochs'] for row in of)}",
+    "without a proof": lambda of: sum(row["open"] for row in of),
+    "most probable from epoch": _mean("leads"),
+    "0.9 from epoch": _mean("known"),
+    "acted on a wrong guess": lambda of: f"{sum(row['wrong'] for row in of)} epochs",
 }
 
 

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.util import find_spec
@@ -125,41 +126,39 @@ def _read(status: str, text: str, scale: int, seconds: float) -> Found:
     Raises:
         SerendipityError: something is missing in it.
     """
-    memory = _last(r"Peak memory: (\d+) KB", text)
-    bound = _last(r"f = (\d+),", text)
+
+    def last(pattern: str) -> float | None:
+        found = re.findall(pattern, text, re.MULTILINE)
+        return float(found[-1]) if found else None
+
+    def printed(pattern: str) -> float:
+        found = last(pattern)
+        if found is None:
+            raise _failed("the search", text)
+        return found
+
+    memory, bound = last(r"Peak memory: (\d+) KB"), last(r"f = (\d+),")
     found = Found(
         status,
-        lower_bound=None if bound is None or status == "infeasible" else int(bound) / scale,
-        expanded=int(_last(r"(\d+) expanded$", text) or 0),
+        lower_bound=None if bound is None or status == "infeasible" else bound / scale,
+        expanded=int(last(r"(\d+) expanded$") or 0),
         seconds=seconds,
         search_seconds=seconds,
-        memory=None if memory is None else float(memory) / 1024,
+        memory=None if memory is None else memory / 1024,
     )
     if status == "unknown":
         return found
-    cost = int(_printed(r"Plan cost: (\d+)", text)) / scale if status == "optimal" else None
-    seconds = float(_printed(r"Total time: ([0-9.e-]+)s", text))
+    cost = printed(r"Plan cost: (\d+)") / scale if status == "optimal" else None
+    total = printed(r"Total time: ([0-9.e-]+)s")
     return replace(
         found,
         cost=cost,
         lower_bound=cost,
-        expanded=int(_printed(r"Expanded (\d+) state", text)),
-        search_seconds=float(_printed(r"Search time: ([0-9.e-]+)s", text)),
-        seconds=seconds,
-        plan_seconds=None if cost is None else seconds,
+        expanded=int(printed(r"Expanded (\d+) state")),
+        search_seconds=printed(r"Search time: ([0-9.e-]+)s"),
+        seconds=total,
+        plan_seconds=None if cost is None else total,
     )
-
-
-def _last(pattern: str, text: str) -> str | None:
-    found = re.findall(pattern, text, re.MULTILINE)
-    return found[-1] if found else None
-
-
-def _printed(pattern: str, text: str) -> str:
-    found = _last(pattern, text)
-    if found is None:
-        raise _failed("the search", text)
-    return found
 
 
 def _process(
@@ -176,13 +175,8 @@ def _process(
             return process.returncode, text
         except subprocess.TimeoutExpired:
             process.terminate()  # it then says what it knows
-            return None, _last_words(process)
+            with suppress(subprocess.TimeoutExpired):
+                return None, process.communicate(timeout=_LEAVING)[0]
+            return None, ""
         finally:
             process.kill()
-
-
-def _last_words(process: subprocess.Popen[str]) -> str:
-    try:
-        return process.communicate(timeout=_LEAVING)[0]
-    except subprocess.TimeoutExpired:
-        return ""

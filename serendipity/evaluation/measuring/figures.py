@@ -19,11 +19,6 @@ _STATUS: Final = Path("/proc/self/status")
 _CPU_INFO: Final = Path("/proc/cpuinfo")
 
 
-def processor_seconds() -> float:
-    """Processor time of this process so far, and of its children that have ended: solvers are such."""
-    return time.process_time() + children_seconds()
-
-
 def children_seconds() -> float:
     """Processor time of all children that have ended."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -31,11 +26,14 @@ def children_seconds() -> float:
 
 
 def timed(work: Callable[[], T]) -> tuple[T, float]:
-    """Result of some work, and its processor seconds; without garbage collection, as `plan` does."""
+    """Result of some work, and its processor seconds, those of children that have ended (solvers) included.
+
+    There is no garbage collection meanwhile, as in `plan`.
+    """
     with no_collection():
-        start = processor_seconds()
+        start = time.process_time() + children_seconds()
         done = work()
-        return done, processor_seconds() - start
+        return done, time.process_time() + children_seconds() - start
 
 
 def peak_memory() -> float:
@@ -74,15 +72,6 @@ def percentile(values: Sequence[float], share: float) -> float:
     """The value below which a share of them lies."""
     ordered = sorted(values)
     return ordered[min(len(ordered) - 1, int(len(ordered) * share))]
-
-
-def milliseconds(seconds: Sequence[float]) -> str:
-    """Median, 95th percentile and the longest, for a table; empty without any."""
-    return (
-        " / ".join(f"{1000 * percentile(seconds, share):.3g}" for share in (0.5, 0.95, 1.0))
-        if seconds
-        else ""
-    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -92,21 +92,14 @@ class Row:
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> "Row":
         """The row that :meth:`to_dict` wrote."""
+        plain = {name: data[name] for name in ("test", "mode", "status", "opportunity", "seconds")}
+        costs: dict[str, Any] = {
+            name: exact_cost(data[name]) for name in ("cost", "human_cost", "best_tie", "worst_tie")
+        }
         start = data["window_start"]
-        return cls(
-            test=data["test"],
-            mode=data["mode"],
-            discount=as_written(data["discount"]),
-            status=data["status"],
-            cost=exact_cost(data["cost"]),
-            human_cost=exact_cost(data["human_cost"]),
-            opportunity=data["opportunity"],
-            window=None if start is None else Window(start, data["window_end"]),
-            seconds=data["seconds"],
-            best_tie=exact_cost(data["best_tie"]),
-            worst_tie=exact_cost(data["worst_tie"]),
-            reason=data.get("reason"),
-        )
+        window = None if start is None else Window(start, data["window_end"])
+        discount = as_written(data["discount"])
+        return cls(**plain, **costs, discount=discount, window=window, reason=data.get("reason"))
 
 
 def exact_cost(value: float | None) -> Fraction | None:
