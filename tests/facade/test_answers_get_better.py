@@ -7,9 +7,9 @@ import pytest
 
 import serendipity
 from serendipity import Result, UsageError
-from serendipity.evaluation.crosscheck import random_call
 from serendipity.facade import one_plan
 from serendipity.model import Deadline
+from serendipity.testing.generator.calls import random_call
 
 CALLS = 150
 

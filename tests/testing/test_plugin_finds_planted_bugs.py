@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from serendipity.evaluation.crosscheck import JUDGES, PlanCall, compare
 from serendipity.model import Task
 from serendipity.testing import Answer, PlannerError, check_planner, random_call
 from serendipity.testing.builders import task as build
+from serendipity.testing.crosscheck import JUDGES, compare
+from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.judges import by_function
 from tests.testing import stranger
 

@@ -5,9 +5,9 @@ from unified_planning.engines import PlanGenerationResultStatus
 from unified_planning.model.multi_agent import MultiAgentProblem
 
 import serendipity
-from serendipity.evaluation.crosscheck import random_call
 from serendipity.model import Task, UsageError
 from serendipity.testing.builders import task as build
+from serendipity.testing.generator.calls import random_call
 from serendipity.up import from_problem, to_plan, to_problem
 from serendipity.up.engine import SerendipityEngine
 

@@ -4,13 +4,16 @@ import secrets
 from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import naming
 from serendipity.cli.streams import output, progress
 from serendipity.model import Deadline, UsageError
+
+if TYPE_CHECKING:
+    from serendipity.testing.disagreement import Disagreement
 
 _MODES: Final = ("individual", "serendipity", "communication", "composite")
 _DISCOUNTS: Final = ("0", "0.5", "0.9")
@@ -64,8 +67,11 @@ def crosscheck(
     Judges from outside are asked for the best plan of all agents: where there are any, every call is
     one in composite mode without a horizon.
     """
-    from serendipity.evaluation import crosscheck as checking
+    from serendipity.testing import crosscheck as checking
+    from serendipity.testing import shrinking
+    from serendipity.testing.generator.calls import PlanCall, random_call
     from serendipity.testing.judges import by_command, by_name
+    from serendipity.testing.written_case import write_case
 
     names = judges.split(",")
     for name in names:
@@ -80,23 +86,21 @@ def crosscheck(
         checking.compare, judges=chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit
     )
 
-    def judged(call: checking.PlanCall) -> checking.Disagreement | None:
+    def judged(call: PlanCall) -> "Disagreement | None":
         found = compared(call) if chosen or outside else None
         return found or (forged(call) if forged else None)
 
-    calls: Iterable[checking.PlanCall]
+    calls: Iterable[PlanCall]
     if not task.files and not task.agent and task.example is None:
         first = seed
         if first is None:
             first = secrets.randbelow(10**9)
             output.say(f"seed {first}\n")
-        calls, total = (checking.random_call(first + k) for k in range(count)), count
+        calls, total = (random_call(first + k) for k in range(count)), count
     else:
         given = task.load(Deadline(time_limit, memory_limit))
         modes = ("composite",) if outside else _MODES
-        calls = [
-            checking.PlanCall(given, {"mode": mode, "discount": d}) for mode in modes for d in _DISCOUNTS
-        ]
+        calls = [PlanCall(given, {"mode": mode, "discount": d}) for mode in modes for d in _DISCOUNTS]
         total = len(calls)
     with progress.counting("calls") as on_progress:
         for checked, call in enumerate(calls):
@@ -109,18 +113,18 @@ def crosscheck(
             output.say(f"{total} calls, {', '.join(names)}: 0 disagreements\n")
             output.say("".join(f"{line}\n" for line in forged.lines()) if forged else "")
             return ExitCode.ANSWERED
-    again: Callable[[checking.PlanCall], bool] = checking.FalseCertificates(time_limit).shows
+    again: Callable[[PlanCall], bool] = checking.FalseCertificates(time_limit).shows
     if found.law != checking.FALSE_CERTIFICATES:
         again = checking.shows_it_too(
             found, chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit
         )
     with progress.working("shrinking") as on_news:
-        smallest = checking.shrink(found.call, again, on_try=lambda tried: on_news(f"{tried} calls"))
+        smallest = shrinking.shrink(found.call, again, on_try=lambda tried: on_news(f"{tried} calls"))
     found = judged(smallest) or found
     words = [word for name in judge or () for word in ("--judge", name)]
     words += [word for text in judge_command or () for word in ("--judge-command", text)]
     words += ["--judges", checking.FALSE_CERTIFICATES] if found.law == checking.FALSE_CERTIFICATES else []
-    commands = checking.write_case(found, folder, words)
+    commands = write_case(found, folder, words)
     plans = "".join(f"{whose}: {steps}\n" for whose, steps in found.plans.items())
     output.say(f"after {checked} calls without, a disagreement: {found}\n{plans}reproduce: {commands}\n")
     return ExitCode.REFUTED

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from serendipity.evaluation.crosscheck import PlanCall
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_1, case_4
+from serendipity.testing.generator.calls import PlanCall
 
 
 def hand_made() -> Iterator[PlanCall]:

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import pytest
 
 import serendipity
-from serendipity.evaluation.crosscheck import PlanCall, random_call
 from serendipity.facade.certify import verify
 from serendipity.model import PlanError, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import WORKED, case_4
+from serendipity.testing.generator.calls import PlanCall, random_call
 from tests.verify.planted.bug import Bug
 from tests.verify.planted.hand_made import hand_made
 

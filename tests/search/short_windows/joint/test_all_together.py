@@ -17,13 +17,13 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.short_windows.joint import epochs
 from search.short_windows.joint.all_together import AllTogether
 from search.short_windows.question import ShortWindowQuestion
-from serendipity.evaluation.crosscheck import random_call
 from serendipity.model import Options, Task
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.numbers import as_written
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import conflicting
 from serendipity.testing.builders import task as build
+from serendipity.testing.generator.calls import random_call
 from serendipity.testing.generator.families import AGENTS, FAMILIES
 from serendipity.testing.oracle import best
 from tests.search.small_tasks import ONE_EPOCH, beside_the_plan, of_a_family

@@ -7,15 +7,15 @@ from fractions import Fraction
 from random import Random
 from typing import Any, Final
 
-from serendipity.evaluation.crosscheck.doctored import doctored, without_plan
-from serendipity.evaluation.crosscheck.other_tasks import CHANGES, TRIFLES
-from serendipity.evaluation.crosscheck.truth import Truth, UnknownTruthError
 from serendipity.facade.planning import plan
 from serendipity.model import Condition, Options, PlanStep, Result, SerendipityError, Task
 from serendipity.model.keywords import CHOICES
 from serendipity.testing.by_hand import result as by_hand
+from serendipity.testing.crosscheck.doctored import doctored, without_plan
+from serendipity.testing.crosscheck.other_tasks import CHANGES, TRIFLES
 from serendipity.testing.generator.calls import PlanCall, random_options
 from serendipity.testing.generator.human_plans import plan_after_detour
+from serendipity.testing.oracle.truth import Truth, UnknownTruthError
 
 _GAMES, _GOALS = 0.1, 0.05
 """Shares of calls about silent assistance, and about goals that are not known."""

@@ -11,9 +11,10 @@ from search.packed.cost_vector import Weights
 from search.packed.packed_task import PackedTask
 from search.spaces.windowed import Windowed
 from search.strategies import outcome
-from serendipity.evaluation.crosscheck import JUDGES, compare, random_call
-from serendipity.evaluation.crosscheck.laws import LAWS
 from serendipity.model.task.actions import conflicting
+from serendipity.testing.crosscheck import JUDGES, compare
+from serendipity.testing.generator.calls import random_call
+from serendipity.testing.own_laws import LAWS
 
 Patch = pytest.MonkeyPatch
 

@@ -13,17 +13,12 @@ import pytest
 import serendipity
 from serendipity import Deadline, Task
 from serendipity.cli.app import main
-from serendipity.evaluation.crosscheck import (
-    JUDGES,
-    Disagreement,
-    PlanCall,
-    compare,
-    random_call,
-    shows_it_too,
-    shrink,
-)
 from serendipity.testing.builders import task as build
+from serendipity.testing.crosscheck import JUDGES, compare, shows_it_too
+from serendipity.testing.disagreement import Disagreement
+from serendipity.testing.generator.calls import PlanCall, random_call
 from serendipity.testing.judges import OutsideJudge, Proposal, by_command, by_name
+from serendipity.testing.shrinking import shrink
 
 SEARCH = {"search": JUDGES["search"]}
 CALL = PlanCall(
@@ -113,7 +108,7 @@ def greedy(task: Task, discount: Fraction) -> list[str] | None:
     return best(task, Fraction(1))
 
 
-HERE = "tests.evaluation.crosscheck.test_judges_from_outside"
+HERE = "tests.testing.crosscheck.test_judges_from_outside"
 
 
 def test_a_function_is_asked_and_found_out(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -6,7 +6,6 @@ from functools import partial
 from itertools import islice
 from typing import Final
 
-from serendipity.evaluation.crosscheck.laws import LAWS, Law
 from serendipity.facade.call import options_from
 from serendipity.facade.certify import check, verify
 from serendipity.facade.planning import plan
@@ -15,6 +14,7 @@ from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.judges import OutsideJudge, fault
 from serendipity.testing.judges import said as said_by
+from serendipity.testing.own_laws import LAWS, Law
 from serendipity.testing.told_plans import claimed_plan, told_plan
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.solve import solve

@@ -6,7 +6,7 @@ from itertools import islice
 import pytest
 
 from serendipity import UsageError, plan
-from serendipity.evaluation.crosscheck import PlanCall, random_call
+from serendipity.testing.generator.calls import PlanCall, random_call
 from serendipity.testing.generator.families import FAMILIES
 from serendipity.testing.oracle import human_plans
 

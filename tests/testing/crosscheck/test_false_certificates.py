@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.cli.app import main
-from serendipity.evaluation.crosscheck import FalseCertificates, false_certificates, random_call
-from serendipity.evaluation.crosscheck.truth import Truth, UnknownTruthError
 from serendipity.model import Certificate, Claim, SerendipityError
+from serendipity.testing.crosscheck import FalseCertificates, false_certificates
+from serendipity.testing.generator.calls import random_call
+from serendipity.testing.oracle.truth import Truth, UnknownTruthError
 
 METHODS = {"auto", "auto, paper", "exhaustive", "program", "proof"}
 MODES = {"individual", "serendipity", "communication", "composite", "assistance"}
@@ -43,7 +44,7 @@ def test_none_of_thousands_is_proved() -> None:
     assert _verdicts(judge)["refuted"] > 3000
     kinds, modes, methods, _ = (set(part) for part in zip(*judge.counts, strict=True))
     assert (modes, methods) == (MODES, METHODS)
-    assert len(kinds) == 18
+    assert len(kinds) == 17
 
 
 @given(st.integers(0, 10**9))
@@ -62,7 +63,7 @@ def test_a_verifier_that_believes_everything_is_found(
     monkeypatch.setattr(
         false_certificates, "certify", lambda *_, **__: Certificate((Claim("cost", "proved", ""),), 0.0)
     )
-    monkeypatch.setattr("serendipity.evaluation.crosscheck.shrink", lambda call, *_, **__: call)
+    monkeypatch.setattr("serendipity.testing.shrinking.shrink", lambda call, *_, **__: call)
     words = ["crosscheck", "--judges", "false-certificates", "--seed", "1", "-o", str(tmp_path / "found")]
     assert main(words) == 1
     said = capsys.readouterr().out

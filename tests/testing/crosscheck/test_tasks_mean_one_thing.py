@@ -5,10 +5,11 @@ from itertools import combinations
 
 import pytest
 
-from serendipity.evaluation.crosscheck import PlanCall, random_call, shrink
 from serendipity.model import Task
 from serendipity.testing.builders import task as build
+from serendipity.testing.generator.calls import PlanCall, random_call
 from serendipity.testing.generator.tasks import unambiguous
+from serendipity.testing.shrinking import shrink
 
 
 def ambiguous_pairs(task: Task) -> list[str]:

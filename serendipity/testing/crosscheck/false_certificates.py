@@ -9,10 +9,10 @@ from random import Random
 from tempfile import TemporaryDirectory
 from typing import Any, Final
 
-from serendipity.evaluation.crosscheck.forger import Forgery, forgeries
 from serendipity.facade.certify import verify
 from serendipity.facade.proofs import check_proof
 from serendipity.model import InputError, SerendipityError, UsageError
+from serendipity.testing.crosscheck.forger import Forgery, forgeries
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
 from verify.calls.methods import NAMES

@@ -9,20 +9,14 @@ from hypothesis import strategies as st
 
 from serendipity import Deadline, Result, load
 from serendipity.cli.app import main
-from serendipity.evaluation.crosscheck import (
-    JUDGES,
-    Disagreement,
-    PlanCall,
-    command_line,
-    compare,
-    random_call,
-    shows_it_too,
-    shrink,
-    write_case,
-)
-from serendipity.evaluation.crosscheck import judges as judging
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_4
+from serendipity.testing.crosscheck import JUDGES, compare, shows_it_too
+from serendipity.testing.crosscheck import judges as judging
+from serendipity.testing.disagreement import Disagreement
+from serendipity.testing.generator.calls import PlanCall, random_call
+from serendipity.testing.shrinking import shrink
+from serendipity.testing.written_case import command_line, write_case
 
 SEARCH = JUDGES["search"]
 

@@ -1,0 +1,14 @@
+"""Cross-validation: search, both integer programs, certificates and laws on the same calls."""
+
+from serendipity.testing.crosscheck.false_certificates import FALSE_CERTIFICATES, FalseCertificates
+from serendipity.testing.crosscheck.judges import JUDGES, Figures, Judge, compare, shows_it_too
+
+__all__ = [
+    "FALSE_CERTIFICATES",
+    "JUDGES",
+    "FalseCertificates",
+    "Figures",
+    "Judge",
+    "compare",
+    "shows_it_too",
+]
