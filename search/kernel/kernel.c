@@ -21,6 +21,10 @@
      state_table, successor_generator      states that were met; applicable operators
      problem, heap, lists, values          operators, costs and goal; what all are made of */
 
+#ifndef _WIN32
+#define _POSIX_C_SOURCE 199309L /* for clock_gettime */
+#endif
+
 #include "api.h"
 
 #ifndef KERNEL_SOURCE_HASH

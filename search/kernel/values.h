@@ -26,5 +26,11 @@ static int left_out;
 /* A sum of costs that are MOST_COST at most. */
 static inline Cost plus(Cost a, Cost b) { return a + b < MOST_COST ? a + b : MOST_COST; }
 
-/* Seconds of processor time: standard C has no other clock that nobody sets.  Beside busy neighbours a slice takes longer. */
-static double now(void) { return (double)clock() / CLOCKS_PER_SEC; }
+/* Seconds by a clock that nobody sets; standard C has only that of processor time, which asks the system for a microsecond. */
+static double now(void) {
+#ifdef CLOCK_MONOTONIC
+    struct timespec time;
+    if (!clock_gettime(CLOCK_MONOTONIC, &time)) return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+#endif
+    return (double)clock() / CLOCKS_PER_SEC;
+}
