@@ -20,6 +20,7 @@ class Due:
 
     def __init__(self, packed: PackedTask, weight: Callable[[Operator], int], *, strict: bool) -> None:
         self._packed = packed
+        self._weight = weight
         self._strict = strict
         self._human: _Options = {}
         self._others: _Options = {}
@@ -55,6 +56,12 @@ class Due:
             else:
                 return []
         return [found]
+
+    def pending(self, state: int) -> int:
+        """What it adds to a key that others end what they are at."""
+        packed = self._packed
+        going_on = (variants[0] for variants in self._in(self._others, state))
+        return sum(self._weight(op) for part in going_on for op in packed.chain(packed.op(part.actions[0])))
 
     def is_calm(self, state: int) -> bool:
         """Whether nothing happens from a state on unless somebody does it."""

@@ -120,18 +120,15 @@ def answers_over_scenarios(call: Request, candidates: Sequence[Candidate]) -> It
         if broken := outlasts(aimed, one.plan, horizon, strict=options.strict):
             raise UsageError(f"plan '{one.name}' does not last until epoch {horizon}: {broken}")
     for answer in solve_scenarios(PreparedTask(units.task), options, inner, call.deadline):
-        goals = tuple(_served(units, one) for one in answer.goals or ())
+        goals = tuple(_served(units, one, options.discount) for one in answer.goals or ())
         yield _told(units, answer)._replace(goals=goals)
 
 
-def _served(units: UnitSteps, one: ServedGoal) -> ServedGoal:
+def _served(units: UnitSteps, one: ServedGoal, discount: Fraction) -> ServedGoal:
     """What happens in a scenario, with the actions of the task itself."""
-    plan, steps = one.human_plan, one.steps
-    return replace(
-        one,
-        human_plan=None if plan is None else units.begun(plan),
-        steps=None if steps is None else units.steps(steps),
-    )
+    plan, steps, task = one.human_plan, units.steps(one.steps or ()), units.original
+    cost = sum((task.team_cost(task.actions[step.action], discount) for step in steps), Fraction(0))
+    return replace(one, human_plan=None if plan is None else units.begun(plan), steps=steps, cost=cost)
 
 
 def _is_alone(call: Request) -> bool:

@@ -190,7 +190,7 @@ class _ScenarioCall:
     def _baseline(self) -> Fraction:
         """What it costs to leave the human alone; for regret at most so much, before more is known."""
         if self._question is not None:
-            alone = [line.certain.alone(0) for line in self._question.lines]
+            alone = [line.certain.alone(line.first().state, 0) for line in self._question.lines]
             return self._figures(self._question.value(alone))[1]
         costs = [(c.weight, self._prepared.task.cost_of(c.plan)) for c in self._candidates]
         if self._options.risk == "mean":

@@ -144,7 +144,7 @@ class PolicySearch:
         if at.phase == OVER:
             return self._lines[at.scenario].least(at, epoch)
         follows = at.phase == FOLLOWING and certain.follows(at.state, epoch)
-        return certain.alone(epoch) if follows else INFINITE_WORTH
+        return certain.alone(at.state, epoch) if follows else INFINITE_WORTH
 
     # -- choices
 

@@ -138,7 +138,8 @@ class Certain:
             best = min(found, key=lambda one: one.worth)
             return best._replace(least=min(one.least for one in found))
         if epoch >= len(self.steps):
-            return Remainder(self._worths.epoch, self._worths.epoch)
+            alone = self.alone(state, epoch)
+            return Remainder(alone, alone)
         if self._ordinary and self._all_are_free(state):
             return self._by_strategies(state, epoch, deadline)
         return self._in_space(state, epoch, 0, deadline)
@@ -186,9 +187,12 @@ class Certain:
         left, goals = self._scenario.horizon - max(epoch, len(self.steps)), self._scenario.context.goals
         return self._due.lasting(state, left, lambda end: all(goal.holds(end) for goal in goals))
 
-    def alone(self, epoch: int) -> int:
-        """What the rest of their plan is worth if they are left alone."""
-        return self._worths.epoch + sum(self._worths.of_key(part.weight) for _, part in self.steps[epoch:])
+    def alone(self, state: int, epoch: int) -> int:
+        """What the rest of their plan is worth if they are left alone, and robots end what they are at."""
+        return self._worths.epoch + self._worths.of_key(self._left_alone(state, epoch))
+
+    def _left_alone(self, state: int, epoch: int) -> int:
+        return self._due.pending(state) + sum(part.weight for _, part in self.steps[epoch:])
 
     def idle(self, deadline: Deadline) -> int:
         """What the scenario is worth with idle robots; the human may do better than their plan alone.
@@ -196,7 +200,7 @@ class Certain:
         Raises:
             LimitReachedError: the deadline came first.
         """
-        scenario, alone = self._scenario, self.alone(0)
+        scenario, alone = self._scenario, self.alone(self._packed.init, 0)
         optimum = scenario.context.alone.key(self._packed.init)
         if scenario.context.keys.cost(optimum) >= scenario.context.task.cost_of(scenario.plan):
             return alone
@@ -228,7 +232,7 @@ class Certain:
         space = self._space(context, state, epoch, start)
         best = Incumbent(INFINITE_KEY)
         if not start and self.follows(state, epoch):
-            best.key = sum(part.weight for _, part in self.steps[epoch:]) + context.keys.epoch_weight
+            best.key = self._left_alone(state, epoch) + context.keys.epoch_weight
             best.key += context.keys.of_start(len(self.steps) - epoch, space.horizon)
         bounds = self._searched(space, best, deadline)
         if best.node is None:  # left alone, or no plan at all

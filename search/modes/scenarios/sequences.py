@@ -77,7 +77,7 @@ class SequenceSearch:
         self._floors = [line.least(m, 0) for line, m in zip(self._lines, question.members, strict=True)]
         self._best: _Sequence | None = None
         self.lower = 0
-        self.upper = question.value([line.certain.alone(0) for line in self._lines])
+        self.upper = question.value([line.certain.alone(line.first().state, 0) for line in self._lines])
         self.expanded = self.generated = 0
 
     def guided(self) -> Iterator[None]:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from fractions import Fraction
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -11,6 +12,7 @@ from serendipity import plan
 from serendipity.facade.results import named_plan
 from serendipity.model import Condition, HumanPlan, Options, PlanError, Task
 from serendipity.model.task.plans_in_time import outlasts
+from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import human_plans
 from serendipity.testing.oracle.scenarios import best_policy
 from serendipity.testing.strategies.time import scripts, tasks_in_time, timed_plans, timed_tasks
@@ -98,3 +100,27 @@ def test_search_equals_brute_force(call: tuple[Task, list[Candidate], Options] |
     assert answer.status == "optimal"
     assert (answer.objective, answer.cost) == (float(best.objective), float(best.cost))
     assert (answer.opportunity, answer.human_cost) == (best.opportunity, float(best.baseline))
+    if options.risk == "mean" and len(candidates) > 1:
+        costs = (one.weight * Fraction(str(s.cost)) for one, s in zip(candidates, answer.goals, strict=True))
+        assert float(sum(costs, Fraction(0))) == pytest.approx(answer.cost)
+
+
+def test_robots_end_what_they_are_at_and_that_costs() -> None:
+    """The robot has begun to open before it is told that nobody comes by."""
+    task = build(
+        init="at0",
+        actions={
+            "walk h": "at0 -> at1 !at0 @ 1",
+            "slow h": "at1 -> at2 !at1 @ 9",
+            "jump h": "at0 open -> at2 !at0 @ 0",
+            "open r": "-> open @ 1 [3]",
+        },
+    )
+    goals = {"far": ("at2", [[2, "walk h"], [3, "slow h"]]), "near": ("at1", ["walk h"])}
+    plans = [
+        {"name": name, "probability": 0.5, "goal": [fact], "plan": steps}
+        for name, (fact, steps) in goals.items()
+    ]
+    answer = plan(task, plans=plans, horizon=4, discount="0.5", window_weight=1)
+    assert [one.cost for one in answer.goals] == [0.5, 1.5]
+    assert (answer.cost, answer.status) == (1.0, "optimal")
