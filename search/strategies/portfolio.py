@@ -91,7 +91,7 @@ TURNS: Final = (
     Turn("human-plan", "alone", calls.has_given_plan, plan_alone, stage=_PREPARE),
     Turn("bound", "bound", calls.is_planned, first_bound, stage=_PREPARE),
     Turn("joint-optimum", "joint-optimum-soon", calls.joint_optimum_may_be_it, joint_optimum, share=0.4),
-    Turn("all-plans", "few-nodes", calls.short_windows_suffice, few_nodes, share=0.1, limit=500),
+    Turn("all-plans", "few-nodes", calls.short_windows_suffice, few_nodes, share=0.1, limit=100),
     Turn("timetable", "timetable-soon", calls.robots_only_leave_behind, beside_timetable, 0.1, 300_000),
     Turn("timetable", "timetable-on", calls.timetable_is_hopeful, beside_timetable, 0.35, 3_000_000),
     Turn("joint-optimum", "joint-bound", calls.joint_optimum_only_bounds, joint_optimum, share=0.05),

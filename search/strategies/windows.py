@@ -6,7 +6,7 @@ from typing import Final
 from search.engine.best_first import Ties, best_first
 from search.strategies.call import Allowance, Call
 
-_TIES: Final = 1_000
+_TIES: Final = 100
 """Nodes for the sake of a better window for the same objective."""
 
 
