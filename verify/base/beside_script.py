@@ -1,7 +1,6 @@
 """The human alone beside a script (semantics 10.3): (cost, epochs) of an optimal plan from a state on."""
 
 from collections.abc import Iterator
-from fractions import Fraction
 
 from serendipity.model import HumanPlan, Options, Task
 from serendipity.model.resources.deadline import Deadline
@@ -27,7 +26,7 @@ class AloneBesideScript(IndividualOptimum):
         super().__init__(task, deadline)
         self._head_start, self._strict = options.head_start, options.strict
         self._waiting = idling(task)
-        self._worth: dict[State, tuple[Fraction, int] | None] = {}
+        self._weight: dict[State, int | None] = {}
 
     @property
     def start(self) -> State | None:
@@ -48,19 +47,18 @@ class AloneBesideScript(IndividualOptimum):
                 if after is not None:
                     yield i, after
 
-    def optimum(self, state: State) -> tuple[Fraction, int] | None:
-        """See :class:`IndividualOptimum`; the length counts epochs, waiting included."""
-        if state not in self._worth:
+    def weight(self, state: State) -> int | None:
+        """See :class:`IndividualOptimum`; waiting counts as epochs, and is no action."""
+        if state not in self._weight:
             with during("searching for what the human can do alone"):
-                self._worth[state] = self._found(state)
-        return self._worth[state]
+                self._weight[state] = self._found(state)
+        return self._weight[state]
 
-    def _found(self, state: State) -> tuple[Fraction, int] | None:
-        own, goal = self.own, self._task.goal
+    def _found(self, state: State) -> int | None:
         search = PathSearch(state, self._edges, lambda _: 0, self.deadline)
         for expansions, (here, _) in enumerate(search):
-            if goal.holds(here):
-                return own.split(search.distance[here])
+            if self._task.goal.holds(here):
+                return search.distance[here]
             if expansions >= limits().own_states:
                 raise TooManyStatesError
         return None
@@ -69,10 +67,10 @@ class AloneBesideScript(IndividualOptimum):
         for i, after in self.moves(state):
             yield after, self.own.weight(i), i
 
-    def within(self, state: State, cost: Fraction, length: int) -> bool:
+    def within(self, state: State, most: int) -> bool:
         """See :class:`IndividualOptimum`."""
-        found = self.optimum(state)
-        return found is not None and found <= (cost, length)
+        found = self.weight(state)
+        return found is not None and found <= most
 
     def suppose(self, plan: HumanPlan) -> None:
         """See :class:`IndividualOptimum`; nothing is supposed."""

@@ -34,7 +34,7 @@ class IndividualOptimum:
     def __init__(self, task: Task, deadline: Deadline | None = None) -> None:
         self._task = task
         self.deadline = deadline or Deadline()
-        self._known: dict[int, tuple[Fraction, int] | None] = {}
+        self._known: dict[int, int | None] = {}
         self._above: dict[int, int] = {}
         """States from which every plan weighs more than this."""
         self._enough: dict[int, int] = {}
@@ -85,15 +85,19 @@ class IndividualOptimum:
             TooManyStatesError: the limit on expansions came first.
             LimitReachedError: the deadline did.
         """
+        weight = self.weight(state)
+        return None if weight is None else self.own.split(weight)
+
+    def weight(self, state: State) -> int | None:
+        """What :meth:`optimum` weighs (see :class:`OwnActions`), with the same errors."""
         if self._task.goal.holds(state):
-            return Fraction(0), 0
+            return 0
         start = self.own.bits.of(state)
         if start not in self._known:
             enough = self._enough.get(start)
             with during("searching for what the human can do alone"):
                 weight = self._least(start, state, enough)
-            weight = enough if weight is None else weight
-            self._known[start] = None if weight is None else self.own.split(weight)
+            self._known[start] = enough if weight is None else weight
         return self._known[start]
 
     def suppose(self, plan: HumanPlan) -> None:
@@ -104,29 +108,25 @@ class IndividualOptimum:
         """
         self._enough[self.own.bits.of(self._task.init)] = sum(self.own.weight(i) for i in plan)
 
-    def within(self, state: State, cost: Fraction, length: int) -> bool:
-        """Whether the optimum from a state is this cost and length, or less; often easier to say.
+    def within(self, state: State, most: int) -> bool:
+        """Whether the optimum from a state weighs no more than this; often easier to say.
 
         Raises:
             TooManyStatesError: the limit on expansions came first.
             LimitReachedError: the deadline did.
         """
-        if self._task.goal.holds(state):
-            return True
-        if cost < 0:
-            return False
-        start, most = self.own.bits.of(state), self.own.joined(cost, length)
+        if most < 0 or self._task.goal.holds(state):
+            return most >= 0
+        start = self.own.bits.of(state)
         if start not in self._known and self._above.get(start, -1) < most:
             with during("searching for what the human can do alone"):
                 weight = self._least(start, state, most + 1)
             if weight is None:
                 self._above[start] = most
             else:
-                self._known[start] = self.own.split(weight)
-        if start in self._known:
-            found = self._known[start]
-            return found is not None and found <= (cost, length)
-        return False
+                self._known[start] = weight
+        found = self._known.get(start)
+        return found is not None and found <= most
 
     def learn(self, plan: HumanPlan) -> None:
         """An optimal plan from ``I`` on is optimal from each state that it leads through: no need to search.
@@ -138,13 +138,13 @@ class IndividualOptimum:
             TooManyStatesError: whether it is optimal is too hard to say.
             LimitReachedError: the deadline came first.
         """
-        task = self._task
-        rest = sum((task.actions[i].cost for i in plan), Fraction(0))
-        if self.optimum(task.init) != (rest, len(plan)):
+        weights = [self.own.weight(i) for i in plan]
+        rest = sum(weights)
+        if self.weight(self._task.init) != rest:
             return
-        for k, state in enumerate(states_of_pi_h(task, plan, self.deadline)):
-            self._known.setdefault(self.own.bits.of(state), (rest, len(plan) - k))
-            rest -= task.actions[plan[k]].cost if k < len(plan) else 0
+        for weight, state in zip((*weights, 0), states_of_pi_h(self._task, plan, self.deadline), strict=True):
+            self._known.setdefault(self.own.bits.of(state), rest)
+            rest -= weight
 
     def _least(self, start: int, state: State, below: int | None) -> int | None:
         """The least weight of a plan from a state; None: there is none, or none below."""

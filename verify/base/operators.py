@@ -8,10 +8,14 @@ from math import lcm
 from typing import Final
 
 from serendipity.model import Condition, Deadline, GroundAction, Task
+from verify.base.execution import idling
 from verify.base.fact_bits import BitOperator, FactBits, each_bit
 
 _LONGEST: Final = 10**9
 """More actions than any plan has that is ever compared."""
+
+_EPOCH: Final = 1 << 20
+"""What an epoch weighs in time, where so many epochs or actions are more than any plan has."""
 
 
 def one_after_the_other(first: GroundAction, second: GroundAction) -> GroundAction:
@@ -36,7 +40,8 @@ class OwnActions:
     """The human's own actions, turned into operators when a search first meets them.
 
     Operators are reduced to the facts that can matter to the human.  Their weight orders plans by cost, then
-    by length: a cost of 1 weighs as much as ``_LONGEST`` actions.
+    by length: a cost of 1 weighs as much as ``_LONGEST`` actions.  In time length is the number of epochs,
+    and then what begins in them (semantics 10.3).
 
     Attributes:
         ids: the actions' ids.
@@ -55,7 +60,10 @@ class OwnActions:
             denominators.add(action.cost.denominator)
         self.facts = frozenset(facts)
         self.bits = FactBits(facts)
-        self._unit = lcm(*denominators) * _LONGEST
+        self._chosen_before = {i for _, i in task.due} | idling(task)
+        self._epoch, longest = (_EPOCH, _EPOCH) if self._chosen_before else (0, _LONGEST)
+        self._least_cost = longest * (self._epoch or 1)
+        self._unit = lcm(*denominators) * self._least_cost
         self._weights: dict[tuple[int, int], int] = {}
         self._operators: dict[int, BitOperator] = {}
         self._watched = self._watch(deadline)
@@ -65,8 +73,8 @@ class OwnActions:
         cost = self._task.actions[action].cost
         ratio = (cost.numerator, cost.denominator)
         if ratio not in self._weights:
-            self._weights[ratio] = int(cost * self._unit) + 1
-        return self._weights[ratio]
+            self._weights[ratio] = int(cost * self._unit) + self._epoch
+        return self._weights[ratio] + (action not in self._chosen_before)
 
     def whole(self, action: int) -> tuple[GroundAction, int]:
         """An action with all that is due after it, as one, and what that weighs; the human is alone.
@@ -90,12 +98,8 @@ class OwnActions:
 
     def split(self, weight: int) -> tuple[Fraction, int]:
         """Cost and length of a plan of a weight."""
-        length = weight % _LONGEST
-        return Fraction(weight - length, self._unit), length
-
-    def joined(self, cost: Fraction, length: int) -> int:
-        """The weight of a plan of that cost and length, whose cost is a sum of its actions'."""
-        return int(cost * self._unit) + length
+        rest = weight % self._least_cost
+        return Fraction(weight - rest, self._unit), rest // (self._epoch or 1)
 
     def applicable(self, state: int) -> list[BitOperator]:
         """The operators that are applicable in a state, labelled by their actions' ids."""

@@ -48,17 +48,12 @@ class OptimalPlans:
 
         Of several with one name, which are variants of one action, the first.
         """
-        worth = self.worth(state)
-        if worth is None or worth[1] == 0:
-            return
-        cost, length = worth
-        last = None
-        for i, successor in self.alone.moves(state):
-            action = self._task.actions[i]
-            if action.name == last or action.cost > cost:
-                continue
-            if self.alone.within(successor, cost - action.cost, length - 1):
-                last = action.name
+        last, least = None, self.alone.weight(state)
+        for i, successor in self.alone.moves(state) if least else ():
+            assert least is not None
+            name = self._task.actions[i].name
+            if name != last and self.alone.within(successor, least - self.alone.own.weight(i)):
+                last = name
                 yield i, successor
 
     def _continue(self, plan: HumanPlan, state: State) -> Iterator[HumanPlan]:

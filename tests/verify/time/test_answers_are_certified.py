@@ -7,9 +7,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity.model import PlanError, Result, Task, UsageError
+from serendipity.model import PlanError, Result, Task, Timing, UsageError
 from serendipity.model.keywords import Ties
 from serendipity.model.numbers import figure
+from serendipity.testing.builders import task as build
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies.time import calls_in_time
@@ -44,6 +45,26 @@ def test_answers_over_ties_are_proved_beside_no_script(call: Call, ties: Ties) -
     options = call.options.but(ties=ties, head_start=0)
     result = answered(replace(call, options=options, human_plan=None))
     assert serendipity.verify(call.task, result).verdict == "proved"
+
+
+def test_of_plans_of_one_length_those_of_the_fewest_actions_are_optimal() -> None:
+    """The other plan, of two actions, could be helped between them."""
+    actions = {
+        "begin h": "-> q @ 1",
+        "end h": "q -> p @ 1",
+        "whole h": "-> p @ 2",
+        "lift r": "-> up @ 0",
+        "turn r": "up -> on @ 0",
+        "short h": "on -> p @ 0",
+    }
+    task = build(goal="p", actions=actions)
+    longer = (replace(a, timing=Timing(2)) if a.name == "whole h" else a for a in task.actions)
+    task = replace(task, actions=tuple(longer))
+    answer = serendipity.plan(task, ties="optimistic", horizon=3)
+    assert [tied.human_plan for tied in answer.ties or ()] == [("whole h",)]
+    certificate = serendipity.verify(task, answer)
+    assert certificate.verdict == "proved", certificate
+    assert "the human's canonical optimal plan" in certificate.claims[0].reason
 
 
 @given(calls_in_time())
