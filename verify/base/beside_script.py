@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from serendipity.model import HumanPlan, Options, Task
+from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
 from verify.base.due import onward, waited
 from verify.base.execution import State, applicable, due, idling, is_calm
@@ -71,12 +71,6 @@ class AloneBesideScript(IndividualOptimum):
         """See :class:`IndividualOptimum`."""
         found = self.weight(state)
         return found is not None and found <= most
-
-    def suppose(self, plan: HumanPlan) -> None:
-        """See :class:`IndividualOptimum`; nothing is supposed."""
-
-    def learn(self, plan: HumanPlan) -> None:
-        """See :class:`IndividualOptimum`; nothing is learned."""
 
 
 def alone_of(

@@ -94,6 +94,11 @@ def idling(task: Task) -> frozenset[int]:
     return frozenset((*task.named.get(WAITING, ()), *task.named.get(RESTING, ())))
 
 
+def unchosen(task: Task) -> frozenset[int]:
+    """What nobody begins: what is due, and waiting."""
+    return idling(task).union(i for _, i in task.due)
+
+
 def awake(task: Task) -> frozenset[int]:
     """The fact, if there is one, while which the human does not wait for nothing, since waiting costs."""
     return frozenset(fact for i in task.named.get(RESTING, ()) for fact in task.actions[i].delete)

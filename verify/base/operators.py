@@ -8,7 +8,7 @@ from math import lcm
 from typing import Final
 
 from serendipity.model import Condition, Deadline, GroundAction, Task
-from verify.base.execution import idling
+from verify.base.execution import unchosen
 from verify.base.fact_bits import BitOperator, FactBits, each_bit
 
 _LONGEST: Final = 10**9
@@ -60,8 +60,8 @@ class OwnActions:
             denominators.add(action.cost.denominator)
         self.facts = frozenset(facts)
         self.bits = FactBits(facts)
-        self._chosen_before = {i for _, i in task.due} | idling(task)
-        self._epoch, longest = (_EPOCH, _EPOCH) if self._chosen_before else (0, _LONGEST)
+        self._unchosen = unchosen(task)
+        self._epoch, longest = (_EPOCH, _EPOCH) if self._unchosen else (0, _LONGEST)
         self._least_cost = longest * (self._epoch or 1)
         self._unit = lcm(*denominators) * self._least_cost
         self._weights: dict[tuple[int, int], int] = {}
@@ -74,7 +74,7 @@ class OwnActions:
         ratio = (cost.numerator, cost.denominator)
         if ratio not in self._weights:
             self._weights[ratio] = int(cost * self._unit) + self._epoch
-        return self._weights[ratio] + (action not in self._chosen_before)
+        return self._weights[ratio] + (action not in self._unchosen)
 
     def whole(self, action: int) -> tuple[GroundAction, int]:
         """An action with all that is due after it, as one, and what that weighs; the human is alone.

@@ -3,10 +3,12 @@
 *Optimal* is least cost, then fewest actions (semantics 1).
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from heapq import heappop, heappush
 
-from serendipity.model import HumanPlan, Task
+from serendipity.model import Condition, HumanPlan, Task
+from verify.base.due import waited
 from verify.base.execution import State
 from verify.base.individual import IndividualOptimum
 
@@ -55,6 +57,34 @@ class OptimalPlans:
             if name != last and self.alone.within(successor, least - self.alone.own.weight(i)):
                 last = name
                 yield i, successor
+
+    def lasting(
+        self, state: State, left: int, reached: Condition, talk: Sequence[int] = (), *, strict: bool
+    ) -> HumanPlan | None:
+        """The plan from a state, of the optimal ones after which something holds once some epochs are over.
+
+        Args:
+            state: in which no robot is at anything.
+            left: the number of epochs; a plan has no more.
+            reached: what has to hold then: a script may undo what a plan reaches.
+            talk: by action what it adds to the objective; the plan of the least is the one, and of these the
+                canonical one.
+            strict: interference as in semantics 2, which says what disturbs a bystander.
+        """
+        worth, task, seen = self.worth(state), self._task, set[State]()
+        queue = [] if worth is None or worth[1] > left else [(0, HumanPlan(), state)]
+        while queue:
+            added, plan, here = heappop(queue)
+            if here in seen:
+                continue
+            seen.add(here)
+            if task.goal.holds(here):
+                end = waited(task, here, left - len(plan), strict=strict)
+                if end is not None and reached.holds(end):
+                    return plan
+            for i, following in self.steps(here):
+                heappush(queue, (added + (talk[i] if talk else 0), (*plan, i), following))
+        return None
 
     def _continue(self, plan: HumanPlan, state: State) -> Iterator[HumanPlan]:
         worth = self.worth(state)

@@ -12,7 +12,7 @@ from serendipity.model.options import MAX_EPOCH
 from verify.base.execution import awake
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.small_numbers import with_small_numbers
-from verify.base.subproblem import FREE, PricedPlan, Subproblem
+from verify.base.subproblem import FREE, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.exhaustive.beside_plans import answers_all
 from verify.exhaustive.by_epochs import cheapest_by_epochs
@@ -202,13 +202,9 @@ def decide_without_horizon(question: Subproblem, effort: Effort, plans: OptimalP
 def _decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum:
     if question.is_free:
         found = _decide(question.but(rule=FREE), effort, plans)
-        return found if found.found is None else replace(found, found=_throughout(question, found.found))
+        window = Window(1, question.horizon + 1)
+        return found if found.found is None else replace(found, found=replace(found.found, window=window))
     return _in_turns(question, effort, plans)
-
-
-def _throughout(question: Subproblem, found: PricedPlan) -> PricedPlan:
-    """A plan whose window is all epochs."""
-    return replace(found, window=Window(1, question.horizon + 1))
 
 
 def _asked(question: Subproblem, effort: Effort) -> list[Method]:

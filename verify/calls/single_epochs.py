@@ -5,11 +5,12 @@ tasks in single epochs are the planner's, too; that they say what section 10 doe
 played twice, and by the brute force of the tests, which knows of no such task.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from itertools import chain
 
-from serendipity.model import Claim, Deadline, HumanPlan, PlanError, PlanStep, Result, Task
-from serendipity.model.answers.result_parts import TiedAnswer
+from serendipity.model import Claim, Condition, Deadline, HumanPlan, PlanError, PlanStep, Result, Task
+from serendipity.model.answers.result_parts import GoalAnswer, TiedAnswer
 from serendipity.model.numbers import agrees
 from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
@@ -62,8 +63,11 @@ def _is_known(task: Task, result: Result) -> bool:
     in_the_middle = any(deed.agent not in script.people for deed in script.deeds)
     if in_the_middle or (options.windowed and options.preservation == "state"):
         return False
+    if result.recognition is not None and result.recognition.observed:
+        return False
     if not is_tied(result):
-        return kind_of(result) == "a plan"
+        kind = kind_of(result)
+        return kind == "a plan" or (kind == "a plan for each scenario" and options.suffix == "replan")
     waits = bool(task.script) or options.head_start > 0 or options.human_model != "omniscient"
     return not waits and all(tied.plan is None for tied in result.ties or ())
 
@@ -82,7 +86,8 @@ class SingleEpochs:
     def __init__(self, task: Task, result: Result, deadline: Deadline) -> None:
         self._original, self._result, self._deadline = task, result, deadline
         self.units: UnitSteps = unit_steps(task, deadline, result.options.waiting_cost)
-        self._human_plan = self._plan_of(result)
+        self._aimless = task.with_goal(Condition())
+        self._several = kind_of(result) == "a plan for each scenario"
         self.fault = self._mistold() or self._played()
 
     @property
@@ -91,21 +96,36 @@ class SingleEpochs:
         return self.units.task
 
     def result(self) -> Result:
-        """The result in single epochs: its plan with all that is due."""
-        said = self._result
+        """The result in single epochs: its plan with all that is due, or that of each scenario."""
+        said, known = self._result, self._result.recognition
+        if known is not None:
+            aimed = tuple(replace(goal, goal=(*goal.goal, *self._at_rest)) for goal in known.goals)
+            known = replace(known, goals=aimed)
         return replace(
             said,
-            human_plan=self._names_of(said, self._human_plan),
+            human_plan=self._names_of(said),
             human_plan_times=None,
             ties=None if said.ties is None else tuple(map(self._tied, said.ties)),
             bystanders={},
-            plan=None if said.plan is None else tuple(self._steps()),
+            plan=self._begun_alone(said.plan) if self._several else self._steps(said.plan),
             agent_costs=self._agent_costs(),
+            goals=None if said.goals is None else tuple(map(self._served, said.goals)),
+            recognition=known,
         )
 
+    @property
+    def _at_rest(self) -> tuple[str, ...]:
+        """What the human's goals ask for in single epochs besides."""
+        asked, task = set(self._original.goal.positive), self.task
+        return tuple(task.facts[fact] for fact in task.goal.positive if fact not in asked)
+
+    def _served(self, said: GoalAnswer) -> GoalAnswer:
+        goal = None if said.goal is None else (*said.goal, *self._at_rest)
+        steps, names = self._steps(said.plan), self._names_of(said)
+        return replace(said, human_plan=names, human_plan_times=None, plan=steps, goal=goal)
+
     def _tied(self, said: TiedAnswer) -> TiedAnswer:
-        names = self._names_of(said, self._plan_of(said))
-        return replace(said, human_plan=names or (), human_plan_times=None)
+        return replace(said, human_plan=self._names_of(said) or (), human_plan_times=None)
 
     def told(self, claim: Claim) -> Claim:
         """A claim whose counter-example is a plan of the task in time."""
@@ -123,11 +143,13 @@ class SingleEpochs:
 
     def _mistold(self) -> Violation | None:
         """What the result says of times and of bystanders, and is not so."""
-        said, plan = self._result, self._human_plan
-        times = None if plan is None else times_of(self._original, plan)
-        if None not in (times, said.human_plan_times) and said.human_plan_times != times:
-            return Violation("times", "replay", "10.2", "the times of pi_H are not those of its actions")
-        if said.bystanders != self._bystanders():
+        every: tuple[Result | GoalAnswer, ...] = (self._result, *(self._result.goals or ()))
+        for said in every:
+            plan = self._plan_of(said)
+            times = None if plan is None else times_of(self._original, plan)
+            if None not in (times, said.human_plan_times) and said.human_plan_times != times:
+                return Violation("times", "replay", "10.2", "the times of pi_H are not those of its actions")
+        if self._result.bystanders != self._bystanders():
             return Violation("bystanders", "replay", "10.3", "bystanders do not what the task's script says")
         return None
 
@@ -141,17 +163,19 @@ class SingleEpochs:
         return {who: tuple(steps) for who, steps in found.items()}
 
     def _played(self) -> Violation | None:
-        """The first step that can't be done when the plan says, durations and script beside it."""
-        task, said = self._original, self._result
-        by_epoch: dict[int, list[PlanStep]] = {}
-        for step in said.plan or ():
-            fault = self._misnamed(step)
-            if fault is not None:
-                return fault
+        """The first step that can't be done when a plan says, durations and script beside it."""
+        said = self._result
+        plans = [goal.plan or () for goal in said.goals or ()] if self._several else [said.plan or ()]
+        faults = (self._misnamed(step) for plan in (*plans, said.plan or ()) for step in plan)
+        return next(filter(None, chain(faults, map(self._unplayable, plans))), None)
+
+    def _unplayable(self, plan: Sequence[PlanStep]) -> Violation | None:
+        task, by_epoch = self._original, dict[int, list[PlanStep]]()
+        for step in plan:
             by_epoch.setdefault(step.epoch, []).append(step)
-        course = PlayedPlan(task.facts, task.init, task.script, strict=said.options.strict)
+        course = PlayedPlan(task.facts, task.init, task.script, strict=self._result.options.strict)
         last = max(by_epoch, default=0)
-        while said.plan is not None and course.epoch < last:
+        while course.epoch < last:
             self._deadline.check()
             try:
                 course.begin(self._meant(step, course.state) for step in by_epoch.get(course.epoch + 1, ()))
@@ -185,25 +209,34 @@ class SingleEpochs:
 
     # -- single epochs
 
-    def _plan_of(self, said: Result | TiedAnswer) -> HumanPlan | None:
+    def _plan_of(self, said: Result | TiedAnswer | GoalAnswer) -> HumanPlan | None:
         """``pi_H``; None where there is none, or it is none of the human's."""
         names, times = said.human_plan, said.human_plan_times
         try:
             entries = names if times is None or names is None else times.entries(names)
-            return None if entries is None else self._original.plan_from_names(entries)
+            return None if entries is None else self._aimless.plan_from_names(entries)
         except PlanError:
             return None
 
-    def _names_of(self, said: Result | TiedAnswer, plan: HumanPlan | None) -> tuple[str, ...] | None:
+    def _names_of(self, said: Result | TiedAnswer | GoalAnswer) -> tuple[str, ...] | None:
         """``pi_H`` by the names of single epochs; as it is where it is none of the human's."""
+        plan = self._plan_of(said)
         if plan is None:
             return said.human_plan
         return tuple(self.task.actions[i].name for i in self.units.plan(plan))
 
-    def _steps(self) -> Iterator[PlanStep]:
-        """The plan with all that is due, up to ``T``; as it is from where on it can't be executed."""
+    def _begun_alone(self, plan: Sequence[PlanStep] | None) -> tuple[PlanStep, ...]:
+        """What robots begin by themselves in all scenarios."""
+        steps = (Step(step.epoch, self._first(step, self.task.init)) for step in plan or ())
+        return tuple(plan_step(self.task, step, self._result.options.discount) for step in steps)
+
+    def _steps(self, plan: Sequence[PlanStep] | None) -> tuple[PlanStep, ...] | None:
+        return None if plan is None else tuple(self._with_due(plan))
+
+    def _with_due(self, plan: Sequence[PlanStep]) -> Iterator[PlanStep]:
+        """A plan with all that is due, up to ``T``; as it is from where on it can't be executed."""
         task, said = self.task, self._result
-        left = sorted(said.plan or (), key=lambda step: step.epoch)
+        left = sorted(plan, key=lambda step: step.epoch)
         last = said.horizon if isinstance(said.horizon, int) else None
         state: State | None = task.init
         human = task.agents[task.human]

@@ -22,15 +22,18 @@ def check_by_rules(task: Task, result: Result, deadline: Deadline) -> tuple[Clai
 
 
 def _claims(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
-    if needs_time(task, options=result.options) or result.in_time:
-        from verify.calls.single_epochs import examined_in_time
+    if not needs_time(task, options=result.options) and not result.in_time:
+        return _examined(task, result, deadline)
+    from verify.calls.single_epochs import examined_in_time
 
-        def by_rules(unit: Task, said: Result) -> tuple[Claim, ...]:
-            return tuple(_for_plan(unit, said, deadline))
+    return examined_in_time(task, result, deadline, lambda unit, said: tuple(_examined(unit, said, deadline)))
 
-        return examined_in_time(task, result, deadline, by_rules)
+
+def _examined(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
     if result.says("goals"):
-        return _over_scenarios(task, result, deadline)
+        from verify.scenarios.check import claims_over_scenarios  # few results have them
+
+        return claims_over_scenarios(task, result, deadline, lambda own, said: _for_plan(own, said, deadline))
     if result.mode == "assistance":
         from verify.policy import check_policy
 
@@ -52,15 +55,3 @@ def _for_plan(task: Task, result: Result, deadline: Deadline) -> Iterator[Claim]
     elif result.status == "optimal":
         best = "optimal" if result.opportunity else "no_opportunity"
         yield Claim(best, "not_in_scope", wording.NEEDS_OPTIMISER)
-
-
-def _over_scenarios(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
-    from verify.scenarios.check import claims_by_rules, examine, unexamined  # few results have them
-
-    examined = examine(task, result, deadline)
-    if examined.single is not None:
-        return _for_plan(*examined.single, deadline)
-    if not examined.lines:
-        return examined.claims
-    claims = claims_by_rules(result, examined)
-    return (*claims, *(unexamined(result, claims) or ()))

@@ -42,7 +42,7 @@ from verify.rules import Checker, RuleReport
 from verify.rules.claims import rule_claim
 from verify.rules.header import require_same_task
 from verify.rules.replay import replay, replay_human
-from verify.scenarios.check import claims_by_rules, examine, unexamined
+from verify.scenarios.check import claims_over_scenarios
 from verify.scenarios.proof import ScenariosProof
 from verify.solvers.mip import solver_version
 
@@ -104,11 +104,8 @@ def _certify(task: Task, result: Result, effort: Effort) -> Certificate:
         claims = complete(result, check_policy(task, result, effort.deadline))
         return Certificate(claims, perf_counter() - started)
     version = solver_version(effort.solver)
-    examine = _Certifier.examined
-    if needs_time(task, options=result.options) or result.in_time:
-        examine = _in_time
-    elif result.says("goals"):
-        examine = _over_scenarios
+    timed = needs_time(task, options=result.options) or result.in_time
+    examine = _in_time if timed else _examined
     claims, calls = complete(result, examine(task, result, effort)), len(effort.calls)
     return Certificate(claims, perf_counter() - started, version, effort.encoding, effort.size, calls)
 
@@ -123,21 +120,22 @@ def _in_time(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
         raise UsageError("encoding: the paper's equations know no time; expected automata")
 
     def examine(unit: Task, said: Result) -> tuple[Claim, ...]:
-        return _Certifier.examined(unit, said, effort)
+        return _examined(unit, said, effort)
 
     return examined_in_time(task, result, effort.deadline, examine)
 
 
-def _over_scenarios(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
-    """Semantics 11: where one scenario is left, the answer is one of section 3."""
-    examined = examine(task, result, effort.deadline)
-    if examined.single is not None:
-        return _Certifier.examined(*examined.single, effort)
-    if not examined.lines:
-        return examined.claims
-    claims = claims_by_rules(result, examined)
-    rest = unexamined(result, claims, solving=True)
-    return (*claims, *(ScenariosProof(result, examined.lines, effort).claims() if rest is None else rest))
+def _examined(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
+    """Semantics 3, or 11: where one scenario is left, the answer is one of section 3."""
+    if not result.says("goals"):
+        return _Certifier.examined(task, result, effort)
+    return claims_over_scenarios(
+        task,
+        result,
+        effort.deadline,
+        lambda own, said: _Certifier.examined(own, said, effort),
+        lambda lines: ScenariosProof(result, lines, effort).claims(),
+    )
 
 
 class _Certifier:

@@ -1,7 +1,7 @@
 """What a program's solution stands for: a plan, with an optimal plan of the human's as its suffix."""
 
-from serendipity.model import Step, Window
-from verify.base.due import filled, waited
+from serendipity.model import HumanPlan, Step, Window
+from verify.base.due import filled
 from verify.base.execution import State, by_epoch, states_along
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import PricedPlan, Subproblem
@@ -44,7 +44,7 @@ def suffix_least(question: Subproblem, state: State, xi2: int, plans: OptimalPla
     return sum(question.prices.team[i] + question.prices.talk[i] for i in suffix)
 
 
-def best_suffix(question: Subproblem, state: State, xi2: int, plans: OptimalPlans) -> tuple[int, ...] | None:
+def best_suffix(question: Subproblem, state: State, xi2: int, plans: OptimalPlans) -> HumanPlan | None:
     """The optimal plan alone that is best for the objective and reaches all goals, if it fits.
 
     Args:
@@ -53,25 +53,5 @@ def best_suffix(question: Subproblem, state: State, xi2: int, plans: OptimalPlan
         xi2: first epoch of the suffix.
         plans: the human's optimal plans.
     """
-    worth, left = plans.worth(state), question.horizon - xi2 + 1
-    if worth is None or worth[1] > left:
-        return None
-    task, strict, rest = question.task, question.options.strict, left - worth[1]
-    known: dict[State, tuple[int, tuple[int, ...]] | None] = {}
-
-    def best_from(here: State) -> tuple[int, tuple[int, ...]] | None:
-        if here not in known:
-            known[here] = None
-            here_worth = plans.worth(here)
-            if here_worth is not None and here_worth[1] == 0:
-                end = waited(task, here, rest, strict=strict)  # the script may undo what is reached
-                known[here] = (0, ()) if end is not None and question.goal.holds(end) else None
-            for i, after in plans.steps(here):
-                onward = best_from(after)
-                if onward is not None:
-                    choice = (question.prices.talk[i] + onward[0], (i, *onward[1]))
-                    known[here] = min(known[here] or choice, choice)
-        return known[here]
-
-    found = best_from(state)
-    return None if found is None else found[1]
+    left, strict = question.horizon - xi2 + 1, question.options.strict
+    return plans.lasting(state, left, question.goal, question.prices.talk, strict=strict)

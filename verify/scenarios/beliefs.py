@@ -9,9 +9,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from serendipity.model import Condition, Deadline, GroundAction, Task
+from serendipity.model import Condition, Deadline, GroundAction, Options, Task
 from serendipity.model.answers.recognition import GoalPosterior, Recognition
-from verify.base.individual import IndividualOptimum
+from verify.base.beside_script import alone_of
+from verify.base.execution import unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.scenarios.reading import condition
 
@@ -38,6 +39,8 @@ def compiled(
         deadline: polled.
         embed: whether plans have to embed them, or must not.
     """
+    if embed and not observed:
+        return task.with_goal(goal, Condition())
     first, last = len(task.facts), len(task.facts) + len(observed)
     actions: list[GroundAction] = []
     for i in deadline.each(task.human_actions):
@@ -63,27 +66,36 @@ def compiled(
 
 
 def considered_plans(
-    task: Task, goal: Condition, observed: Sequence[str], deadline: Deadline
-) -> Iterator[PlanNames]:
+    task: Task, goal: Condition, observed: Sequence[str], options: Options, deadline: Deadline
+) -> Iterator[tuple[PlanNames, PlanNames]]:
     """The optimal plans for a goal that embed the observations, the canonical one first.
 
     Args:
         task: the task.
         goal: the goal of the candidate.
         observed: names of the observed actions, in order.
+        options: which say what disturbs a bystander.
         deadline: polled.
+
+    Returns:
+        What begins in each plan, which no other shares, and what is done epoch by epoch.
     """
     own = compiled(task, goal, observed, deadline, embed=True)
-    for plan in OptimalPlans(own, IndividualOptimum(own, deadline)).plans():
-        yield tuple(own.actions[i].name for i in plan)
+    goes_on, seen = unchosen(own), set[PlanNames]()
+    for plan in OptimalPlans(own, alone_of(own, deadline, options)).plans():
+        begun = tuple(own.actions[i].name for i in plan if i not in goes_on)
+        if begun not in seen:
+            seen.add(begun)
+            yield begun, tuple(own.actions[i].name for i in plan)
 
 
-def faults(task: Task, recognised: Recognition, deadline: Deadline) -> Iterator[Fault]:
+def faults(task: Task, recognised: Recognition, options: Options, deadline: Deadline) -> Iterator[Fault]:
     """Everything that is wrong with a recognition, in order.
 
     Args:
         task: the task.
         recognised: what the answer says of goals and observations.
+        options: of the answer.
         deadline: polled.
     """
     for name in recognised.observed:
@@ -96,9 +108,9 @@ def faults(task: Task, recognised: Recognition, deadline: Deadline) -> Iterator[
         yield "the priors do not add up to 1"
     if len({goal.name for goal in recognised.goals}) < len(recognised.goals):
         yield "two goals have one name"
-    costs = [_costs(task, recognised, goal, deadline) for goal in recognised.goals]
+    costs = [_costs(task, recognised, goal, options, deadline) for goal in recognised.goals]
     for goal, least in zip(recognised.goals, costs, strict=True):
-        yield from _own_faults(task, recognised, goal, least, deadline)
+        yield from _own_faults(task, recognised, goal, least, options, deadline)
     possible = any(goal.prior and goal.with_observed is not None for goal in recognised.goals)
     if recognised.explained != possible:
         yield f"explained is {str(possible).lower()}, the answer says otherwise"
@@ -108,18 +120,25 @@ def faults(task: Task, recognised: Recognition, deadline: Deadline) -> Iterator[
             yield f"goal '{goal.name}': the posterior is {right:.12g}, the answer says {goal.posterior:.12g}"
 
 
-def _costs(task: Task, recognised: Recognition, goal: GoalPosterior, deadline: Deadline) -> Costs:
+def _costs(
+    task: Task, recognised: Recognition, goal: GoalPosterior, options: Options, deadline: Deadline
+) -> Costs:
     """What a goal costs with the observations and without, exactly: their difference may be a small one."""
-    found = []
-    for embed in (True, False):
+    found: list[Fraction | None] = [None, None]  # every plan embeds nothing
+    for k, embed in enumerate((True, False) if recognised.observed else (True,)):
         own = compiled(task, condition(task, goal.goal), recognised.observed, deadline, embed=embed)
-        worth = IndividualOptimum(own, deadline).optimum(own.init)
-        found.append(None if worth is None else worth[0])
+        worth = alone_of(own, deadline, options).optimum(own.init)
+        found[k] = None if worth is None else worth[0]
     return found[0], found[1]
 
 
 def _own_faults(
-    task: Task, recognised: Recognition, goal: GoalPosterior, costs: Costs, deadline: Deadline
+    task: Task,
+    recognised: Recognition,
+    goal: GoalPosterior,
+    costs: Costs,
+    options: Options,
+    deadline: Deadline,
 ) -> Iterator[Fault]:
     for what, said, cost in zip(
         ("with", "without"), (goal.with_observed, goal.without_observed), costs, strict=True
@@ -129,22 +148,12 @@ def _own_faults(
             yield f"goal '{goal.name}': its cost {what} the observations is {least}, the answer says {said}"
             return
     wanted = condition(task, goal.goal)
-    if goal.plan != next(considered_plans(task, wanted, recognised.observed, deadline), None):
+    plan, _ = next(considered_plans(task, wanted, recognised.observed, options, deadline), (None, None))
+    if goal.plan != plan:
         yield f"goal '{goal.name}': the plan is not the canonical one that explains the observations"
-    likelihood = _likelihood(recognised.beta, costs)
+    likelihood = None if costs == (None, None) else math.exp(_log_likelihood(recognised.beta, costs))
     if (likelihood is None) != (goal.likelihood is None) or not _close(goal.likelihood or 0, likelihood or 0):
         yield f"goal '{goal.name}': the likelihood is {likelihood}, the answer says {goal.likelihood}"
-
-
-def _likelihood(beta: float, costs: Costs) -> float | None:
-    """``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``; None where both are infinite."""
-    with_observed, without_observed = costs
-    if with_observed is None:
-        return None if without_observed is None else 0.0
-    if without_observed is None:
-        return 1.0
-    loss = beta * float(with_observed - without_observed)
-    return 1 / (1 + math.exp(loss)) if loss < 700 else 0.0
 
 
 def _posteriors(recognised: Recognition, costs: Sequence[Costs]) -> list[float]:
@@ -165,6 +174,7 @@ def _posteriors(recognised: Recognition, costs: Sequence[Costs]) -> list[float]:
 
 
 def _log_likelihood(beta: float, costs: Costs) -> float:
+    """The logarithm of ``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``."""
     with_observed, without_observed = costs
     if with_observed is None:
         return -math.inf

@@ -1,6 +1,6 @@
 """The claims of an answer over scenarios, as far as rules make them (semantics 8, 11)."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import islice
@@ -11,7 +11,7 @@ from serendipity.model.answers.certificate import ClaimVerdict
 from serendipity.model.answers.fields import MalformedError
 from serendipity.model.answers.result_parts import GoalAnswer
 from verify.base import wording
-from verify.base.individual import IndividualOptimum
+from verify.base.beside_script import alone_of
 from verify.base.obligations import BY_RULES, needed
 from verify.base.undecided import UNDECIDED, why
 from verify.rules.case import Case
@@ -23,6 +23,7 @@ from verify.scenarios.timelines import (
     bound_fault,
     close,
     figures_fault,
+    lasting_fault,
     rule_fault,
     suffix_fault,
     timelines,
@@ -47,100 +48,92 @@ class Scenario:
     probability: Fraction
 
 
-@dataclass(frozen=True, slots=True)
-class Examined:
-    """What an answer over scenarios comes to.
-
-    Attributes:
-        claims: what is decided already; nothing else is claimed then.
-        single: where one scenario is left, its task and its answer, which are of section 3.
-        lines: where several are left, their timelines.
-        origin: where the scenarios come from, for people.
-    """
-
-    claims: tuple[Claim, ...] = ()
-    single: tuple[Task, Result] | None = None
-    lines: tuple[Timeline, ...] = ()
-    origin: str = ""
-
-
-def examine(task: Task, result: Result, deadline: Deadline) -> Examined:
-    """Whether the scenarios are those to consider, and what is left to examine then.
+def claims_over_scenarios(
+    task: Task,
+    result: Result,
+    deadline: Deadline,
+    certain: Callable[[Task, Result], Iterable[Claim]],
+    proved: Callable[[Sequence[Timeline]], Iterable[Claim]] | None = None,
+) -> tuple[Claim, ...]:
+    """The claims of an answer over scenarios; where one scenario is left it is an answer of section 3.
 
     Args:
         task: the task that was asked; where there are candidate goals its own plays no part.
-        result: an answer over scenarios, perhaps of another form than they have.
+        result: the answer, perhaps of another form than such answers have.
         deadline: what is not examined by then stays undecided.
+        certain: makes the claims of an answer of section 3.
+        proved: makes those that rules can't make of an answer that breaks none; None: nobody does.
     """
     started = perf_counter()
     try:
         served = listed(result)
         chosen, origin, fault = _expected(task, result, served, deadline)
         fault = fault or _selection_fault(task, result, chosen, served)
+        if fault is None and not chosen:
+            fault = _nothing_fault(task, result)
+        if fault is None and len(chosen) == 1:
+            fault = _entry_fault(result, served[0])
     except MalformedError as error:
-        chosen, fault = [], str(error)
+        fault = str(error)
     except UNDECIDED as error:
         replay = Claim("replay", "undecided", why(error), seconds=perf_counter() - started)
         others = (name for name in needed(result) if name != "replay")
-        return Examined((replay, *(Claim(name, "undecided", wording.same_as(replay)) for name in others)))
+        return replay, *(Claim(name, "undecided", wording.same_as(replay)) for name in others)
     if fault is not None:
-        return Examined((Claim("replay", "refuted", fault, seconds=perf_counter() - started),))
+        return (Claim("replay", "refuted", fault, seconds=perf_counter() - started),)
     if not chosen:
-        fault = _nothing_fault(task, result)
-        if fault is not None:
-            return Examined((Claim("replay", "refuted", fault),))
-        return Examined((Claim("infeasible", "proved", wording.NO_GOAL_ALONE),))
+        return (Claim("infeasible", "proved", wording.NO_GOAL_ALONE),)
     if len(chosen) == 1:
-        return _certain(task, result, chosen[0], served[0])
-    goals = [scenario.goal for scenario in chosen]
-    return Examined(lines=tuple(timelines(task, result, goals, served, deadline)), origin=origin)
+        ties = "fixed" if result.options.ties == "watched" else result.options.ties
+        known = replace(result, goals=None, recognition=None, options=result.options.but(ties=ties))
+        return tuple(certain(task.with_goal(chosen[0].goal), known))
+    lines = timelines(task, result, [scenario.goal for scenario in chosen], served, deadline)
+    claims = tuple(_claims_by_rules(result, lines, origin))
+    return *claims, *_beyond_rules(result, lines, claims, proved)
 
 
-def claims_by_rules(result: Result, examined: Examined) -> tuple[Claim, ...]:
-    """What rules say of an answer over several scenarios: of its bound only if that is not consistent."""
-    claims: dict[str, Claim] = {}
-    for name, fault in _rules(result, examined.lines):
-        replay = claims.get("replay")
-        if replay is not None and replay.verdict == "refuted" and name in ("cost", "window"):
-            claims[name] = Claim(name, "not_in_scope", wording.NO_REPLAYS)
-        elif replay is not None and replay.verdict == "undecided":
-            claims[name] = Claim(name, "undecided", wording.same_as(replay))
-        else:
-            claims[name] = _by_rule(name, fault, examined.origin)
-    if claims["lower_bound"].verdict == "proved":
-        del claims["lower_bound"]
-    return tuple(claims.values())
-
-
-def unexamined(result: Result, claims: Sequence[Claim], *, solving: bool = False) -> tuple[Claim, ...] | None:
-    """The claims that no optimiser is asked about; None: they are to be proved.
-
-    Args:
-        result: the answer.
-        claims: what rules say of it.
-        solving: whether there is an optimiser.
-    """
-    wanted = beyond_rules(result)
+def _beyond_rules(
+    result: Result,
+    lines: Sequence[Timeline],
+    claims: Sequence[Claim],
+    proved: Callable[[Sequence[Timeline]], Iterable[Claim]] | None,
+) -> Iterable[Claim]:
     refuted = {claim.claim for claim in claims if claim.verdict == "refuted"}
-    replay = next(claim for claim in claims if claim.claim == "replay")
-    if refuted or not solving:
+    replay, wanted = claims[0], beyond_rules(result)
+    if refuted or proved is None:
         out = wording.ANSWER_BREAKS_RULE if refuted else wording.NEEDS_OPTIMISER
-        return tuple(Claim(name, "not_in_scope", out) for name in wanted if name not in refuted)
+        return [Claim(name, "not_in_scope", out) for name in wanted if name not in refuted]
     if replay.verdict == "undecided":
-        return tuple(Claim(name, "undecided", wording.same_as(replay)) for name in wanted)
-    return None
+        return [Claim(name, "undecided", wording.same_as(replay)) for name in wanted]
+    return proved(lines)
+
+
+def _claims_by_rules(result: Result, lines: Sequence[Timeline], origin: str) -> Iterator[Claim]:
+    """What rules say of an answer over several scenarios: of its bound only if that is not consistent."""
+    replay: Claim | None = None
+    rules: dict[str, Callable[[], str | None]] = {
+        "replay": lambda: (
+            rule_fault("replay", lines) or lasting_fault(lines) or together_fault(result, lines)
+        ),
+        "cost": lambda: rule_fault("cost", lines) or figures_fault(result, lines),
+        "window": lambda: rule_fault("window", lines) or suffix_fault(lines),
+        "lower_bound": lambda: bound_fault(result, lines),
+    }
+    for name, fault in rules.items():
+        if replay is not None and replay.verdict == "refuted" and name in ("cost", "window"):
+            claim = Claim(name, "not_in_scope", wording.NO_REPLAYS)
+        elif replay is not None and replay.verdict == "undecided":
+            claim = Claim(name, "undecided", wording.same_as(replay))
+        else:
+            claim = _by_rule(name, fault, origin)
+        replay = replay or claim
+        if (name, claim.verdict) != ("lower_bound", "proved"):
+            yield claim
 
 
 def beyond_rules(result: Result) -> list[str]:
     """The claims that a proof needs and that rules can't make."""
     return [name for name in needed(result) if name not in BY_RULES]
-
-
-def _rules(result: Result, lines: Sequence[Timeline]) -> Iterator[tuple[str, Callable[[], str | None]]]:
-    yield "replay", lambda: rule_fault("replay", lines) or together_fault(result, lines)
-    yield "cost", lambda: rule_fault("cost", lines) or figures_fault(result, lines)
-    yield "window", lambda: rule_fault("window", lines) or suffix_fault(lines)
-    yield "lower_bound", lambda: bound_fault(result)
 
 
 def _by_rule(name: str, fault: Callable[[], str | None], origin: str) -> Claim:
@@ -161,7 +154,7 @@ def _expected(
     known, watched = recognised(result), result.options.ties == "watched"
     if known is None and not watched:
         return _given(task, served)
-    fault = None if known is None else next(faults(task, known, deadline), None)
+    fault = None if known is None else next(faults(task, known, result.options, deadline), None)
     if fault is not None:
         return [], "", fault
     seen = known.observed if known is not None and known.explained else ()
@@ -170,10 +163,10 @@ def _expected(
         goals = [(one.name, condition(task, one.goal), one.posterior) for one in known.goals if one.posterior]
     found, most = list[Scenario](), result.options.max_ties if watched else 1
     for name, goal, share in goals:
-        plans = list(islice(considered_plans(task, goal, seen, deadline), most + watched))
+        plans = list(islice(considered_plans(task, goal, seen, result.options, deadline), most + watched))
         if len(plans) > most:
             fault = f"max_ties: the human has more than {most} optimal plans"
-        for number, plan in enumerate(plans, start=1):
+        for number, (_, plan) in enumerate(plans, start=1):
             own = name if len(plans) == 1 else f"{name or 'plan'} {number}"
             found.append(Scenario(own, goal, plan, Fraction(share) / len(plans)))
     total = sum((scenario.probability for scenario in found), Fraction(0))
@@ -225,8 +218,10 @@ def _header_fault(task: Task, result: Result, chosen: Sequence[Scenario]) -> str
     if (result.mode, options.mode) != ("serendipity", "serendipity"):
         return "scenarios are for mode serendipity"
     known = options.ties in ("fixed", "watched") and options.human_model == "omniscient"
-    if not known or options.max_cost is not None or task.robot_goal:
-        return "other ties, human models, max_cost and robots' goals are for a single scenario"
+    if not known or options.max_cost is not None or options.head_start or task.robot_goal:
+        return "other ties, human models, max_cost, head_start and robots' goals are for a single scenario"
+    if options.waiting_cost:
+        return "waiting_cost: waiting is free in all scenarios"
     if result.status not in ("optimal", "feasible") or result.plan is None:
         return "leaving the human alone is always an answer"
     longest = max(len(scenario.plan) for scenario in chosen)
@@ -245,17 +240,13 @@ def _nothing_fault(task: Task, result: Result) -> str | None:
     own = (result.human_plan, result.human_cost, result.lower_bound, result.horizon)
     if own != (None, None, None, None):
         return "infeasible, with a plan, a cost, a bound or a horizon"
-    case = Case(task, result, IndividualOptimum(task))
+    case = Case(task, result, alone_of(task))
     found = mode_and_human(case) or status_and_fields(case) or reason(case)
     return None if found is None else found.message
 
 
-def _certain(task: Task, result: Result, scenario: Scenario, entry: GoalAnswer) -> Examined:
-    """One scenario is left: the answer is one of section 3."""
+def _entry_fault(result: Result, entry: GoalAnswer) -> str | None:
+    """Whether the entry of the one scenario that is left is another answer."""
     same = (entry.human_plan, entry.cost, entry.window, entry.plan)
-    if same != (result.human_plan, result.cost, result.window, result.plan):
-        fault = f"scenario '{entry.name}': the entry is not the answer"
-        return Examined((Claim("replay", "refuted", fault),))
-    ties = "fixed" if result.options.ties == "watched" else result.options.ties
-    known = replace(result, goals=None, recognition=None, options=result.options.but(ties=ties))
-    return Examined(single=(task.with_goal(scenario.goal), known))
+    answer = (result.human_plan, result.cost, result.window, result.plan)
+    return None if same == answer else f"scenario '{entry.name}': the entry is not the answer"

@@ -4,7 +4,8 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import Final, NamedTuple
 
-from verify.base.execution import State, fits, sets_beside
+from serendipity.model import HumanPlan
+from verify.base.execution import State, executed, fits, is_last, met, sets_beside, unchosen
 from verify.base.fact_bits import BitCondition, BitOperator, BitOperators, FactBits, each_bit
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE
@@ -29,7 +30,8 @@ class Member(NamedTuple):
         scenario: its number.
         state: as bits.
         phase: of its window.
-        epochs: of its window, where their number matters, and after it the index of its suffix; else 0.
+        epochs: of its window, where their number matters; else 0.
+        rest: what the human does after the window, epoch by epoch.
         ahead: what it has paid more than that of its group which has paid least, where the greatest counts.
     """
 
@@ -37,6 +39,7 @@ class Member(NamedTuple):
     state: int
     phase: int = FOLLOWS
     epochs: int = 0
+    rest: HumanPlan = ()
     ahead: int = 0
 
 
@@ -63,37 +66,72 @@ class Moves:
         self._task, self._call = call.task, call
         self.bits = FactBits(range(len(call.task.facts)))
         of, team, deadline = self.bits.of, call.prices.team, call.effort.deadline
-        self.operators = [
+        self._operators = [
             BitOperator(of(a.pre), of(a.neg), of(a.add), of(a.delete), pay(team[i]), i)
             for i, a in enumerate(deadline.each(call.task.actions))
         ]
+        self._unchosen = unchosen(call.task)
+        chosen = [op for op in self._operators if op.label not in self._unchosen]
         theirs = {i for i, a in enumerate(call.task.actions) if call.task.human not in a.participants}
-        self._own = BitOperators((op for op in self.operators if op.label in theirs), deadline)
-        self._parts = BitOperators((op for op in self.operators if op.label not in theirs), deadline)
-        self.robots, self.human, self.fits = cache(self._robots), cache(self._human), cache(self._fits)
+        self._own = BitOperators((op for op in chosen if op.label in theirs), deadline)
+        self._parts = BitOperators((op for op in chosen if op.label not in theirs), deadline)
+        self._going_on = of(call.task.due_for)
+        self._nothing = self._as_one(()), self._as_one(())
+        self.robots, self.human, self._fits = cache(self._robots), cache(self._human), cache(self._beside)
+        self._due = cache(self._happening)
+
+    def part(self, action: int | None) -> BitOperator:
+        """What a plan has the human choose; nothing where they wait, or go on with what they have begun."""
+        return _WAITS if action is None or action in self._unchosen else self._operators[action]
+
+    def together(self, state: int, part: BitOperator, robots: BitOperator) -> tuple[int, int] | None:
+        """What an epoch costs and the state after it, with all that is due; None if it is impossible."""
+        due = self._due(state)
+        if due is None:
+            return None
+        others, tick = due
+        if part.label is not None and not self._fits(part.label, (*others.label, *robots.label)):
+            return None
+        kept = state & ~(part.delete | robots.delete | others.delete)
+        after = tick.after(kept | part.add | robots.add | others.add)
+        return part.weight + robots.weight + others.weight, after
+
+    def _happening(self, state: int) -> tuple[BitOperator, BitOperator] | None:
+        """What happens anyway (semantics 10), the clock's tick apart; None if that is impossible."""
+        if not state & self._going_on:
+            return self._nothing
+        facts, actions = facts_of(state), self._task.actions
+        ids = met(self._task, facts, ())
+        if executed(facts, [actions[i] for i in ids], strict=self._call.options.strict) is None:
+            return None
+        others, tick = (tuple(i for i in ids if is_last(actions[i]) is last) for last in (False, True))
+        return self._as_one(others), self._as_one(tick)
 
     def _robots(self, state: int) -> tuple[BitOperator, ...]:
-        """All that robots can do by themselves, as operators labelled by all actions, nothing first."""
+        """All that robots can begin by themselves, as operators labelled by all actions, nothing first."""
+        due = self._due(state)
+        if due is None:
+            return ()
         candidates = sorted(op.label for op in self._own.applicable(state))
-        strict = self._call.options.strict
-        sets = sets_beside(self._task, (), candidates, self._call.effort.deadline, strict=strict)
-        return tuple(self._as_one(chosen) for chosen in sets)
+        going_on, strict = due[0].label, self._call.options.strict
+        sets = sets_beside(self._task, going_on, candidates, self._call.effort.deadline, strict=strict)
+        return tuple(self._as_one(chosen[len(going_on) :]) for chosen in sets)
 
     def _as_one(self, chosen: tuple[int, ...]) -> BitOperator:
         add = delete = paid = 0
         for i in chosen:
-            operator = self.operators[i]
+            operator = self._operators[i]
             add, delete, paid = add | operator.add, delete | operator.delete, paid + operator.weight
         return BitOperator(0, 0, add, delete, paid, chosen)
 
     def _human(self, state: int) -> tuple[BitOperator, ...]:
-        """All that the human can do, joint actions included, waiting first."""
+        """All that the human can begin, joint actions included, waiting first."""
         return _WAITS, *self._parts.applicable(state)
 
-    def _fits(self, part: int | None, robots: tuple[int, ...]) -> bool:
-        """Whether the human's part can share an epoch with what robots do."""
+    def _beside(self, part: int, others: tuple[int, ...]) -> bool:
+        """Whether the human's part can share an epoch with what others do."""
         actions, strict = self._task.actions, self._call.options.strict
-        return part is None or fits(actions[part], (actions[i] for i in robots), strict=strict)
+        return fits(actions[part], (actions[i] for i in others), strict=strict)
 
     def seen(self, part: BitOperator) -> Seen:
         """What robots see of the human's part."""
@@ -114,30 +152,28 @@ class Course:
     """
 
     def __init__(self, call: ExaminedCall, moves: Moves, pay: Callable[[int], int], epoch: int) -> None:
-        self._call, self._moves, self._pay, self._epoch = call, moves, pay, epoch
-        self._plan = [moves.operators[i] for i in call.human_plan or ()]
+        self._moves, self._pay, self._epoch = moves, pay, epoch
+        self._plan = [moves.part(i) for i in call.human_plan or ()]
         self._horizon = int(call.horizon)
         self._most = call.options.max_window
         self._counts = self._most is not None or call.options.preservation == "state"
-        goal, of = call.task.goal, moves.bits.of
-        self._goal = BitCondition(of(goal.positive), of(goal.negative))
+        of, task = moves.bits.of, call.task
+        self._at_rest = of(task.at_rest)
+        self._goal = BitCondition(of(task.goal.positive) | self._at_rest, of(task.goal.negative))
         question = call.question.but(rule=FREE)
         part = relevant_part(question)
         assert part is not None, "only goals that the human reaches are considered"
-        left, suffix = (
-            LeastLeft(question, part),
-            suffix_of(call.task, call.options, call.human_plan or (), call.plans),
-        )
-        self._asked, self._matters = of(suffix.facts), of(left.facts)
-        self._begin = cache(lambda state, *at: suffix.begin(_facts(state), *at))
-        self._step = cache(lambda state, *at: suffix.step(_facts(state), *at))
-        self._rest = cache(lambda state, *at: call.prices.units(suffix.cost(_facts(state), *at)))
-        self._bound = cache(lambda state: left(_facts(state)))
+        left = LeastLeft(question, part)
+        suffix, asked = suffix_of(task, call.options, call.human_plan or (), call.plans)
+        self._asked, self._matters = of(asked), of(left.facts)
+        self._suffix = cache(lambda state, *at: suffix(facts_of(state), *at))
+        self._rest = cache(lambda rest: pay(sum(call.prices.team[i] for i in rest)))
+        self._bound = cache(lambda state: left(facts_of(state)))
 
     def least(self, at: Member, epoch: int) -> int:
         """No less is left to pay after an epoch; after the last one exactly that."""
         if at.phase == OVER:
-            return self._pay(self._rest(at.state & self._asked, at.epochs, self._horizon - epoch))
+            return self._rest(at.rest)
         wait = self._epoch if at.phase == FOLLOWS else 0
         if epoch == self._horizon:
             return wait if at.phase == FOLLOWS and self._goal.holds(at.state) else INFINITE
@@ -148,37 +184,37 @@ class Course:
         """What may happen in an epoch in which robots do so much by themselves."""
         moves = self._moves
         if at.phase == OVER:
-            step, index = self._step(at.state & self._asked, at.epochs, self._horizon - epoch + 1)
-            part = _WAITS if step is None else moves.operators[step]
-            yield self._way(at._replace(epochs=index), part, robots)
+            following = moves.part(at.rest[0] if at.rest else None)
+            yield from self._ways(at._replace(rest=at.rest[1:]), following, robots)
             return
         if at.phase == FOLLOWS:
-            planned = self._plan[epoch - 1] if epoch <= len(self._plan) else _WAITS
-            if planned.applicable(at.state) and moves.fits(planned.label, robots.label):
-                yield self._way(at, planned, robots)
+            planned = self._plan[epoch - 1] if epoch <= len(self._plan) else moves.part(None)
+            if planned.applicable(at.state):
+                yield from self._ways(at, planned, robots)
             if epoch > len(self._plan):
                 return
         for part in moves.human(at.state):
-            if moves.fits(part.label, robots.label):
-                yield from self._inside(at, part, robots, epoch)
+            for way in self._ways(at, part, robots):
+                yield from self._inside(way, epoch)
 
-    def _inside(self, at: Member, part: BitOperator, robots: BitOperator, epoch: int) -> Iterator[Way]:
-        """Rules 2 and 3: the window ends with the epoch, or goes on."""
-        seen, spent, after = self._way(at, part, robots)
-        paid, state = spent + self._epoch, after.state
+    def _inside(self, way: Way, epoch: int) -> Iterator[Way]:
+        """Rules 2 and 3: the window ends with the epoch, robots at rest, or goes on."""
+        paid, at = way.paid + self._epoch, way.after
         epochs = at.epochs + 1 if self._counts else 0
         start = epoch + 1 - epochs if self._counts else 1
-        index = self._begin(state & self._asked, start, self._horizon - epoch)
-        if index is not None:
-            yield Way(seen, paid, Member(at.scenario, state, OVER, index, at.ahead))
+        if at.state & self._at_rest == self._at_rest:
+            rest = self._suffix(at.state & self._asked, start, self._horizon - epoch)
+            if rest is not None:
+                yield Way(way.seen, paid, at._replace(phase=OVER, epochs=0, rest=rest))
         if epoch < self._horizon and (self._most is None or epochs < self._most):
-            yield Way(seen, paid, Member(at.scenario, state, INSIDE, epochs, at.ahead))
+            yield Way(way.seen, paid, at._replace(phase=INSIDE, epochs=epochs))
 
-    def _way(self, at: Member, part: BitOperator, robots: BitOperator) -> Way:
-        state = at.state & ~(part.delete | robots.delete) | part.add | robots.add
-        after = Member(at.scenario, state, at.phase, at.epochs, at.ahead)
-        return Way(self._moves.seen(part), part.weight + robots.weight, after)
+    def _ways(self, at: Member, part: BitOperator, robots: BitOperator) -> Iterator[Way]:
+        together = self._moves.together(at.state, part, robots)
+        if together is not None:
+            yield Way(self._moves.seen(part), together[0], at._replace(state=together[1]))
 
 
-def _facts(state: int) -> State:
+def facts_of(state: int) -> State:
+    """The facts of a state."""
     return frozenset(bit.bit_length() - 1 for bit in each_bit(state))

@@ -1,7 +1,7 @@
 """Each scenario's timeline against the rules of section 3.1, and all of them together (semantics 11)."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
@@ -9,12 +9,16 @@ from typing import Final
 
 from serendipity.model import Condition, Deadline, Result, Task
 from serendipity.model.answers.result_parts import GoalAnswer
-from verify.base.individual import IndividualOptimum
+from verify.base.beside_script import alone_of
+from verify.base.due import onward
+from verify.base.execution import State, unchosen
 from verify.base.optimal_plans import OptimalPlans
+from verify.rules.bound import bound_and_objective, bound_and_status
 from verify.rules.case import Case
 from verify.rules.registry import RULES
+from verify.rules.report import Violation
 from verify.scenarios.reading import weight
-from verify.scenarios.suffixes import planned, suffix_of
+from verify.scenarios.suffixes import suffix_of
 
 Figures = tuple[Fraction, Fraction]
 """Objective and cost."""
@@ -22,7 +26,7 @@ Figures = tuple[Fraction, Fraction]
 _BY_CLAIM: Final = {
     "replay": (
         *("human-plan", "epoch-range", "unknown-action", "wrong-agents"),
-        *("precondition", "agent-busy-twice", "conflict", "human-goal"),
+        *("precondition", "agent-busy-twice", "conflict", "at-rest", "human-goal"),
     ),
     "cost": ("step-cost", "cost"),
     "window": (
@@ -47,12 +51,6 @@ class Timeline:
         return self.case.task
 
     @property
-    def alone(self) -> Fraction:
-        """What the human's plan costs them."""
-        assert self.case.human_cost is not None, "a rule"
-        return self.case.human_cost
-
-    @property
     def epochs(self) -> int:
         """Epochs of window that count: a plan that is left alone counts as one."""
         window = self.case.result.window
@@ -74,7 +72,7 @@ def timelines(
     weights = [weight(entry.probability) for entry in served]
     total = sum(weights, Fraction(0))
     tasks = {goal: task.with_goal(goal, Condition()) for goal in goals}
-    alone = {goal: IndividualOptimum(own, deadline) for goal, own in tasks.items()}
+    alone = {goal: alone_of(own, deadline, result.options) for goal, own in tasks.items()}
     found = []
     for goal, entry, share in zip(goals, served, weights, strict=True):
         answer = replace(
@@ -99,10 +97,21 @@ def rule_fault(claim: str, lines: Sequence[Timeline]) -> str | None:
             if rule.name in _BY_CLAIM[claim] and not (line.case.result.window is None and claim == "window"):
                 found = rule.check(line.case)
                 if found is not None:
-                    place = "" if found.epoch is None else f"epoch {found.epoch}: "
-                    what = "" if found.action is None else f"'{found.action}': "
-                    broken = f"{rule.name} (semantics {rule.section})"
-                    return f"scenario '{line.name}': {broken}: {place}{what}{found.message}"
+                    broken = Violation(rule.name, claim, rule.section, *found)
+                    return f"scenario '{line.name}': {broken}"
+    return None
+
+
+def lasting_fault(lines: Sequence[Timeline]) -> str | None:
+    """What each plan reaches lasts until ``T`` where robots are idle (semantics 10)."""
+    for line in lines:
+        task, plan, last = line.task, line.case.pi_h, int(line.case.result.horizon or 0)
+        state: State | None = task.init
+        for epoch in range(last):
+            chosen, strict = plan[epoch : epoch + 1], line.case.result.options.strict
+            state = None if state is None else onward(task, state, chosen, strict=strict)
+        if state is None or not task.goal.holds(state):
+            return f"scenario '{line.name}': the plan does not last until T = {last}"
     return None
 
 
@@ -113,10 +122,12 @@ def suffix_fault(lines: Sequence[Timeline]) -> str | None:
         if window is None:
             continue
         plans = OptimalPlans(case.task, case.alone)
-        suffix = suffix_of(case.task, case.result.options, case.pi_h, plans)
+        suffix, _ = suffix_of(case.task, case.result.options, case.pi_h, plans)
         state, left = case.replay.state_after(window.end - 1), int(case.result.horizon or 0) + 1 - window.end
-        done = [case.name(i) for epoch, i in sorted(case.human_does().items()) if epoch >= window.end]
-        if done != planned(case.task, suffix, state, window.start, left):
+        rest = suffix(state, window.start, left)
+        expected = {t: case.name(i) for t, i in enumerate(rest or (), window.end) if i not in case.waiting}
+        done = {t: case.name(i) for t, i in case.human_does().items() if t >= window.end}
+        if rest is None or done != expected:
             return f"scenario '{line.name}': from epoch {window.end} the human does not do the canonical plan"
     return None
 
@@ -125,8 +136,9 @@ def together_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
     """Robots act by what they have seen, and no plan that is left alone is broken (semantics 11)."""
     common = horizon = int(result.horizon or 0)
     watching = result.options.policy == "watching"
-    seen = [_done(line.case.result, by_human=True) for line in lines]
-    own = [_done(line.case.result, by_human=False) for line in lines]
+    goes_on = {lines[0].task.actions[i].name for i in unchosen(lines[0].task)}
+    seen = [_begun(line.case.result, goes_on, by_human=True) for line in lines]
+    own = [_begun(line.case.result, goes_on, by_human=False) for line in lines]
     for i, k in combinations(range(len(lines)), 2):
         differ = (t for t in range(1, horizon) if watching and seen[i].get(t) != seen[k].get(t))
         last = next(differ, horizon)
@@ -135,24 +147,27 @@ def together_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
             names = f"'{lines[i].name}' and '{lines[k].name}'"
             return f"epoch {epoch}: robots do not do the same in {names}, which are not told apart"
         common = min(common, last)
-    if _done(result, by_human=True):
+    if _begun(result, goes_on, by_human=True):
         return "the plan is what robots do without the human"
-    if _done(result, by_human=False) != {t: steps for t, steps in own[0].items() if t <= common}:
+    if _begun(result, goes_on, by_human=False) != {t: steps for t, steps in own[0].items() if t <= common}:
         return f"the plan is not what robots do by themselves up to epoch {common}, seeing no difference"
     for line in lines:
         case = line.case
-        if case.result.window is None and case.human_does() != dict(enumerate(case.pi_h, start=1)):
+        planned = {t: i for t, i in enumerate(case.pi_h, start=1) if i not in case.waiting}
+        if case.result.window is None and case.human_does() != planned:
             return f"scenario '{line.name}': the plan is left alone, but the human does something else"
     return None
 
 
-def _done(result: Result, *, by_human: bool) -> dict[int, list[tuple[str, list[str], float]]]:
-    """What the human takes part in, which robots see, or what robots do by themselves, by epoch."""
-    done: dict[int, list[tuple[str, list[str], float]]] = {}
+def _begun(
+    result: Result, goes_on: Container[str], *, by_human: bool
+) -> dict[int, list[tuple[str, list[str], float]]]:
+    """What the human begins, which robots see, or what robots begin by themselves, by epoch."""
+    begun: dict[int, list[tuple[str, list[str], float]]] = {}
     for step in result.plan or ():
-        if (result.human in step.agents) is by_human:
-            done.setdefault(step.epoch, []).append((step.action, sorted(step.agents), step.cost))
-    return {epoch: sorted(steps) for epoch, steps in done.items()}
+        if (result.human in step.agents) is by_human and step.action not in goes_on:
+            begun.setdefault(step.epoch, []).append((step.action, sorted(step.agents), step.cost))
+    return {epoch: sorted(steps) for epoch, steps in begun.items()}
 
 
 # -- figures
@@ -182,16 +197,15 @@ def answered(
     """Objective and cost of the answer, or of leaving the human alone, which counts as one epoch."""
     window, each = result.options.window_weight, []
     for line in lines:
-        cost, epochs = (line.alone, 1) if alone else (line.case.cost, line.epochs)
+        cost, epochs = (line.case.human_cost or Fraction(0), 1) if alone else (line.case.cost, line.epochs)
         each.append((cost + window * epochs, cost))
     return measured(result.options.risk, lines, each, floors)
 
 
 def figures_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
     """Whether a figure is wrong; those of regret need an optimiser, but for what follows from the others."""
-    answers = [line.case.result for line in lines]
-    acting = any(step.agents != (result.human,) for answer in answers for step in answer.plan or ())
-    if not result.opportunity and (acting or any(answer.window for answer in answers)):
+    acting = any(not line.case.own(i) for line in lines for _, i in line.case.steps())
+    if not result.opportunity and (acting or any(line.case.result.window for line in lines)):
         return "no opportunity, but robots act"
     if result.options.risk != "regret":
         fault = differing(result, figures(result, lines))
@@ -233,14 +247,11 @@ def _shares_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
     return None
 
 
-def bound_fault(result: Result) -> str | None:
+def bound_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
     """An optimum's bound is its objective, and no bound exceeds one."""
-    bound, objective = result.lower_bound, result.objective
-    if bound is None or objective is None:
-        return "an answer has an objective and a lower bound"
-    if result.status == "optimal" and bound != objective:
-        return f"optimal, but lower_bound is {bound} and the objective {objective}"
-    return f"lower_bound {bound:.12g} exceeds the objective {objective:.12g}" if bound > objective else None
+    whole = replace(lines[0].case, result=result)
+    found = bound_and_status(whole) or bound_and_objective(whole)
+    return None if found is None else found.message
 
 
 def close(said: float, value: Fraction) -> bool:

@@ -95,8 +95,9 @@ class Result(Tabular, Output):
     @property
     def in_time(self) -> bool:
         """Whether it says more of times than which epoch each action is for."""
-        longer = any(step.duration > 1 for step in self.plan or ())
-        return longer or self.human_plan_times is not None or bool(self.bystanders)
+        every: tuple[Result | GoalAnswer, ...] = (self, *(self.goals or ()))
+        longer = any(step.duration > 1 for said in every for step in said.plan or ())
+        return longer or any(said.human_plan_times for said in every) or bool(self.bystanders)
 
     def figure(self, name: str) -> int | float | None:
         """A number of the statistics; None where there is none of that name."""
