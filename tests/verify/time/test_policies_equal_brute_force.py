@@ -1,12 +1,17 @@
-"""The search for a better policy in time finds what brute force finds, whatever the policy and the risk."""
+"""Policies in time: the verifier's search finds what brute force finds, and proves what the planner finds."""
+
+import json
 
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from serendipity.model import Options, Task
+import serendipity
+from search.modes.scenarios import Candidate
+from serendipity.model import Condition, Options, Result, Task, UsageError
 from serendipity.model.task.unit_steps import unit_steps
 from serendipity.testing.oracle.scenarios import best_policy
-from tests.testing.oracle.test_scenarios_by_hand import Scenario
-from tests.verify.time.scenarios import scenarios_in_time
+from serendipity.testing.strategies.time import tasks_in_time
+from tests.search.modes.scenarios.test_in_time import calls_in_time, library
 from verify.base.beside_script import alone_of
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.call import ExaminedCall
@@ -17,12 +22,15 @@ from verify.scenarios.proof import floor_of
 _FAR = 10**100
 
 
-@given(scenarios_in_time())
+@given(calls_in_time())
 @settings(max_examples=60)
-def test_the_least_value_is_that_of_brute_force(drawn: tuple[Task, list[Scenario], Options]) -> None:
+def test_the_least_value_is_that_of_brute_force(drawn: tuple[Task, list[Candidate], Options] | None) -> None:
+    if drawn is None:
+        return
     task, scenarios, options = drawn
-    right = best_policy(task, options, scenarios, int(options.horizon or 0))
-    calls = [_call(task, options, scenario) for scenario in scenarios]
+    horizon = int(options.horizon or max(task.epochs_of(one.plan) for one in scenarios))
+    right = best_policy(task, options, scenarios, horizon)
+    calls = [_call(task, options.but(horizon=horizon), scenario) for scenario in scenarios]
     measure = Measure(calls, [scenario.weight for scenario in scenarios], [floor_of(call) for call in calls])
 
     def better(than: int) -> Better | None:
@@ -35,7 +43,39 @@ def test_the_least_value_is_that_of_brute_force(drawn: tuple[Task, list[Scenario
     assert measure.joined(measure.floors) <= found.value
 
 
-def _call(task: Task, options: Options, scenario: Scenario) -> ExaminedCall:
+def _call(task: Task, options: Options, scenario: Candidate) -> ExaminedCall:
     units = unit_steps(task.with_goal(scenario.goal))
     plans = OptimalPlans(units.task, alone_of(units.task, options=options))
     return ExaminedCall(units.task, options, units.plan(scenario.plan), plans)
+
+
+@given(calls_in_time())
+@settings(max_examples=60)
+def test_answers_about_a_library_are_proved(drawn: tuple[Task, list[Candidate], Options] | None) -> None:
+    if drawn is not None:
+        task, scenarios, options = drawn
+        _prove(task, options, plans=library(task, scenarios))
+
+
+@given(tasks_in_time(), st.sampled_from(["fixed", "watched"]), st.booleans(), st.data())
+@settings(max_examples=60)
+def test_answers_about_goals_and_ties_are_proved(
+    drawn: Task, ties: str, several: bool, data: st.DataObject
+) -> None:
+    task = drawn.with_goal(drawn.goal, Condition())
+    facts = [data.draw(st.sampled_from(task.facts)) for _ in range(2)]
+    options = Options(ties=ties, policy=data.draw(st.sampled_from(["watching", "fixed"])))
+    goals = [{"name": f"goal {k}", "goal": [fact], "prior": f"{2 * k + 1}/4"} for k, fact in enumerate(facts)]
+    _prove(task, options, **({"goals": goals} if several or ties == "fixed" else {}))
+
+
+def _prove(task: Task, options: Options, **unsure: object) -> None:
+    asked = {name: getattr(options, name) for name in Options.__dataclass_fields__}
+    try:
+        answer = serendipity.plan(task, **unsure, **asked)
+    except UsageError:  # what a plan reaches does not last
+        return
+    answer = Result.from_dict(json.loads(json.dumps(answer.to_dict())))
+    certificate = serendipity.verify(task, answer)
+    assert certificate.verdict == "proved", certificate
+    assert all(claim.verdict != "refuted" for claim in serendipity.check(task, answer).claims)

@@ -89,6 +89,19 @@ def test_it_is_proved() -> None:
     assert all(claim.verdict != "refuted" for claim in serendipity.check(slow_roads(), answer()).claims)
 
 
+@pytest.mark.parametrize("policy", ["watching", "fixed"])
+def test_what_goes_on_where_nobody_is_helped_is_paid_for(policy: str) -> None:
+    """Committed robots lift for the likelier road, and go on lifting whoever it turns out to be."""
+    library = [
+        {"name": "a", "probability": "1/3", "plan": ["go_a h", "rest h", "end_a h"]},
+        {"name": "b", "probability": "2/3", "plan": [(2, "go_b h"), (4, "rest h"), (6, "end_b h")]},
+    ]
+    said = serendipity.plan(slow_roads(), plans=library, policy=policy)
+    for goal in said.goals or ():
+        assert goal.cost == sum(step.cost for step in goal.plan or ())
+    assert _certified(slow_roads(), said).verdict == "proved"
+
+
 def _lifted(scenario: str, epoch: int) -> Edit:
     """A robot that lifts in another epoch."""
 
