@@ -205,14 +205,15 @@ class Course:
         if at.state & self._at_rest == self._at_rest:
             rest = self._suffix(at.state & self._asked, start, self._horizon - epoch)
             if rest is not None:
-                yield Way(way.seen, paid, at._replace(phase=OVER, epochs=0, rest=rest))
+                yield Way(way.seen, paid, Member(at.scenario, at.state, OVER, 0, rest, at.ahead))
         if epoch < self._horizon and (self._most is None or epochs < self._most):
-            yield Way(way.seen, paid, at._replace(phase=INSIDE, epochs=epochs))
+            yield Way(way.seen, paid, Member(at.scenario, at.state, INSIDE, epochs, (), at.ahead))
 
     def _ways(self, at: Member, part: BitOperator, robots: BitOperator) -> Iterator[Way]:
         together = self._moves.together(at.state, part, robots)
         if together is not None:
-            yield Way(self._moves.seen(part), together[0], at._replace(state=together[1]))
+            after = Member(at.scenario, together[1], at.phase, at.epochs, at.rest, at.ahead)
+            yield Way(self._moves.seen(part), together[0], after)
 
 
 def facts_of(state: int) -> State:

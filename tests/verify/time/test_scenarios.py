@@ -6,6 +6,7 @@ Lifting takes two epochs, too, and makes either way 3 cheaper.
 
 import json
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, Final
 
 import pytest
@@ -87,6 +88,12 @@ def test_it_is_proved() -> None:
     certificate = _certified(slow_roads(), answer())
     assert certificate.verdict == "proved", certificate
     assert all(claim.verdict != "refuted" for claim in serendipity.check(slow_roads(), answer()).claims)
+
+
+def test_its_proof_is_accepted(tmp_path: Path) -> None:
+    file = tmp_path / "proof.json"
+    assert serendipity.verify(slow_roads(), answer(), proof=file).verdict == "proved"
+    assert serendipity.check_proof(file, slow_roads(), answer()).verdict == "accepted"
 
 
 @pytest.mark.parametrize("policy", ["watching", "fixed"])
