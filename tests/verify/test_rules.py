@@ -87,6 +87,18 @@ def test_a_violation_names_epoch_and_action() -> None:
     assert "'has rob k2' is false" in str(first)
 
 
+def test_help_needs_a_plan_of_the_humans_even_where_nobody_says_it_is_the_best() -> None:
+    """What robots do for a human who can't reach their goal alone is no answer in a mode of windows."""
+    task = build(goal="done", actions={"do h": "open -> done", "bring r": "-> done @ 2"})
+    joint = serendipity.plan(task, mode="composite", horizon=3)
+    assert (joint.status, joint.human_plan) == ("optimal", None)
+    windows = replace(joint, mode="serendipity", options=joint.options.but(mode="serendipity"), horizon=None)
+    for status in ("optimal", "feasible"):
+        report = check(task, replace(windows, status=status))
+        assert not report.ok
+    assert certify(task, replace(windows, status="feasible")).verdict == "refuted"
+
+
 def test_rules_stand_in_the_order_of_their_claims() -> None:
     claims = [rule.claim for rule in RULES]
     assert claims == sorted(claims, key=CLAIMS.index)

@@ -132,7 +132,7 @@ def infeasible(case: Case) -> RuleFault | None:
     if result.status == "infeasible" and case.human_plan is not None and not case.robots_goal:
         return RuleFault("infeasible, though doing nothing is an answer: pi_H")
     if (
-        result.status == "optimal"
+        result.status in ("optimal", "feasible")
         and result.mode in ("individual", "serendipity")
         and case.human_plan is None
     ):

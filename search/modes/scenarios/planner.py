@@ -1,6 +1,7 @@
 """Help for a human of whom only scenarios are known, by robots that watch or not (semantics 11)."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -70,10 +71,11 @@ def solve_scenarios(
             known, best = best, call.answer("feasible")
             if (best.objective, best.cost) != (known.objective, known.cost):
                 yield best
+        best = call.answer("optimal" if call.is_exact else "feasible")
     except LIMITS:
-        yield call.answer("feasible")
-    else:
-        yield call.answer("optimal" if call.is_exact else "feasible")
+        with suppress(*LIMITS):  # what is done after a window may not have been put together yet
+            best = call.answer("feasible")
+    yield best
 
 
 class _ScenarioCall:

@@ -7,17 +7,18 @@ from hypothesis import strategies as st
 
 from search import PreparedTask
 from search.modes.scenarios import Candidate, solve_scenarios
-from serendipity.model import Condition, Options, Task
+from serendipity.model import Condition, Deadline, Options, Task
 from serendipity.model.answers.answer import Answer
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle.scenarios import best_policy
+from tests.endings import endings
 from tests.search.modes.scenarios.strategies import options_over, scenarios
 
 _LARGEST = {1: 4, 2: 4, 3: 3}
 """Horizons that brute force copes with, by the number of scenarios."""
 
 
-def solved(task: Task, options: Options, candidates: list[Candidate]) -> Answer:
+def solved(task: Task, candidates: list[Candidate], options: Options) -> Answer:
     """The last answer, which is exact."""
     *_, answer = solve_scenarios(PreparedTask(task), options, candidates)
     assert answer.status == "optimal"
@@ -33,7 +34,7 @@ def test_search_equals_brute_force(given_: tuple[Task, list[Candidate]], data: s
     if horizon > _LARGEST[len(candidates)] or len(task.actions) * horizon > 45:
         return
     best = best_policy(task, options, candidates, horizon)
-    answer = solved(task, options, candidates)
+    answer = solved(task, candidates, options)
     assert (answer.objective, answer.cost) == (best.objective, best.cost)
     assert (answer.opportunity, answer.baseline) == (best.opportunity, best.baseline)
     if options.risk == "mean":
@@ -41,8 +42,8 @@ def test_search_equals_brute_force(given_: tuple[Task, list[Candidate]], data: s
         assert sum(costs, Fraction(0)) == answer.cost
 
 
-def test_a_window_may_close_before_the_human_profits() -> None:
-    """Both things are up after epoch 2; the human waits in a window of one epoch, and is quick after it."""
+def lifted() -> tuple[Task, list[Candidate]]:
+    """The human turns to one of two things, and is quicker where a robot has lifted it."""
     task = build(
         init="start",
         actions={
@@ -64,6 +65,26 @@ def test_a_window_may_close_before_the_human_profits() -> None:
         )
         for fact in "xy"
     ]
-    options = Options(horizon=3, window_weight=Fraction(1), policy="fixed")
-    answer = solved(task, options, candidates)
+    return task, candidates
+
+
+def test_a_window_may_close_before_the_human_profits() -> None:
+    """Both things are up after epoch 2; the human waits in a window of one epoch, and is quick after it."""
+    answer = solved(*lifted(), Options(horizon=3, window_weight=Fraction(1), policy="fixed"))
     assert (answer.objective, answer.cost) == (Fraction(7, 2), Fraction(5, 2))
+
+
+def test_there_is_an_answer_at_every_limit() -> None:
+    """What is done after a window is put together last, and no limit may come between."""
+    task, candidates = lifted()
+    for policy, suffix in (("watching", "replan"), ("watching", "subplan"), ("fixed", "subplan")):
+        options = Options(horizon=3, window_weight=Fraction(1), policy=policy, suffix=suffix)
+
+        def ended(limit: Deadline, options: Options = options) -> Answer:
+            *_, answer = solve_scenarios(PreparedTask(task), options, candidates, limit)
+            return answer
+
+        found = list(endings(ended))
+        costs = [ending.cost for ending in found if isinstance(ending, Answer)]
+        assert len(costs) == len(found), "an answer was known, and lost"
+        assert costs[0] == Fraction(11, 2) > costs[-1]
