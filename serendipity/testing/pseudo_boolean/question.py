@@ -1,0 +1,65 @@
+"""What a program of a proof file is about, read from its name: which plans, of how many epochs."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from serendipity.model import Options, Result, Task
+
+_NAME = re.compile(
+    r"(all plans|every window|pi_H as planned), (\d+) epochs(, robots idle)?(, cost at most (-?\d+))?"
+)
+
+
+class NotMadeError(ValueError):
+    """A question that is not made a second time; the text says why."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """Which plans are asked about, at what price.
+
+    Attributes:
+        human_plan: ``pi_H`` by ids; empty where there is none.
+        epochs: how many.
+        rule: ``all plans``, ``every window``, or ``pi_H as planned``.
+        robots: whether they take part at all.
+        most_cost: a plan may not cost more, or None.
+        suffixes: epochs and states from which the human's optimal plan is to be known (Def. 2.0a).
+    """
+
+    task: Task
+    options: Options
+    human_plan: Sequence[int]
+    epochs: int
+    rule: str
+    robots: bool = True
+    most_cost: Fraction | None = None
+    suffixes: Sequence[tuple[int, frozenset[int]]] = ()
+
+
+def question_of(task: Task, result: Result, entry: Mapping[str, Any]) -> Question:
+    """The question that a program answers.
+
+    Args:
+        task: the task that the proof is about.
+        result: the answer that it proves.
+        entry: the program.
+
+    Raises:
+        NotMadeError: it is about something else, or about one of several plans of the human's.
+    """
+    told = _NAME.fullmatch(entry["name"])
+    if told is None or "/" not in entry["unit"] or not int(told[2]):
+        raise NotMadeError(f"{entry['name']}; unit {entry['unit']}")
+    if len(result.ties or ()) > 1:
+        raise NotMadeError("ties")
+    numbers = {fact: f for f, fact in enumerate(task.facts)}
+    suffixes = [
+        (each["epoch"], frozenset(numbers[f] for f in each["state"])) for each in entry.get("suffixes", ())
+    ]
+    plan = task.plan_from_names(result.human_plan) if result.human_plan else ()
+    most = None if told[5] is None else int(told[5]) * Fraction(entry["unit"])
+    return Question(task, result.options, plan, int(told[2]), told[1], told[3] is None, most, suffixes)
