@@ -2,8 +2,8 @@
 
     python -m benchmarks.certificates [FOLDER] [--human H] [--buildings 84x3,84x3x2,210x6] [--suite FOLDER]
         [--stride N] [--modes NAME,...] [--discounts D,...] [--plan-limit SECONDS] [--time-limit SECONDS]
-        [--encoding automata] [--solver highs] [--method auto] [--methods=-NAME,...] [--proofs] [--apart]
-        [--record FILE]
+        [--encoding automata] [--solver highs] [--method auto] [--methods=-NAME,...] [--proofs]
+        [--veripb PATH] [--apart] [--record FILE]
 
 A building is named by its rooms, medkits and robots; there are five of each.  A task is read, planned, read
 again and verified.  What a limit left unplanned is left out.  ``seconds`` are from the second reading to the
@@ -15,12 +15,15 @@ without calls: pruning).  With ``--apart`` all is done in processes of their own
 
 With ``--proofs`` a proof is written: ``write`` is all of ``verify --proof``, reading included;
 ``check`` is the checker alone, from the file to its verdict, as in a process that has started; and
-``compare`` is ``check-proof`` with task and result, which reads the task and makes the programs again.
+``compare`` is ``check-proof`` with task and result, which reads the task and makes the programs again;
+``form`` is writing the same in the field's form, of which ``OPB`` are the problems and ``pbp`` the proofs of
+version 2.0. With ``--veripb`` VeriPB checks each program's proof, of version 1.1 if it knows no other.
 
 With ``--record`` answers and what comes of them are written down, and a later run with the same file goes
 on where the first one stopped.
 """
 
+import subprocess
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -42,10 +45,12 @@ from serendipity.evaluation.measuring.record import apart, measured
 from serendipity.evaluation.measuring.suites import folders, may_alone
 from serendipity.evaluation.measuring.tables import as_markdown, grouped, spreads, table
 from serendipity.model.telling import Grid, Line
+from serendipity.writing.together import write_together
+from serendipity.writing.veripb import in_the_fields_form
 from verify.certificate.certify import certify
 from verify.proofs import checker
 
-FIGURES = ("write", "KiB", "check", "compare", "columns", "rows", "leaves")
+FIGURES = ("write", "KiB", "check", "compare", "form", "OPB", "pbp", "columns", "rows", "leaves")
 SEEDS = range(1, 6)
 
 Row = Mapping[str, Any]
@@ -68,6 +73,7 @@ class Job:
     asked: Asked
     how: tuple[tuple[str, Any], ...]
     proofs: bool
+    veripb: str
     answer: Row = field(repr=False)
 
 
@@ -86,6 +92,7 @@ def main(
     method: str = "auto",
     methods: str = "",
     proofs: bool = False,
+    veripb: str = "",
     separate: Annotated[bool, typer.Option("--apart")] = False,
     record: Path | None = None,
 ) -> None:
@@ -100,7 +107,7 @@ def main(
     )
     answers = measured(asked, plan, record)
     jobs = (
-        Job(each, tuple(how.items()), proofs, answer)
+        Job(each, tuple(how.items()), proofs, veripb, answer)
         for each, answer in answers
         if answer["status"] in ("optimal", "infeasible")
     )
@@ -138,7 +145,7 @@ def verified(job: Job) -> Row:
     """Verdict and figures of a certificate."""
     result, how = Result.from_dict(dict(job.answer)), dict(job.how)
     if job.proofs:
-        return _proof(job.asked.source, result, how["time_limit"])
+        return _proof(job, result, how["time_limit"])
 
     def work() -> tuple[Any, float]:
         task = load(job.asked.source)
@@ -160,7 +167,8 @@ def verified(job: Job) -> Row:
     }
 
 
-def _proof(source: Source, result: Result, limit: float | None) -> Row:
+def _proof(job: Job, result: Result, limit: float | None) -> Row:
+    source = job.asked.source
     with TemporaryDirectory() as scratch:
         file = Path(scratch, "proof.json.gz")
         _, write = timed(lambda: serendipity.verify(load(source), result, proof=file, time_limit=limit))
@@ -168,10 +176,29 @@ def _proof(source: Source, result: Result, limit: float | None) -> Row:
             return {}
         programs, check = timed(lambda: checker.check(checker.read(file)))
         found, compare = timed(lambda: serendipity.check_proof(file, load(source), result))
-        figures = (write, file.stat().st_size / 1024, check, compare)
+        proof = checker.read(file)
+        files, form = timed(lambda: in_the_fields_form(Path(scratch, "proof.pbp"), proof))
+        write_together(files)
+        outside = _by_veripb(job.veripb, sorted(files)) if job.veripb else {}
+        figures = (write, file.stat().st_size / 1024, check, compare, form)
+    by_end = grouped(files, lambda path: "".join(path.suffixes))
+    sizes = [sum(len(files[path]) for path in by_end[end]) / 1024 for end in (".opb", ".pbp")]
     columns, rows = (max(getattr(each, name) for each in programs) for name in ("columns", "rows"))
-    sizes = (columns, rows, sum(each.leaves for each in programs))
-    return {"accepted": found.verdict == "accepted", **dict(zip(FIGURES, (*figures, *sizes), strict=True))}
+    figures += (*sizes, columns, rows, sum(each.leaves for each in programs))
+    return {"accepted": found.verdict == "accepted", **dict(zip(FIGURES, figures, strict=True)), **outside}
+
+
+def _by_veripb(command: str, files: Sequence[Path]) -> Row:
+    """What VeriPB says of the proofs of all programs, and how long it takes by the clock."""
+    started, accepted = perf_counter(), True
+    for formula in (path for path in files if path.suffix == ".opb"):
+        for suffix in (".v1.pbp", ".pbp"):
+            words = [command, str(formula), str(formula.with_suffix(suffix))]
+            done = subprocess.run(words, capture_output=True, text=True, check=False)
+            if "nsupported version" not in done.stderr:
+                break
+        accepted = accepted and not done.returncode and "did not claim" not in done.stderr
+    return {"by VeriPB": accepted, "VeriPB": perf_counter() - started}
 
 
 def _certificates(rows: Sequence[Row]) -> Grid:
@@ -204,8 +231,11 @@ def _proofs(rows: Sequence[Row]) -> Iterator[Line | Grid]:
     for mode, of in [*grouped(rows, lambda row: row["mode"]).items(), ("all", rows)]:
         files = [row for row in of if "accepted" in row]
         accepted = sum(row["accepted"] for row in files)
-        figures = {name: lambda row, name=name: float(row[name]) for name in FIGURES}
-        yield Line(f"{mode}: {len(of)} certificates, {len(files)} files, {accepted} accepted")
+        outside = [row for row in files if "VeriPB" in row]
+        by_veripb = f", {sum(row['by VeriPB'] for row in outside)} by VeriPB" if outside else ""
+        names = (*FIGURES, *(("VeriPB",) if outside else ()))
+        figures = {name: lambda row, name=name: float(row[name]) for name in names}
+        yield Line(f"{mode}: {len(of)} certificates, {len(files)} files, {accepted} accepted{by_veripb}")
         yield spreads(files, figures)
 
 

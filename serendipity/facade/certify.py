@@ -82,8 +82,9 @@ def verify(
         method: ``auto``; ``program``: a solver decides every integer program, also where reachability
             and shortest paths could; ``exhaustive``: all states are searched, epoch by epoch.
         proof: a file for what convinced, to be checked by :func:`serendipity.check_proof`; packed by gzip
-            where its name ends in ``.gz``.  The method is ``program`` then, and there is a file only
-            where the certificate is proved.
+            where its name ends in ``.gz``; OPB and a proof for VeriPB where it ends in ``.pbp``, for each
+            program.  The method is ``program`` then, and there is a file only where the certificate is
+            proved.
         time_limit: seconds for the whole certificate, or None.
         memory_limit: what this process and a solver's may have in memory, in MiB, or None.
         deadline: one that other work shares, such as loading the task; it holds beside the limits.
@@ -115,8 +116,9 @@ def verify(
 
 
 def _write(path: Path, writer: "ProofWriter", certificate: Certificate, result: Result) -> None:
-    """Write down what convinced, packed where the file's name ends in ``.gz``."""
+    """Write down what convinced, in the form that the file's name asks for."""
     from serendipity.writing.together import write_together
+    from serendipity.writing.veripb import SUFFIX, in_the_fields_form
     from verify.certificate.provable import main_claim
     from verify.programs.effort import NoProgramError
     from verify.proofs.book import packed
@@ -124,6 +126,10 @@ def _write(path: Path, writer: "ProofWriter", certificate: Certificate, result: 
     claim = main_claim(result)
     if not writer.programs:
         raise NoProgramError("an answer that rules alone decide")
-    if claim is not None:
-        data = writer.to_dict(claim, certificate.encoding or "")
+    if claim is None:
+        return
+    data = writer.to_dict(claim, certificate.encoding or "")
+    if path.suffix == SUFFIX:
+        write_together(in_the_fields_form(path, data))
+    else:
         write_together({path: packed(data, small=path.suffix == ".gz")})

@@ -106,7 +106,8 @@ Method = Annotated[
     ),
 ]
 Proof = Annotated[
-    Path | None, option("--proof FILE", "Write what convinced it, for `check-proof`; .gz packs it.")
+    Path | None,
+    option("--proof FILE", "Write what convinced it, for `check-proof`; .gz packs it; .pbp is for VeriPB."),
 ]
 """Of an integer program, and of what proves."""
 

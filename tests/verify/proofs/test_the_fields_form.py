@@ -1,0 +1,169 @@
+"""Proofs in the field's form are accepted, by a small checker and by VeriPB, and doctored ones are not."""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import given, settings
+
+import serendipity
+from serendipity.cli.app import main
+from serendipity.model import UsageError
+from serendipity.testing.cases import case_1, case_4
+from serendipity.testing.pseudo_boolean.checker import ProofError, check
+from serendipity.testing.pseudo_boolean.opb import read
+from serendipity.testing.strategies import Call, calls
+from tests.verify.proofs.in_the_fields_form import DOCTORED, Files, files_of, first
+from tests.verify.proofs.samples import SAMPLES, Proof, entry, sample
+from verify.calls.solve import solve
+from verify.certificate.certify import certify
+from verify.certificate.provable import main_claim
+from verify.proofs.book import ProofWriter
+from verify.proofs.checker import SCHEMA
+from verify.solvers.mip import Model
+
+VERIPB = os.environ.get("VERIPB") or shutil.which("veripb")
+needs_veripb = pytest.mark.skipif(VERIPB is None, reason="VeriPB is neither on the path nor named by VERIPB")
+
+
+def _optimum(files: Files) -> int | None:
+    """What both versions of a proof show."""
+    problem = read(files.opb)
+    shown = {check(problem, proof) for proof in files[1:]}
+    assert len(shown) == 1
+    return shown.pop()
+
+
+def _told_by_veripb(files: Files, folder: Path) -> bool:
+    """Whether VeriPB accepts the proof of version 1.1, or else that of version 2.0."""
+    assert VERIPB is not None
+    formula, proof = folder / "help.opb", folder / "help.pbp"
+    formula.write_text(files.opb)
+    told = ""
+    for text in (files.old_proof, files.proof):
+        proof.write_text(text)
+        done = subprocess.run([VERIPB, str(formula), str(proof)], capture_output=True, text=True, check=False)
+        told = done.stdout + done.stderr
+        if "nsupported version" not in told:
+            doubts = any(words in told for words in ("did not claim", "unjustified"))
+            return done.returncode == 0 and not doubts
+    return False
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_samples_show_what_their_programs_claim(name: str) -> None:
+    proof = sample(name).proof
+    for program, files in zip(proof["programs"], files_of(proof), strict=True):
+        assert _optimum(files) == (program["limit"] + 1 if "solution" in program else None)
+
+
+def _allows(program: Proof, values: list[int]) -> bool:
+    """Whether whole values satisfy a program's columns and rows."""
+    sides = {"<=": int.__le__, ">=": int.__ge__, "==": int.__eq__}
+    bounded = all(low <= x <= high for x, (low, high) in zip(values, program["columns"], strict=True))
+    return bounded and all(
+        sides[row["sense"]](sum(a * values[x] for x, a in row["terms"]), row["right"])
+        for row in program["rows"]
+    )
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_opb_states_the_programs_rows(name: str) -> None:
+    """Of its solution, of values near it, and of any."""
+    dice, proof = Random(0), sample(name).proof
+    for program, files in zip(proof["programs"], files_of(proof), strict=True):
+        problem = read(files.opb)
+        solved = [0] * len(program["columns"])
+        for x, value in program.get("solution", ()):
+            solved[x] = value
+        tries = [solved, [1] * len(solved), *([dice.randint(0, 1) for _ in solved] for _ in range(20))]
+        tries += [[*solved[:x], 1 - solved[x], *solved[x + 1 :]] for x in range(len(solved))]
+        for values in tries:
+            named = {f"x{x}": value for x, value in enumerate(values, 1)}
+            cost = sum(a * values[x] for x, a in program["objective"])
+            bounded = problem.objective is not None or program["limit"] is None or cost <= program["limit"]
+            states = all(each.holds(named) for each in problem.constraints)
+            assert states == (_allows(program, values) and bounded)
+            assert problem.objective is None or problem.cost(named) == cost
+
+
+@pytest.mark.parametrize("name", DOCTORED)
+def test_doctored_proofs_are_rejected(name: str) -> None:
+    files = DOCTORED[name].files()
+    assert files != first(DOCTORED[name].sample)
+    for proof in files[1:]:
+        with pytest.raises(ProofError):
+            check(read(files.opb), proof)
+
+
+@needs_veripb
+@pytest.mark.parametrize("name", SAMPLES)
+def test_veripb_accepts_samples(name: str, tmp_path: Path) -> None:
+    assert all(_told_by_veripb(files, tmp_path) for files in files_of(sample(name).proof))
+
+
+@needs_veripb
+@pytest.mark.parametrize("name", DOCTORED)
+def test_veripb_rejects_doctored_proofs(name: str, tmp_path: Path) -> None:
+    assert not _told_by_veripb(DOCTORED[name].files(), tmp_path)
+
+
+@settings(max_examples=30)
+@given(calls())
+def test_every_proof_of_a_call_can_be_written(call: Call) -> None:
+    try:
+        result = solve(call.task, call.options, human_plan=call.human_plan_names)
+        for encoding in ("automata", "paper"):
+            writer = ProofWriter()
+            certificate = certify(call.task, result, proof=writer, encoding=encoding)
+            if certificate.verdict == "proved" and writer.programs:
+                proof = writer.to_dict(main_claim(result) or "", encoding)
+                for program, files in zip(writer.programs, files_of(proof), strict=True):
+                    solved = "solution" in program and program["objective"]
+                    assert _optimum(files) == (program["limit"] + 1 if solved else None)
+    except UsageError:
+        return
+
+
+def test_a_program_with_other_values_is_refused_in_one_line() -> None:
+    model = Model()
+    column = model.column(0, 3)
+    model.objective[column] = 1
+    model.add({column: 2}, ">=", 3)
+    proof = {"schema": SCHEMA, "claim": "optimal", "programs": [entry(model, 1)]}
+    with pytest.raises(UsageError, match="OPB knows 0 and 1, column 0 is in 0 to 3"):
+        files_of(proof)
+
+
+def test_a_certificate_writes_three_files_for_each_program(tmp_path: Path) -> None:
+    task = case_4()
+    result = serendipity.plan(task, discount="0.9", mode="communication", communication_weight="0.5")
+    assert serendipity.verify(task, result, proof=tmp_path / "help.pbp").verdict == "proved"
+    names = ("help", "help-2")
+    assert {file.name for file in tmp_path.iterdir()} == {
+        f"{name}{suffix}" for name in names for suffix in (".opb", ".pbp", ".v1.pbp")
+    }
+    for name in names:
+        problem = read((tmp_path / f"{name}.opb").read_text())
+        for suffix in (".pbp", ".v1.pbp"):
+            check(problem, (tmp_path / f"{name}{suffix}").read_text())
+
+
+def test_nothing_is_written_where_nothing_is_proved(tmp_path: Path) -> None:
+    answer = serendipity.plan(case_1())
+    verdict = serendipity.verify(case_1(), answer, proof=tmp_path / "late.pbp", time_limit=0).verdict
+    assert (verdict, list(tmp_path.iterdir())) == ("undecided", [])
+
+
+def test_the_command_writes_them(tmp_path: Path) -> None:
+    answer, proof = str(tmp_path / "help.json"), str(tmp_path / "room2.pbp")
+    assert main(["plan", "--example", "room2", "--discount", "0.6", "--quiet", "-o", answer]) == 0
+    assert main(["verify", "--example", "room2", answer, "--proof", proof, "--quiet"]) == 0
+    formula = (tmp_path / "room2.opb").read_text()
+    assert (
+        "* optimal, program 1 of 1: every window, 13 epochs\n* what an objective of 1 costs: 1/5\n" in formula
+    )
+    assert check(read(formula), (tmp_path / "room2.pbp").read_text()) == 5063
