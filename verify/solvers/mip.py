@@ -2,9 +2,10 @@
 
 * An optimum is one that the solver calls so; what a limit has stopped proves nothing but its bound;
 * ``infeasible`` is a proof that nothing satisfies the rows, since every column is bounded;
-* HiGHS 1.14 is none of the versions that are asked for: its presolve removes solutions, so that
-  feasible programs are called infeasible and dear solutions optimal (ERGO-Code/HiGHS #2961 and
-  #3090; a test has such a program).  A model says whether a presolve is worth it at all;
+* HiGHS 1.14 to 1.16 are not asked for: the presolve of 1.14 removes solutions, so that feasible programs
+  are called infeasible and dear solutions optimal (ERGO-Code/HiGHS #2961 and #3090); 1.15 does not load
+  beside ortools; 1.16.0 prints to stdout, and without the rules that 1.13 has to do without it calls 4 of
+  10,000 programs of calls infeasible that are not.  A model says whether a presolve is worth it at all;
 * numbers of a program are integers of 10^7 at most (``limits().coefficient``).  A tolerance may let
   something pass that the rows forbid, which is checked in integers; and a bound may be too high by a dual
   tolerance of 1e-7 for a column in use, and by what doubles lose of 10^7, a billionth: far from the half

@@ -39,59 +39,6 @@ def test_all_judges_agree(seed: int) -> None:
     assert found is None, str(found)
 
 
-def test_a_program_that_a_presolve_called_infeasible() -> None:
-    """HiGHS 1.14 with its presolve finds no plan below 4 in the paper's program (facts in this order)."""
-    task = build(
-        agents="hum rob",
-        human="hum",
-        init="a-at0",
-        goal="d-at2",
-        actions={
-            "back0 hum": "b-at1 !c-shut -> a-at0 !b-at1",
-            "carry hum rob": "a-at0 -> b-at1 !a-at0 @ 2",
-            "jump0 hum": "a-at0 e-open0 -> d-at2 !a-at0 @ 2.5",
-            "jump1 hum": "a-at0 g-open1 -> b-at1 !a-at0",
-            "jump2 hum": "a-at0 h-open2 -> d-at2 !a-at0",
-            "open0 rob": "f-ready -> e-open0 !f-ready",
-            "open1 rob": "-> g-open1",
-            "open2 rob": "f-ready -> h-open2 i-tired @ 0.1",
-            "prepare rob": "-> f-ready i-tired @ 0",
-            "walk0 hum": "a-at0 -> b-at1 !a-at0",
-            "walk1 hum": "b-at1 -> d-at2 !b-at1 @ 3",
-        },
-    )
-    options = {
-        "discount": "1",
-        "window_weight": "0",
-        "suffix": "subplan",
-        "horizon": "4",
-        "interference": "strict",
-    }
-    call = PlanCall(task, options)
-    assert {JUDGES[name](call, Deadline()).cost for name in ("search", "automata", "paper", "cbc")} == {1.0}
-
-
-def test_a_program_whose_presolve_lost_the_best_plan() -> None:
-    """HiGHS 1.13.1 with all of its presolve finds no plan below 8 in the paper's program."""
-    task = build(
-        agents="hum rob",
-        human="hum",
-        init="at0 ready",
-        goal="at3",
-        actions={
-            "carry hum rob": "at0 -> at2 !at0",
-            "open0 rob": "-> open0 !ready @ 2",
-            "stroll0 hum": "at0 -> at1 @ 2",
-            "stroll2 hum": "at2 -> at3 !at2 @ 3",
-            "walk0 hum": "at0 -> at1 !at0 @ 2",
-            "walk1 hum": "at1 -> at2 @ 3",
-            "walk2 hum": "at2 -> at3 !at2 @ 3",
-        },
-    )
-    call = PlanCall(task, {"mode": "composite", "interference": "strict"})
-    assert {JUDGES[name](call, Deadline()).cost for name in JUDGES} == {4.0}
-
-
 def _blind(call: PlanCall, deadline: Deadline) -> Result:
     """A judge that overlooks every opportunity."""
     answer = SEARCH(call, deadline)
