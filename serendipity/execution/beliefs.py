@@ -10,7 +10,7 @@ from search.modes.goals import Explainer
 from serendipity.model import Deadline, Task
 from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import Number
-from serendipity.recognition.recognise import GoalsGiven, candidate_goals, posterior, strictness
+from serendipity.recognition.recognise import CandidateGoal, posterior, strictness
 
 _LIKELY: Final = 0.2
 """A goal of that probability is not ruled out."""
@@ -31,19 +31,18 @@ class Beliefs:
     summed up: the posterior becomes the prior, and the present state the initial one.
 
     Args:
-        goals: candidates, with their priors.
+        candidates: goals, with their priors.
         beta: how strictly the person is taken to minimise cost.
 
     Attributes:
         weights: how probable each is.
 
     Raises:
-        InputError: ``goals`` are wrong; it says where.
-        UsageError: ``beta`` is.
+        UsageError: ``beta`` is wrong.
     """
 
-    def __init__(self, task: Task, goals: GoalsGiven, beta: Number) -> None:
-        self.candidates = candidate_goals(task, goals)
+    def __init__(self, task: Task, candidates: Sequence[CandidateGoal], beta: Number) -> None:
+        self.candidates = candidates
         self._task = task
         self._explainer = Explainer(PreparedTask(task), [candidate.goal for candidate in self.candidates])
         self._beta = strictness(beta)
@@ -64,17 +63,24 @@ class Beliefs:
         if any(not self._concern.isdisjoint((*action.add, *action.delete)) for action in others):
             self._disturbed = True
 
-    def rule_out(self, others: Collection[int]) -> None:
-        """Say that the person, who knows the robots' plan, has not done what it has them do for some goals.
+    def rule_out(self, *others: Collection[int]) -> bool:
+        """Say that the person has not done what they would have with some goals; whether that leaves any.
 
-        If that leaves none, nothing is known any more.
+        If not, nothing is known any more.
+
+        Args:
+            others: indices of such goals; the next of these count where the ones before leave none.
         """
-        left = [Fraction(0) if i in others else weight for i, weight in enumerate(self.weights)]
-        if not any(left):
-            left = [candidate.prior for candidate in self.candidates]
+        for out in others:
+            left = [Fraction(0) if i in out else weight for i, weight in enumerate(self.weights)]
+            if found := any(left):
+                break
+        else:
+            left, found = [candidate.prior for candidate in self.candidates], False
             self._out.clear()
         self.weights = [weight / sum(left) for weight in left]
         self._priors, self._observed, self._disturbed = list(self.weights), [], True
+        return found
 
     def disturbed(self) -> None:
         """The world is other than what actions have made it."""

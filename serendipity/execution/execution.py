@@ -20,7 +20,7 @@ from serendipity.model.resources.collection import no_collection
 from serendipity.model.table import Tabular
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import canonical_name, several
-from serendipity.recognition import GoalsGiven
+from serendipity.recognition import CandidateGoal, GoalsGiven, LibraryGiven, plan_library
 from serendipity.recognition.recognise import candidate_goals
 from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
 
@@ -51,6 +51,8 @@ class Execution(Tabular):
             (semantics 6).
         goals: goals that the person may have, as :func:`serendipity.recognise` takes them: robots do not
             know which; None: robots know the task's goal.
+        plans: a library of plans that the person may follow, instead of ``goals``; robots take them to be
+            omniscient, and ``human_model`` has no effect.
         beta: of the posterior.
         deadline: seconds for each decision, or None; robots do nothing in an epoch that has none in time.
         setup: where there is a deadline, seconds before the first epoch for tables and a first plan.
@@ -65,12 +67,14 @@ class Execution(Tabular):
     Attributes:
         task: where the execution began.
         options: in force.
-        goal: the name of the person's goal among ``goals``; None where it is not one of them.
+        goal: the name of the person's goal among ``goals``, or, if they are told, of the most probable of
+            ``plans`` to it; None where there is none.
         events: what has happened, as the lines of a log.
 
     Raises:
         UsageError: an argument is wrong.
-        InputError: ``goals`` are wrong; it says where.
+        InputError: ``goals`` or ``plans`` are wrong; it says where.
+        PlanError: one of ``plans`` is not possible.
     """
 
     def __init__(
@@ -80,6 +84,7 @@ class Execution(Tabular):
         discount: Number = 0,
         human_model: HumanModel = "observant",
         goals: GoalsGiven | None = None,
+        plans: LibraryGiven | None = None,
         beta: Number = 1,
         deadline: float | None = None,
         setup: float = SETUP,
@@ -93,19 +98,24 @@ class Execution(Tabular):
         if mode != "serendipity" and not (told and mode == "communication"):
             expected = "serendipity or communication" if told else "serendipity, where nobody is told"
             raise UsageError(f"mode: expected {expected}, got '{mode}'")
+        if plans is not None:
+            _require_alone(task, goals, mode)
         given: dict[str, Any] = {"mode": mode, "discount": discount, "human_model": human_model}
         options = Options(**given, interference=interference)
-        if told:
+        if told or plans is not None:
             options = options.but(human_model="omniscient")
         self.task = task
         self.options = options
         self.events: list[dict[str, Any]] = []
         self._deadline = None if deadline is None else limit_of("deadline", deadline, "seconds")
         self._world = World(task, options.discount, strict=options.strict)
+        library = () if plans is None else plan_library(task, plans)
+        candidates = [one.aim for one in library] if goals is None else candidate_goals(task, goals)
+        habits = [one.plan for one in library]
         self._robots: Robots = robots or RobotPolicy(
-            task, options, goals, beta, told=told, surely=adapter is None
+            task, options, candidates, beta, told=told, surely=adapter is None, habits=habits
         )
-        self.goal = None if goals is None else _name_of(task, goals)
+        self.goal = None if library and not told else _name_of(task, candidates)
         self._adapter = adapter
         self._failures: Counter[Order] = Counter()
         self._reports: tuple[Reported, ...] = ()
@@ -318,11 +328,21 @@ class Execution(Tabular):
         return [report.outcome for report in reports]
 
 
-def _name_of(task: Task, goals: GoalsGiven) -> str | None:
-    """What the candidate is called that is the person's goal; None if none is."""
-    literals = {(f, True) for f in task.goal.positive} | {(f, False) for f in task.goal.negative}
-    for candidate in candidate_goals(task, goals):
-        goal = candidate.goal
-        if literals == {(f, True) for f in goal.positive} | {(f, False) for f in goal.negative}:
-            return candidate.name
-    return None
+def _require_alone(task: Task, goals: GoalsGiven | None, mode: str) -> None:
+    """Raise UsageError where a library of plans goes with something else that it knows nothing of."""
+    if goals is not None:
+        raise UsageError("plans: go without goals, each plan can name its own")
+    if task.robot_goal or mode != "serendipity":
+        raise UsageError("plans: go without robots' own goals, and without communication")
+
+
+def _name_of(task: Task, candidates: Sequence[CandidateGoal]) -> str | None:
+    """What the most probable candidate is called that is the person's goal; None if none is."""
+    theirs = own_goals(task, candidates)
+    return max(theirs, key=lambda one: one.prior).name if theirs else None
+
+
+def own_goals(task: Task, candidates: Iterable[CandidateGoal]) -> list[CandidateGoal]:
+    """Those of some candidates that are the task's goal."""
+    wanted = set(task.goal.positive), set(task.goal.negative)
+    return [c for c in candidates if (set(c.goal.positive), set(c.goal.negative)) == wanted]

@@ -53,17 +53,22 @@ class Following:
         """Where they are, what they believe, and what they go on with, for a human who is packed alike."""
         return Start(self._state, self._belief, human.intentions.of(self.promise()))
 
-    def look(self, state: frozenset[int]) -> None:
+    def look(self, state: frozenset[int], habit: HumanPlan | None = None) -> None:
         """The person looks up.
 
         Args:
             state: ids of the facts that are true.
+            habit: what they go on with as long as it works, though another way be cheaper.
         """
         human = self._human
         self._state = human.packed.pack(state)
         self._belief = human.eyes.look(self._belief, self._state)
         goal = human.packed.goal
-        self.plans = tuple(plan for plan in self.plans if plan.works(self._belief, goal))
+        plans = self.plans if habit is None else (human.intentions.of(habit), *self.plans)
+        self.plans = tuple(plan for plan in plans if plan.works(self._belief, goal))
+        if habit is not None and self.plans[:1] == plans[:1]:
+            self.plans = plans[:1]
+            return
         limit = min((human.key_of(plan.cost) for plan in self.plans), default=INFINITE_KEY)
         if human.alone.key(self._belief, limit) < limit:  # nobody leaves a plan for one that is no cheaper
             self.plans += (human.intentions.of(canonical(human.alone, self._belief)),)

@@ -21,7 +21,7 @@ from serendipity.execution.guard import Following, RobotActions
 from serendipity.execution.session_adviser import SessionAdviser
 from serendipity.execution.unbound import Unbound
 from serendipity.facade.results import named_steps
-from serendipity.model import Condition, Deadline, Options, PlanStep, Step, Task
+from serendipity.model import Condition, Deadline, HumanPlan, Options, PlanStep, Step, Task
 from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import total
 from serendipity.model.task.execution import actions_of, steps_named
@@ -120,12 +120,22 @@ class Hypotheses:
         tasks: the task with each of the goals.
         told: the person keeps to the robots' plan: then there is nothing to promise.
         surely: whether robots manage whatever is possible.
+        habits: for each goal, the plan to it that the person would follow, whatever else there is.
 
     Attributes:
         actions: what robots can do.
+        habits: by goal, what is left of those that they may still be following.
     """
 
-    def __init__(self, tasks: Sequence[Task], options: Options, *, told: bool, surely: bool) -> None:
+    def __init__(
+        self,
+        tasks: Sequence[Task],
+        options: Options,
+        *,
+        told: bool,
+        surely: bool,
+        habits: Sequence[HumanPlan] = (),
+    ) -> None:
         self.actions = RobotActions(tasks[0])
         self._tasks = tasks
         self._options = options
@@ -133,6 +143,8 @@ class Hypotheses:
         self._surely = surely
         self._known: dict[int, Hypothesis] = {}
         self._useful: frozenset[int] | None = None
+        self._habitual = frozenset[int]().union(*habits)
+        self.habits = dict(enumerate(habits))
 
     def again(self) -> "Hypotheses":
         """The same, with the same tables, which go their own way from here."""
@@ -148,6 +160,15 @@ class Hypotheses:
         """Say what the person did, as :class:`.guard.Following` takes it."""
         for known in self._known.values():
             known.following.acted(own, executed, tried)
+
+    def go_on(self, his: str | None, *, in_vain: bool) -> set[int]:
+        """Say what the person did, by its name; the goals whose habit was another.  Who waits is late."""
+        if his is None:
+            return set()
+        actions = self._tasks[0].actions
+        same = {goal: plan for goal, plan in self.habits.items() if plan and actions[plan[0]].name == his}
+        self.habits = {goal: plan if in_vain else plan[1:] for goal, plan in same.items()}
+        return set(range(len(self._tasks))).difference(self.habits)
 
     def surprised(self) -> None:
         """The world is other than what actions have made it, and everybody knows."""
@@ -166,7 +187,7 @@ class Hypotheses:
             if goal not in self._known:
                 self._known[goal] = self._supposed(goal, state, deadline)
             self._known[goal].companion.under(deadline)
-            self._known[goal].following.look(state)
+            self._known[goal].following.look(state, self.habits.get(goal))
             if not self._known[goal].following.hopeless:
                 found.append(goal)
         return found
@@ -185,7 +206,7 @@ class Hypotheses:
     def _supposed(self, goal: int, state: frozenset[int], deadline: Deadline) -> Hypothesis:
         if self._useful is None:
             several = self._tasks if len(self._tasks) > 1 else ()
-            self._useful = frozenset[int]().union(*(useful(PreparedTask(t), deadline) for t in several))
+            self._useful = self._habitual.union(*(useful(PreparedTask(t), deadline) for t in several))
         others, told = self._useful, self._told
         return Hypothesis(self._tasks[goal], self._options, self.actions, state, deadline, others, told=told)
 

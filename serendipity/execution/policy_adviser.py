@@ -58,6 +58,11 @@ class PolicyAdviser:
         )
         self._pledges: dict[int, Pledge] = {}
 
+    @property
+    def pledged(self) -> frozenset[int]:
+        """The goals for which a plan was pledged, and the person has done their part so far."""
+        return frozenset(self._pledges)
+
     def owes(self, goal: int) -> bool:
         """Whether a plan for a goal was pledged, and the person has done their part so far."""
         return self._told and goal in self._pledges

@@ -13,10 +13,10 @@ from serendipity.execution.history import HelpHistory, Untouched
 from serendipity.execution.hypotheses import Hypotheses, Hypothesis, Prospect, best_for_all
 from serendipity.execution.policy_adviser import PolicyAdviser
 from serendipity.execution.why import Why
-from serendipity.model import Deadline, Options, PlanStep, Task
+from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Task
 from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.numbers import Number
-from serendipity.recognition import GoalsGiven
+from serendipity.recognition import CandidateGoal
 
 _TIME_TO_TELL: Final = 0.5
 """The share of the time that has to be left for finding out why nothing is done."""
@@ -35,34 +35,35 @@ class RobotPolicy:
     """Recognises, plans, and leaves alone what the person may need.
 
     Args:
-        goals: goals that the person may have; None: they are known to have the task's.
+        candidates: goals that the person may have; none: they are known to have the task's.
         beta: of the posterior.
         told: the person keeps to the robots' plan.
         surely: whether robots manage whatever is possible.
+        habits: for each of these goals, the plan that the person would follow, if known.
     """
 
     def __init__(
         self,
         task: Task,
         options: Options,
-        goals: GoalsGiven | None,
+        candidates: Sequence[CandidateGoal],
         beta: Number,
         *,
         told: bool,
         surely: bool = True,
+        habits: Sequence[HumanPlan] = (),
     ) -> None:
         self._task = task
         self._told = told
         self._gone: dict[int, frozenset[int]] = {}
         self._failing: frozenset[int] = frozenset()
-        self._beliefs = None if goals is None else Beliefs(task, goals, beta)
-        conditions = [task.goal] if self._beliefs is None else [c.goal for c in self._beliefs.candidates]
-        tasks = [task if goal == task.goal else task.with_goal(goal) for goal in conditions]
-        self._hypotheses = Hypotheses(tasks, options, told=told, surely=surely)
+        self._beliefs = Beliefs(task, candidates, beta) if candidates else None
+        tasks = [task.with_goal(candidate.goal) for candidate in candidates] or [task]
+        self._hypotheses = Hypotheses(tasks, options, told=told, surely=surely, habits=habits)
         sessions = options.human_model == "omniscient" and options.mode == "serendipity"
         self._watching = (
             PolicyAdviser(task, options, self._hypotheses.actions, told=told, surely=surely)
-            if sessions and goals is not None and not task.robot_goal
+            if sessions and candidates and not task.robot_goal
             else None
         )
         self._history = HelpHistory(task)
@@ -93,11 +94,15 @@ class RobotPolicy:
         self._hypotheses.acted(own, executed, tried)
         if self._beliefs is None:
             return
-        others = None if self._watching is None else self._watching.saw(self._done_by_them(executed, tried))
-        if self._told and others is not None:
-            self._beliefs.rule_out(others)
-        else:
+        his, habits = self._done_by_them(executed, tried), self._hypotheses.habits
+        others = None if self._watching is None else self._watching.saw(his)
+        out = [others] if self._told and others is not None else []
+        if habits and self._watching is not None:
+            out.append(self._hypotheses.go_on(his, in_vain=tried is not None) - self._watching.pledged)
+        if not out:
             self._beliefs.saw(own, executed)
+        elif not self._beliefs.rule_out(*out):
+            self._hypotheses.habits = {}
 
     def _done_by_them(self, executed: Sequence[int], tried: int | None) -> str | None:
         actions = (self._task.actions[i] for i in (*executed, *(() if tried is None else (tried,))))

@@ -12,7 +12,7 @@ from typing import Any, Final, Literal, TypedDict, Unpack
 from search import PreparedTask
 from search.kernel.library import library
 from serendipity.execution.adapters import AdapterChoice, Faults, Maker
-from serendipity.execution.execution import Execution
+from serendipity.execution.execution import Execution, own_goals
 from serendipity.execution.log import log_lines
 from serendipity.execution.persons import Person, Persona, moment_of, persona_from, recorded_actions
 from serendipity.execution.robot_policy import RobotPolicy
@@ -25,7 +25,7 @@ from serendipity.model.numbers import Number
 from serendipity.model.resources.processes import in_processes
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
-from serendipity.recognition.recognise import GoalsGiven
+from serendipity.recognition import GoalsGiven, LibraryGiven, plan_library
 from serendipity.robot import Durations
 
 SURE: Final = Fraction(9, 10)
@@ -64,6 +64,7 @@ def execute(
     epoch_seconds: float | None = None,
     human_model: HumanModel | None = None,
     goals: GoalsGiven | None = None,
+    plans: LibraryGiven | None = None,
     epochs: int | None = None,
     jobs: int = 1,
     on_progress: Callable[[int, int], None] | None = None,
@@ -77,7 +78,9 @@ def execute(
             recorded actions.
         runs: how many.
         seed: of the first run's dice; the others count on from it.
-        ties: ``fixed``: the person follows the canonical one of their optimal plans; ``drawn``: any.
+        ties: ``fixed``: the person follows the canonical one of their optimal plans; ``drawn``: any.  With
+            ``plans``, who is omniscient follows the most probable one to their goal; ``drawn``: any by its
+            probability.
         faults: how unreliable robots are, ``"fail=0.1,slow=0.1,drop=0.01"`` for example.
         adapter: what carries out what robots do: ``simulated``, ``pybullet`` (in physics), or what makes a
             :class:`serendipity.robot.Adapter` for a run from the task and its dice; None: simulated where
@@ -87,6 +90,7 @@ def execute(
         epoch_seconds: how long an epoch is for robots; None: 1, and 5 for figures in physics.
         human_model: what robots take the person to be; None: what they are, ``observant`` if in doubt.
         goals: goals that the person may have; robots do not know which.
+        plans: a library of plans that the person may follow, instead of ``goals``.
         epochs: the most of a run; None: ten times the length of the person's plan, and a hundred.
         jobs: processes.
         on_progress: called with the number of runs that are over, and of all.
@@ -96,6 +100,7 @@ def execute(
     Raises:
         UsageError: an argument is wrong.
         InputError: a file is wrong; it says where.
+        PlanError: one of ``plans`` is not possible.
     """
     expect(TASK, task=task)
     expect(WHOLE, runs=runs, seed=seed, jobs=jobs)
@@ -113,10 +118,12 @@ def execute(
     if persona.told and goals is not None and (task.robot_goal or options.get("mode") == "communication"):
         why = "with robots' own goals, or communication, an omniscient person's goal is known"
         raise UsageError(f"goals: {why}")
-    model = human_model or persona.human_model
+    model = human_model or (persona.human_model if plans is None else "omniscient")
     if model not in CHOICES["human_model"]:
         known = ", ".join(CHOICES["human_model"])
         raise UsageError(f"human_model: expected one of {known}, got '{model}'")
+    if plans is not None and model != "omniscient":
+        raise UsageError("human_model: with plans only 'omniscient' is possible")
     adapters = AdapterChoice(adapter, faults, durations, epoch_seconds)
     alone = plan(task, mode="individual")
     series = _Series(
@@ -127,7 +134,7 @@ def execute(
         adapters=adapters,
         epochs=epochs or 100 + 10 * len(alone.human_plan or ()),
         alone=alone.human_cost,
-        arguments={"human_model": model, "goals": goals, "told": persona.told, **options},
+        arguments={"human_model": model, "goals": goals, "plans": plans, "told": persona.told, **options},
     )
     series.untimed()  # what is wrong shows before the first run
     assignments = [(series, number, seed + number - 1) for number in range(1, runs + 1)]
@@ -197,7 +204,7 @@ class _Series:
     def _ready(self) -> RobotPolicy:
         """Robots who have had time before the first epoch."""
         task, told, surely = self.task, self.arguments["told"], self.adapters.surely
-        robots = RobotPolicy(task, self.untimed().options, None, 1, told=told, surely=surely)
+        robots = RobotPolicy(task, self.untimed().options, (), 1, told=told, surely=surely)
         Execution(task, **{**self.arguments, "robots": robots})
         return robots
 
@@ -207,9 +214,13 @@ class _Series:
         adapter, faults = self.adapters.adapter(task, luck), self.adapters.faults
         person = self.persona.person(task, dice, drawn=self.drawn, prepared=self._prepared)
         given = {**self.arguments, "adapter": adapter}
-        if given.get("deadline") is not None and given.get("goals") is None:
+        known = given["goals"] is None and given["plans"] is None
+        if given.get("deadline") is not None and known:
             given |= {"setup": 0, "robots": self._ready.again()}
         run, spoilt = Execution(task, **given), 0
+        if self.drawn and run.goal is not None and given["plans"] is not None:
+            habits = own_goals(task, (one.aim for one in plan_library(task, given["plans"])))
+            (run.goal,) = dice.choices([one.name for one in habits], [float(one.prior) for one in habits])
         left = [task.agents[i] for i in task.robots]
         with nullcontext() if adapter is None else closing(adapter):
             while not run.done and run.epoch <= self.epochs:

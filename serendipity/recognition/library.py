@@ -19,7 +19,7 @@ from serendipity.model.task.plans import PlanEntry, checked_entries
 from serendipity.pddl.parsing.files import read_text
 from serendipity.pddl.parsing.lists import json_value
 from serendipity.pddl.parsing.timed_plans import entries, plan_lines
-from serendipity.recognition.recognise import literals_of
+from serendipity.recognition.recognise import CandidateGoal, literals_of
 
 SCHEMA: Final = "serendipity.plans/1"
 
@@ -46,6 +46,11 @@ class LibraryPlan:
     goal: Condition
     plan: HumanPlan
     literals: tuple[str, ...]
+
+    @property
+    def aim(self) -> CandidateGoal:
+        """Its goal, as one that the human may have."""
+        return CandidateGoal(self.name, self.literals, self.goal, self.probability)
 
 
 def plan_library(task: Task, given: LibraryGiven) -> tuple[LibraryPlan, ...]:

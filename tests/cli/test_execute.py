@@ -73,6 +73,8 @@ def test_a_record_may_stand_behind_the_task(run: Runs) -> None:
         ("--human noisy:x", "noisy: expected a finite number"),
         ("--faults often", "faults: expected some of fail=P,slow=P,drop=P"),
         ("--goals nowhere", "nowhere: there is no such file"),
+        ("--plans nowhere", "nowhere: there is no such file"),
+        ("--plans nowhere --human-model local", "human_model: with plans only 'omniscient' is possible"),
         ("--deadline soon", "deadline: expected"),
         ("--discount 2", "discount: expected a number in [0, 1]"),
         ("--runs 0", "runs: expected at least 1"),

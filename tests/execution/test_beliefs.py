@@ -7,6 +7,7 @@ import pytest
 from serendipity.execution.beliefs import Beliefs
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.task.actions import apply
+from serendipity.recognition.recognise import candidate_goals
 from serendipity.testing.builders import task as build
 
 
@@ -18,7 +19,7 @@ def test_without_time_for_exact_costs_bounds_tell_goals_apart(monkeypatch: pytes
         "go h d a": "d -> a !d",
     }
     home = build(init="a", goal="c", actions={**ways, "go h b a": "b -> a !b"})
-    beliefs = Beliefs(home, [{"goal": ["c"]}, {"goal": ["d"]}], 1)
+    beliefs = Beliefs(home, candidate_goals(home, [{"goal": ["c"]}, {"goal": ["d"]}]), 1)
 
     def too_late(*_: Any, **__: Any) -> None:
         raise LimitReachedError("time")
