@@ -1,12 +1,14 @@
 """Pictures of tasks, results and reports on windows: in a notebook, and as files."""
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from serendipity.facade.interruptibility import InterruptionReport, drawn
 from serendipity.model import InputError, Options, Result, Task, UsageError
 from serendipity.model.arguments import PATH, RESULT_IN_TIME, TASK_IN_TIME, expect
-from serendipity.pictures import Scene, build_scene, check_epoch, draw
+from serendipity.pictures import Scene, build_scene, check_epoch, draw, other_scenes
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -16,10 +18,12 @@ class Drawing:
     Args:
         drawn: a scene, or a report on windows.
         epoch: of a still; None for the one that says most.
+        others: makes the scenes that can be chosen on a page instead.
     """
 
     drawn: Scene | InterruptionReport
     epoch: int | None = None
+    others: Callable[[], Iterable[Scene]] = tuple
 
     def html(self) -> str:
         """A page that plays the plan, with everything in it."""
@@ -54,7 +58,7 @@ class Drawing:
 
     def _content(self, suffix: str) -> str | bytes:
         if isinstance(self.drawn, Scene):
-            return draw(self.drawn, suffix, None if suffix == ".html" else self.epoch)
+            return draw(self.drawn, suffix, None if suffix == ".html" else self.epoch, self.others)
         return drawn(self.drawn, suffix)
 
     def __repr__(self) -> str:
@@ -103,4 +107,4 @@ def show(
         raise InputError(f"result: is for another task: its human is '{answer.human}'")
     scene = build_scene(task, answer, scenario)
     check_epoch(scene, epoch)
-    return Drawing(scene, epoch)
+    return Drawing(scene, epoch, partial(other_scenes, task, answer, scene))

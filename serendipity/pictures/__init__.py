@@ -4,7 +4,7 @@
 draws it.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from serendipity.model import UsageError
 from serendipity.pictures.formats.page import page
@@ -13,25 +13,28 @@ from serendipity.pictures.formats.svg import svg
 from serendipity.pictures.picture.drawing import Picture
 from serendipity.pictures.picture.heat_map import Savings, heat_map
 from serendipity.pictures.picture.timeline_picture import still
-from serendipity.pictures.scene.building import build_scene
+from serendipity.pictures.scene.building import build_scene, other_scenes
 from serendipity.pictures.scene.scene import Scene
 
-__all__ = ["Scene", "build_scene", "check_epoch", "draw", "draw_windows"]
+__all__ = ["Scene", "build_scene", "check_epoch", "draw", "draw_windows", "other_scenes"]
 
 
-def draw(scene: Scene, suffix: str, epoch: int | None = None) -> str | bytes:
+def draw(
+    scene: Scene, suffix: str, epoch: int | None = None, others: Callable[[], Iterable[Scene]] = tuple
+) -> str | bytes:
     """A scene as the content of a file.
 
     Args:
         suffix: ``.html`` for a page; ``.svg`` or ``.png`` for a still.
         epoch: of a still; None for the one that says most.
+        others: makes what can be chosen on a page instead.
 
     Raises:
         UsageError: there is no such epoch or form, or PNG lacks the extra ``plot``.
     """
     check_epoch(scene, epoch)
     if suffix == ".html":
-        return page(scene)
+        return page(scene, others())
     return _written(still(scene, epoch), suffix, ".html, .svg or .png")
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+import serendipity
 from serendipity.pictures import Scene, draw
 
 pytestmark = pytest.mark.browser
@@ -224,6 +225,34 @@ def test_motion_is_reduced_where_that_is_preferred(browser: Any, file: Path) -> 
         )
         assert (duration > 0) == moves
         page.close()
+
+
+def test_another_scenario_takes_the_place_of_the_first_in_the_same_epoch(
+    browser: Any, tmp_path: Path
+) -> None:
+    task = serendipity.example("room2")
+    goals = [{"name": room, "goal": [f"conducted_triage commx {room}"]} for room in ("room1", "room3")]
+    serendipity.show(task, serendipity.plan(task, discount="0.9", goals=goals)).save(tmp_path / "page.html")
+    page = Opened(browser, tmp_path / "page.html", 400, reduced_motion="reduce")
+    choice, played = page.page.locator("#scenario"), page.page.locator("header .played")
+    page.page.locator("#slider").fill("6")
+    met = page.page.locator("#flag").inner_text()
+    assert met.startswith("robot gives") and played.inner_text().startswith("1 room1")
+    for _ in range(2):
+        choice.focus()
+        page.page.keyboard.press("ArrowDown")
+        assert page.epoch == 6 and not page.page.locator("#flag").is_visible()
+        assert played.inner_text().startswith("2 room3")
+        page.page.locator("#forward").click()
+        assert page.epoch == 7, "the buttons work, once"
+        page.page.locator("#back").click()
+        choice.select_option("0")
+        assert page.epoch == 6 and page.page.locator("#flag").inner_text() == met
+        page.page.locator("#forward").click()
+        assert page.epoch == 7
+        page.page.keyboard.press("ArrowLeft")
+    assert page.page.evaluate("document.documentElement.scrollWidth") <= 400
+    page.close()
 
 
 def test_a_task_without_map_plays_too(browser: Any, no_map: Scene, tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
 """An answer over scenarios is drawn as the tree of its histories, above what happens in one of them."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations
@@ -126,6 +127,13 @@ def test_the_page_names_the_scenarios_and_keeps_names_from_being_markup() -> Non
     page = str(draw(scene_of(policy(2, "</script><b>")), ".html"))
     assert "<p class=played>1 &lt;/script&gt;&lt;b&gt;room1: probability 0.5, " in page
     assert "<b>" not in page
+
+
+def test_only_a_page_of_several_scenarios_has_a_choice(watching: Result, room2: Scene) -> None:
+    page = serendipity.show(serendipity.example("room2"), watching, scenario="room3").html()
+    assert re.findall(r'<template data-scenario="(\d)">', page) == ["0", "2"]
+    assert '<option value="1" selected>2 room3</option>' in page
+    assert "<select" not in str(draw(room2, ".html"))
 
 
 def test_scenarios_that_are_not_there_are_named(watching: Result, room2: Scene) -> None:

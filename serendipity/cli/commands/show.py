@@ -1,5 +1,6 @@
 """``serendipity show``: a result as a page that plays it, or as a still."""
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Final
 
@@ -22,7 +23,10 @@ def show(
     ] = None,
     scenario: Annotated[
         str | None,
-        option("--scenario NAME", "The scenario that is played; by default the most probable one."),
+        option(
+            "--scenario NAME",
+            "The scenario that is played (first); by default the most probable one.",
+        ),
     ] = None,
     output_file: Annotated[
         Path | None, option("-o, --output FILE", "A page .html, or a still .svg or .png.")
@@ -41,10 +45,11 @@ def show(
     if wrong is not None and strict:
         tell(f"Error: {wrong}")
         return ExitCode.REFUTED
-    from serendipity.pictures import build_scene, draw
+    from serendipity.pictures import build_scene, draw, other_scenes
 
     with about(answer), progress.working("drawing"):
-        drawn = draw(build_scene(loaded, result, scenario), output_file.suffix, epoch)
+        scene = build_scene(loaded, result, scenario)
+        drawn = draw(scene, output_file.suffix, epoch, partial(other_scenes, loaded, result, scene))
     if wrong is not None:
         output.warn(wrong)
     output.write_answer(drawn, output_file)

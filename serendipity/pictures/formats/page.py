@@ -1,6 +1,7 @@
 """The page: one HTML file with everything in it, which plays a plan in any browser."""
 
 import json
+from collections.abc import Iterable
 from functools import cache
 from importlib.resources import files
 from string import Template
@@ -21,13 +22,13 @@ _SMALLEST_WIDE: Final = 0.65
 _LARGEST: Final = 1.35
 
 
-def page(scene: Scene) -> str:
-    """A scene as a self-contained HTML page; it asks for nothing from any network."""
-    last = scene.frames[-1]
-    city = map_picture(scene, 0)
-    data = json.dumps(_data(scene), ensure_ascii=False, separators=(",", ":"))
-    lanes = timeline.timeline_picture(scene)
-    lanes = Picture(lanes.width, lanes.height, (*lanes.shapes, timeline.cursor(scene)), lanes.description)
+def page(scene: Scene, others: Iterable[Scene] = ()) -> str:
+    """A scene as a self-contained HTML page; it asks for nothing from any network.
+
+    Args:
+        scene: what the page begins with.
+        others: the same answer's other scenarios, which can be chosen on it.
+    """
     return Template(_text("page.html")).substitute(
         title=markup(f"{scene.name}: {headline(scene)}"),
         headline=markup(headline(scene)),
@@ -35,6 +36,21 @@ def page(scene: Scene) -> str:
         scenarios=_scenarios(scene),
         style=_text("style.css"),
         script=_text("play.js"),
+        played=_played(scene),
+        others="".join(
+            f'<template data-scenario="{one.scenario}">{_played(one)}</template>\n' for one in others
+        ),
+    )
+
+
+def _played(scene: Scene) -> str:
+    """What is shown of a scene, and all that moves it."""
+    last = scene.frames[-1]
+    city = map_picture(scene, 0)
+    data = json.dumps(_data(scene), ensure_ascii=False, separators=(",", ":"))
+    lanes = timeline.timeline_picture(scene)
+    lanes = Picture(lanes.width, lanes.height, (*lanes.shapes, timeline.cursor(scene)), lanes.description)
+    return Template(_text("played.html")).substitute(
         data=data.replace("<", "\\u003c"),  # it can't end the script element it stands in
         map="" if city is None else svg(city, inline=True, id="map"),
         sizes="" if city is None else _sizes(city),
@@ -100,8 +116,15 @@ def _token(token: Token) -> list[float | int | str | None]:
 
 
 def _scenarios(scene: Scene) -> str:
-    lines = scenario_lines(scene)
-    return "".join(f"<p{' class=played' * chosen}>{markup(line)}</p>" for line, chosen in lines)
+    """A line for each scenario, and the choice between them."""
+    lines = list(scenario_lines(scene))
+    told = "".join(f"<p{' class=played' * chosen}>{markup(line)}</p>" for line, chosen in lines)
+    names = enumerate((entry.name for entry in scene.result.goals or ()), start=1)
+    options = "".join(
+        f'<option value="{i - 1}"{" selected" * chosen}>{i} {markup(name)}</option>'
+        for (i, name), (_, chosen) in zip(names, lines, strict=False)
+    )
+    return f'{told}<p><label>Play <select id="scenario">{options}</select></label></p>' if lines else ""
 
 
 def _legend(scene: Scene) -> str:

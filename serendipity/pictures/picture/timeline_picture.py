@@ -256,7 +256,7 @@ def still(scene: Scene, epoch: int | None = None) -> Picture:
         Text(0, 46, subtitle(scene), 16, FAINT_INK, "start"),
     ]
     y = 74.0
-    for line, bold in scenario_lines(scene):
+    for line, bold in ((f"{words}{' (played here)' * here}", here) for words, here in scenario_lines(scene)):
         shapes.append(Text(0, y, *fitted(line, _LEAST, 16, 8, bold=bold), INK, "start", bold=bold))
         y += 24
     caption = f"Epoch {now}{clock}: {scene.frames[now].caption}"

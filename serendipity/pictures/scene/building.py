@@ -100,7 +100,17 @@ def build_scene(task: Task, result: Result, scenario: str | None = None) -> Scen
         InputError: the plan does not fit the task, or has more than :data:`MOST_EPOCHS` epochs.
         UsageError: there is no such scenario.
     """
-    chosen = find_scenario(result, scenario)
+    return _scene(task, result, find_scenario(result, scenario))
+
+
+def other_scenes(task: Task, result: Result, scene: Scene) -> tuple[Scene, ...]:
+    """The scenes of the scenarios of a result that are not played in the one that was built of it."""
+    numbers = range(len(result.goals or ())) if scene.histories else ()
+    return tuple(_scene(task, result, i) for i in numbers if i != scene.scenario)
+
+
+def _scene(task: Task, result: Result, chosen: int | None) -> Scene:
+    """The scene of a scenario of a result, or of one without."""
     if chosen is not None:
         task, result = played(task, result, chosen)
     names = result.human_plan or ()

@@ -297,5 +297,4 @@ def scenario_lines(scene: Scene) -> Iterator[tuple[str, bool]]:
     for i, entry in enumerate(scene.result.goals or () if scene.histories else ()):
         window = f", window [{entry.window.start}, {entry.window.end})" if entry.window else ""
         words = f"probability {entry.probability:.4g}, cost {plain(entry.cost or 0)}{window}"
-        chosen = i == scene.scenario
-        yield f"{i + 1} {entry.name}: {words}{' (played here)' * chosen}", chosen
+        yield f"{i + 1} {entry.name}: {words}", i == scene.scenario

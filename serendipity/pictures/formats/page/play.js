@@ -1,11 +1,12 @@
 "use strict";
 (() => {
-  const scene = JSON.parse(document.getElementById("data").textContent);
   const id = (name) => document.getElementById(name);
   const all = (selector) => [...document.querySelectorAll(selector)];
-  const last = scene.frames.length - 1;
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   const pace = 1100; // milliseconds an epoch is shown while playing
+  const others = {}; // what scenarios that are not shown consist of, once they have been
+  let scene = null; // what is shown, and its last epoch
+  let last = 0;
   let epoch = 0;
   let timer = null;
 
@@ -149,27 +150,56 @@
     " ": () => (timer === null ? play() : pause()),
   };
 
-  id("play").addEventListener("click", keys[" "]);
-  id("first").addEventListener("click", keys.Home);
-  id("back").addEventListener("click", keys.ArrowLeft);
-  id("forward").addEventListener("click", keys.ArrowRight);
-  id("end").addEventListener("click", keys.End);
-  id("slider").addEventListener("input", (event) => step(Number(event.target.value)));
-  id("lanes").addEventListener("click", (event) => {
-    const column = event.target.closest("[data-column], [data-act]");
-    if (column) step(Number(column.dataset.column ?? column.dataset.act));
-  });
+  function listen() {
+    id("play").addEventListener("click", keys[" "]);
+    id("first").addEventListener("click", keys.Home);
+    id("back").addEventListener("click", keys.ArrowLeft);
+    id("forward").addEventListener("click", keys.ArrowRight);
+    id("end").addEventListener("click", keys.End);
+    id("slider").addEventListener("input", (event) => step(Number(event.target.value)));
+    id("lanes").addEventListener("click", (event) => {
+      const column = event.target.closest("[data-column], [data-act]");
+      if (column) step(Number(column.dataset.column ?? column.dataset.act));
+    });
+  }
+
+  function begin() {
+    scene = JSON.parse(id("data").textContent);
+    last = scene.frames.length - 1;
+    id("play").disabled = last === 0;
+    showPlaying();
+    show(epoch);
+  }
+
+  // Another scenario takes the place of the one that is shown, in the same epoch.
+  function choose(shown, wanted) {
+    pause();
+    const main = document.querySelector("main");
+    const template = document.querySelector(`template[data-scenario="${wanted}"]`);
+    others[shown] = [...main.childNodes];
+    main.replaceChildren(...(others[wanted] ?? template.content.childNodes));
+    if (!others[wanted]) listen();
+    all("header p").slice(1, -1).forEach((line, i) => line.classList.toggle("played", i === wanted));
+    begin();
+  }
+
   document.addEventListener("keydown", (event) => {
     if (event.altKey || event.ctrlKey || event.metaKey || !(event.key in keys)) return;
-    const where = event.target.closest("button, summary, input");
+    const where = event.target.closest("button, summary, input, select");
     // What has the focus keeps the keys that it answers to itself.
-    if (where && (event.key === " " ? where.id !== "slider" : where.id === "slider")) return;
+    if (where && (event.key === " " ? where.id !== "slider" : ["slider", "scenario"].includes(where.id))) return;
     event.preventDefault();
     keys[event.key]();
   });
   addEventListener("beforeprint", () => all("details").forEach((each) => { each.open = true; }));
   addEventListener("resize", () => followTokens(scene.frames[epoch]));
-  id("play").disabled = last === 0;
-  showPlaying();
-  show(epoch);
+  const choice = id("scenario");
+  let shown = choice && Number(choice.value);
+  choice?.addEventListener("change", () => {
+    const wanted = Number(choice.value);
+    choose(shown, wanted);
+    shown = wanted;
+  });
+  listen();
+  begin();
 })();
