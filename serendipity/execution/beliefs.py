@@ -10,7 +10,7 @@ from search.modes.goals import Explainer
 from serendipity.model import Deadline, Task
 from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import Number
-from serendipity.recognition.recognise import CandidateGoal, posterior, strictness
+from serendipity.recognition.recognise import CandidateGoal, Noise, noise_from, posterior, strictness
 
 _LIKELY: Final = 0.2
 """A goal of that probability is not ruled out."""
@@ -33,19 +33,26 @@ class Beliefs:
     Args:
         candidates: goals, with their priors.
         beta: how strictly the person is taken to minimise cost.
+        noise: of what is seen of them; where time is short there is none.
 
     Attributes:
         weights: how probable each is.
 
     Raises:
-        UsageError: ``beta`` is wrong.
+        UsageError: ``beta`` or ``noise`` is wrong.
     """
 
-    def __init__(self, task: Task, candidates: Sequence[CandidateGoal], beta: Number) -> None:
+    def __init__(
+        self,
+        task: Task,
+        candidates: Sequence[CandidateGoal],
+        beta: Number,
+        noise: Noise | str | None = None,
+    ) -> None:
         self.candidates = candidates
         self._task = task
         self._explainer = Explainer(PreparedTask(task), [candidate.goal for candidate in self.candidates])
-        self._beta = strictness(beta)
+        self._beta, self._noise = strictness(beta), noise_from(noise)
         self._priors = [candidate.prior for candidate in self.candidates]
         self._observed: list[str] = []
         self._disturbed = False
@@ -96,14 +103,18 @@ class Beliefs:
             LimitReachedError: the deadline came first; the weights stay as they were.
         """
         if self._observed:
+            share, noise, read = deadline.part(_EXACT), self._noise, None
             try:
-                found = self._explainer.explain(self._observed, deadline.part(_EXACT), canonical=False)
+                found = self._explainer.explain(self._observed, share, canonical=False)
+                if noise is not None:
+                    read = self._explainer.readings(self._observed, noise.prices(self._beta), share)
             except LIMITS:
                 deadline.check()
-                found = self._explainer.from_here(self._observed, state, deadline)
+                found, noise = self._explainer.from_here(self._observed, state, deadline), None
             priors = zip(self.candidates, self._priors, strict=True)
             weighed = [replace(candidate, prior=prior) for candidate, prior in priors]
-            recognition = posterior(self._task, weighed, tuple(self._observed), found, self._beta)
+            names = tuple(self._observed)
+            recognition = posterior(self._task, weighed, names, found, self._beta, noise, read)
             self.weights = [goal.weight for goal in recognition.goals]
         self._rule_out()
         if self._disturbed:

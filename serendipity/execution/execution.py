@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, Final, Literal
 
+from serendipity.execution.beliefs import Beliefs
 from serendipity.execution.decided import COLUMNS, Decided, Outlook, Passed, Reported, Robots
 from serendipity.execution.robot_policy import RobotPolicy
 from serendipity.execution.why import Why
@@ -20,7 +21,7 @@ from serendipity.model.resources.collection import no_collection
 from serendipity.model.table import Tabular
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import canonical_name, several
-from serendipity.recognition import CandidateGoal, GoalsGiven, LibraryGiven, plan_library
+from serendipity.recognition import CandidateGoal, GoalsGiven, LibraryGiven, Noise, plan_library
 from serendipity.recognition.recognise import candidate_goals
 from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
 
@@ -54,6 +55,7 @@ class Execution(Tabular):
         plans: a library of plans that the person may follow, instead of ``goals``; robots take them to be
             omniscient, and ``human_model`` has no effect.
         beta: of the posterior.
+        noise: of what robots see of the person, as the posterior takes it, see :func:`serendipity.recognise`.
         deadline: seconds for each decision, or None; robots do nothing in an epoch that has none in time.
         setup: where there is a deadline, seconds before the first epoch for tables and a first plan.
         interference: which actions may share an epoch.
@@ -86,6 +88,7 @@ class Execution(Tabular):
         goals: GoalsGiven | None = None,
         plans: LibraryGiven | None = None,
         beta: Number = 1,
+        noise: Noise | str | None = None,
         deadline: float | None = None,
         setup: float = SETUP,
         interference: Interference = "paper",
@@ -111,9 +114,12 @@ class Execution(Tabular):
         self._world = World(task, options.discount, strict=options.strict)
         library = () if plans is None else plan_library(task, plans)
         candidates = [one.aim for one in library] if goals is None else candidate_goals(task, goals)
+        if noise is not None and not candidates:
+            raise UsageError("noise: goes with goals only")
         habits = [one.plan for one in library]
+        beliefs = Beliefs(task, candidates, beta, noise) if candidates else None
         self._robots: Robots = robots or RobotPolicy(
-            task, options, candidates, beta, told=told, surely=adapter is None, habits=habits
+            task, options, beliefs, told=told, surely=adapter is None, habits=habits
         )
         self.goal = None if library and not told else _name_of(task, candidates)
         self._adapter = adapter

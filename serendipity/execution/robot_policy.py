@@ -15,8 +15,6 @@ from serendipity.execution.policy_adviser import PolicyAdviser
 from serendipity.execution.why import Why
 from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Task
 from serendipity.model.errors import LIMITS, LimitReachedError
-from serendipity.model.numbers import Number
-from serendipity.recognition import CandidateGoal
 
 _TIME_TO_TELL: Final = 0.5
 """The share of the time that has to be left for finding out why nothing is done."""
@@ -35,8 +33,7 @@ class RobotPolicy:
     """Recognises, plans, and leaves alone what the person may need.
 
     Args:
-        candidates: goals that the person may have; none: they are known to have the task's.
-        beta: of the posterior.
+        beliefs: in goals that the person may have; None: they are known to have the task's.
         told: the person keeps to the robots' plan.
         surely: whether robots manage whatever is possible.
         habits: for each of these goals, the plan that the person would follow, if known.
@@ -46,8 +43,7 @@ class RobotPolicy:
         self,
         task: Task,
         options: Options,
-        candidates: Sequence[CandidateGoal],
-        beta: Number,
+        beliefs: Beliefs | None,
         *,
         told: bool,
         surely: bool = True,
@@ -57,13 +53,13 @@ class RobotPolicy:
         self._told = told
         self._gone: dict[int, frozenset[int]] = {}
         self._failing: frozenset[int] = frozenset()
-        self._beliefs = Beliefs(task, candidates, beta) if candidates else None
-        tasks = [task.with_goal(candidate.goal) for candidate in candidates] or [task]
+        self._beliefs = beliefs
+        tasks = [task] if beliefs is None else [task.with_goal(one.goal) for one in beliefs.candidates]
         self._hypotheses = Hypotheses(tasks, options, told=told, surely=surely, habits=habits)
         sessions = options.human_model == "omniscient" and options.mode == "serendipity"
         self._watching = (
             PolicyAdviser(task, options, self._hypotheses.actions, told=told, surely=surely)
-            if sessions and candidates and not task.robot_goal
+            if sessions and beliefs is not None and not task.robot_goal
             else None
         )
         self._history = HelpHistory(task)

@@ -25,7 +25,7 @@ from serendipity.model.numbers import Number
 from serendipity.model.resources.processes import in_processes
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import variant_named
-from serendipity.recognition import GoalsGiven, LibraryGiven, plan_library
+from serendipity.recognition import GoalsGiven, LibraryGiven, Noise, plan_library
 from serendipity.robot import Durations
 
 SURE: Final = Fraction(9, 10)
@@ -46,6 +46,7 @@ class ExecutionOptions(TypedDict, total=False):
     deadline: float | None
     setup: float
     beta: Number
+    noise: Noise | str | None
     mode: Literal["serendipity", "communication"]
     interference: Interference
 
@@ -94,8 +95,8 @@ def execute(
         epochs: the most of a run; None: ten times the length of the person's plan, and a hundred.
         jobs: processes.
         on_progress: called with the number of runs that are over, and of all.
-        **options: ``discount``, ``deadline``, ``setup``, ``beta``, ``mode`` and ``interference`` of
-            :class:`Execution`.
+        **options: ``discount``, ``deadline``, ``setup``, ``beta``, ``noise``, ``mode`` and ``interference``
+            of :class:`Execution`.
 
     Raises:
         UsageError: an argument is wrong.
@@ -204,7 +205,7 @@ class _Series:
     def _ready(self) -> RobotPolicy:
         """Robots who have had time before the first epoch."""
         task, told, surely = self.task, self.arguments["told"], self.adapters.surely
-        robots = RobotPolicy(task, self.untimed().options, (), 1, told=told, surely=surely)
+        robots = RobotPolicy(task, self.untimed().options, None, told=told, surely=surely)
         Execution(task, **{**self.arguments, "robots": robots})
         return robots
 

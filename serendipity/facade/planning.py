@@ -27,10 +27,10 @@ from serendipity.model.task.plans import PlanEntry, checked_entries
 
 if TYPE_CHECKING:
     from serendipity.facade.scenarios import Unsure
-    from serendipity.recognition import GoalsGiven, LibraryGiven, ObservedGiven
+    from serendipity.recognition import GoalsGiven, LibraryGiven, Noise, ObservedGiven
 
 
-_UNSURE: Final = ("goals", "observed", "beta", "plans")
+_UNSURE: Final = ("goals", "observed", "beta", "plans", "noise")
 """Arguments of those who don't know what the human will do."""
 
 
@@ -48,6 +48,7 @@ class SessionOptions(AnytimeOptions, total=False):
     observed: "ObservedGiven"
     beta: Number
     plans: "LibraryGiven | None"
+    noise: "Noise | str | None"
     on_improvement: Callable[[Result], None] | None
 
 
@@ -64,6 +65,7 @@ def plan(
     observed: "ObservedGiven" = (),
     beta: Number = 1,
     plans: "LibraryGiven | None" = None,
+    noise: "Noise | str | None" = None,
     on_improvement: Callable[[Result], None] | None = None,
     **options: Unpack[PlanOptions],
 ) -> Result:
@@ -86,6 +88,7 @@ def plan(
         beta: of the posterior.
         plans: plans that the human may follow, with their probabilities, as :func:`learn` writes them
             (semantics 11).
+        noise: of ``observed``, as :func:`recognise` takes it.
         on_improvement: called with the first answer that has a plan, and with each better one, while the
             call goes on; its time counts, too.  What it raises ends the call, and comes out of it.
         **options: fields of :class:`serendipity.model.Options`, ``mode="serendipity"``,
@@ -103,6 +106,7 @@ def plan(
         "observed": observed,
         "beta": beta,
         "plans": plans,
+        "noise": noise,
         "on_improvement": on_improvement,
         **options,
     }

@@ -12,7 +12,7 @@ from itertools import islice
 from typing import Final, NamedTuple
 
 from search import optimal_human_plans
-from search.modes.goals import Likelihood, explanations
+from search.modes.goals import Explainer, Likelihood
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade import ties
 from serendipity.facade.call import Request, Solver
@@ -29,8 +29,10 @@ from serendipity.recognition.library import LibraryGiven, LibraryPlan, plan_libr
 from serendipity.recognition.recognise import (
     CandidateGoal,
     GoalsGiven,
+    Noise,
     ObservedGiven,
     candidate_goals,
+    noise_from,
     observed_actions,
     posterior,
     strictness,
@@ -48,12 +50,14 @@ class Unsure(NamedTuple):
         goals: that they may have; None: the task's.
         observed: names of the actions that they have done.
         beta: how strictly they minimise cost.
+        noise: of what was observed.
     """
 
     plans: tuple[LibraryPlan, ...] | None = None
     goals: tuple[CandidateGoal, ...] | None = None
     observed: tuple[str, ...] = ()
     beta: float = 1.0
+    noise: Noise | None = None
 
 
 def read_unsure(
@@ -63,18 +67,20 @@ def read_unsure(
     observed: ObservedGiven = (),
     beta: Number = 1,
     plans: LibraryGiven | None = None,
+    noise: Noise | str | None = None,
 ) -> Unsure:
     """What a caller says of such a human; see :func:`serendipity.plan`.
 
     Raises:
         InputError: a file or an entry of it is wrong.
-        UsageError: ``beta`` is.
+        UsageError: ``beta`` or ``noise`` is.
     """
     if plans is not None:
         return Unsure(plan_library(task, plans))
     if goals is None:
         return Unsure()
-    return Unsure(None, candidate_goals(task, goals), observed_actions(task, observed), strictness(beta))
+    names = observed_actions(task, observed)
+    return Unsure(None, candidate_goals(task, goals), names, strictness(beta), noise_from(noise))
 
 
 def settled(call: Request, unsure: Unsure) -> tuple[Request, Solver]:
@@ -119,8 +125,10 @@ def _answers(call: Request) -> Iterator[Answer]:
 
 def _by_goals(
     call: Request, unsure: Unsure, candidates: Sequence[CandidateGoal]
-) -> tuple[list[Candidate], Recognition]:
+) -> tuple[list[Candidate], Recognition | None]:
     """A scenario for each goal that is possible, or for each optimal plan to it, and the posterior.
+
+    With noise there is none to show: the scenarios are as if they were given.
 
     Raises:
         UsageError: as :func:`settled`.
@@ -133,9 +141,10 @@ def _by_goals(
         raise UsageError("observed: in time the posterior is not known, only the goals' priors")
     if unsure.observed and watched:
         raise UsageError("ties: 'watched' goes without observed: each goal's plans are all its optimal ones")
-    recognition, plans = _recognised(call, candidates, unsure.observed, unsure.beta)
+    noise = unsure.noise
+    recognition, plans = _recognised(call, candidates, unsure.observed, unsure.beta, noise)
     considered = _considered(candidates, recognition, plans)
-    return _shared(call, considered) if watched else considered, recognition
+    return _shared(call, considered) if watched else considered, None if noise else recognition
 
 
 def _shared(call: Request, considered: Sequence[Candidate]) -> list[Candidate]:
@@ -174,8 +183,12 @@ def _optimal_plans(call: Request, goal: Condition) -> list[HumanPlan]:
 
 
 def _recognised(
-    call: Request, candidates: Sequence[CandidateGoal], observed: tuple[str, ...], beta: float
-) -> tuple[Recognition, list[HumanPlan | None]]:
+    call: Request,
+    candidates: Sequence[CandidateGoal],
+    observed: tuple[str, ...],
+    beta: float,
+    noise: Noise | None,
+) -> tuple[Recognition, Sequence[HumanPlan | None]]:
     """The posterior, and for each goal the plan of the human's that is considered.
 
     Raises:
@@ -189,11 +202,13 @@ def _recognised(
         costs = [None if plan is None else task.cost_of(plan) for plan in plans]
         known = [Likelihood(cost, None, plan) for cost, plan in zip(costs, plans, strict=True)]
         return posterior(task, candidates, observed, known, beta), plans
-    found = explanations(call.prepared, conditions, observed, deadline)
-    recognition = posterior(task, candidates, observed, found, beta)
+    explainer = Explainer(call.prepared, conditions)
+    found = explainer.explain(observed, deadline)
+    read = explainer.readings(observed, noise.prices(beta), deadline) if noise else None
+    recognition = posterior(task, candidates, observed, found, beta, noise, read)
     if not recognition.explained:  # the human's plans, as if nothing had been observed
-        found = explanations(call.prepared, conditions, (), deadline)
-    return recognition, [explanation.plan for explanation in found]
+        found, read = explainer.explain((), deadline), None
+    return recognition, [None if one is None else one.plan for one in read or found]
 
 
 def _considered(

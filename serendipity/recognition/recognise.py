@@ -255,15 +255,23 @@ def recognise(
     expect(TASK, task=task)
     candidates = candidate_goals(task, goals)
     names = observed_actions(task, observed)
-    rates = Noise.parse(noise) if isinstance(noise, str) else noise
-    expect_or_none(Kind("Noise, or a text", lambda value: isinstance(value, Noise)), noise=rates)
-    strict = strictness(beta)
+    noisy, strict = noise_from(noise), strictness(beta)
     explainer = Explainer(PreparedTask(task), [candidate.goal for candidate in candidates])
     with no_collection():  # beside a large task a collection takes longer than a short deadline
         found = explainer.explain(names, limits)
-        noisy = rates if rates and (rates.miss or rates.wrong) else None
         read = explainer.readings(names, noisy.prices(strict), limits) if noisy else None
     return posterior(task, candidates, names, found, strict, noisy, read)
+
+
+def noise_from(given: Noise | str | None) -> Noise | None:
+    """The noise that a caller names; None where there is none.
+
+    Raises:
+        UsageError: it is neither noise nor its text.
+    """
+    noise = Noise.parse(given) if isinstance(given, str) else given
+    expect_or_none(Kind("Noise, or a text", lambda value: isinstance(value, Noise)), noise=noise)
+    return noise if noise and (noise.miss or noise.wrong) else None
 
 
 def strictness(beta: Number) -> float:

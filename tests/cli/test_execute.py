@@ -73,6 +73,7 @@ def test_a_record_may_stand_behind_the_task(run: Runs) -> None:
         ("--human noisy:x", "noisy: expected a finite number"),
         ("--faults often", "faults: expected some of fail=P,slow=P,drop=P"),
         ("--goals nowhere", "nowhere: there is no such file"),
+        ("--noise wrong=0.1", "noise: goes with goals only"),
         ("--plans nowhere", "nowhere: there is no such file"),
         ("--plans nowhere --human-model local", "human_model: with plans only 'omniscient' is possible"),
         ("--deadline soon", "deadline: expected"),

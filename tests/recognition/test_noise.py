@@ -30,6 +30,20 @@ LINE = build(
     },
 )
 """To c by b (2) or directly (4), to e by d."""
+HELPED = build(
+    init="a",
+    goal="c",
+    actions={
+        "go h a b": "a -> b !a",
+        "go h b c": "b -> c !b",
+        "go h a d": "a -> d !a",
+        "go h d e": "d -> e !d",
+        "go h a c": "a -> c !a @ 4",
+        "lift r": "-> up",
+        "ride h r": "a up -> c !a @ 0.5",
+    },
+)
+"""The same with a robot who may help to c."""
 C, E = {"goal": ["c"], "name": "c"}, {"goal": ["e"], "name": "e"}
 
 
@@ -45,6 +59,41 @@ def test_a_wrong_observation_by_hand() -> None:
     assert (c.likelihood, e.likelihood) == pytest.approx((0.1, 0.01))
     assert known.to_dict()["goals"][0]["errors"] == {"cost": 2.0, "wrong": 1, "missed": 0}
     assert known.to_dict()["noise"] == {"miss": 0.0, "wrong": 0.1}
+
+
+def test_plans_weigh_goals_by_what_may_be_wrong() -> None:
+    """Without noise nothing is explained, and the posterior is the prior."""
+    home = replace(HELPED, goal=Condition((HELPED.facts.index("e"),)))
+    seen = ["go h a b", "go h d e", "go h b c"]
+    known = serendipity.recognise(home, [C, E], seen, noise="wrong=0.1")
+    found = serendipity.plan(home, goals=[C, E], observed=seen, noise=Noise(wrong=0.1), discount="0.5")
+    goals = found.goals or ()
+    assert [one.probability for one in goals] == [one.posterior for one in known.goals]
+    assert [one.human_plan for one in goals] == [one.plan for one in known.goals]
+    assert found.recognition is None and serendipity.verify(home, found).verdict == "proved"
+    plain = serendipity.plan(home, goals=[C, E], observed=seen, discount="0.5").goals or ()
+    assert [one.probability for one in plain] == [0.5, 0.5]
+    session = serendipity.Session(home, discount="0.5")
+    costs = [session.plan(goals=[C, E], observed=seen, noise=noise).cost for noise in (None, "wrong=0.1")]
+    assert costs == [serendipity.plan(home, goals=[C, E], observed=seen, discount="0.5").cost, found.cost]
+
+
+def test_one_goal_that_is_left_has_the_plan_of_its_reading() -> None:
+    seen = ["go h a d", "go h b c"]
+    found = serendipity.plan(HELPED, goals=[C], observed=seen, noise="wrong=0.1", discount="0.5")
+    assert found.human_plan == ("go h a b", "go h b c")
+    assert serendipity.verify(HELPED, found).verdict == "proved"
+
+
+def test_a_loop_weighs_goals_by_what_may_be_wrong() -> None:
+    """Going to d rules c out, unless that was seen wrongly."""
+    plain, noisy = (serendipity.Execution(HELPED, goals=[C, E], noise=noise) for noise in (None, "wrong=0.4"))
+    for run in (plain, noisy):
+        run.step("go h a d")
+    seen = serendipity.recognise(HELPED, [C, E], ["go h a d"], noise="wrong=0.4").goals
+    assert plain.decided.goals == {"c": 0, "e": 1}
+    assert noisy.decided.goals == pytest.approx({one.name: one.posterior for one in seen})
+    assert noisy.decided.goals["c"] > 0.2
 
 
 def test_a_missed_action_by_hand() -> None:

@@ -51,6 +51,7 @@ def execute(
     goals: planning.Goals = None,
     plans: planning.Plans = None,
     beta: planning.Beta = None,
+    noise: planning.Noise = None,
     runs: Annotated[int, option("--runs N", "How many runs.")] = 1,
     seed: Annotated[int, option("--seed S", "Of the first run's dice.")] = 0,
     ties: Annotated[
@@ -109,7 +110,13 @@ def execute(
     if replay is not None:
         return _replayed(loaded, replay, to.output_file)
     given = planning.given(
-        mode=mode, discount=discount, interference=interference, beta=beta, ties=ties, human_model=human_model
+        mode=mode,
+        discount=discount,
+        interference=interference,
+        beta=beta,
+        noise=noise,
+        ties=ties,
+        human_model=human_model,
     )
     with progress.counting("runs") as on_progress:
         found = serendipity.execute(

@@ -30,6 +30,7 @@ def plan(
     plans: planning.Plans = None,
     observed: planning.Observed = None,
     beta: planning.Beta = None,
+    noise: planning.Noise = None,
     limited: limits.Limits,
     certify: Annotated[bool, option("--verify", "Add the certificate of `verify`.")] = False,
     save_plan: Annotated[
@@ -54,7 +55,7 @@ def plan(
     if (goals or plans) is not None or _is_watched(options):
         if save_plan is not None:
             raise UsageError("--save-plan: there is no single plan with --goals, --plans or --ties watched")
-        asked |= planning.given(goals=goals, plans=plans, observed=observed, beta=beta)
+        asked |= planning.given(goals=goals, plans=plans, observed=observed, beta=beta, noise=noise)
         with progress.working("planning"), cancelling() as cancelled:
             expected = serendipity.plan(loaded, cancelled=cancelled, **asked)
         with progress.working("verifying"):
@@ -64,7 +65,7 @@ def plan(
         _tell_strategies(expected)
         refuted = proof is not None and proof.verdict == "refuted"
         return _code(expected, cancelled, refuted=refuted)
-    for name, value in (("--observed", observed), ("--beta", beta)):
+    for name, value in (("--observed", observed), ("--beta", beta), ("--noise", noise)):
         if value is not None:
             raise UsageError(f"{name}: goes with --goals only")
     result: Result | None

@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import Annotated
 
 import serendipity
-from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
@@ -17,10 +16,7 @@ def recognise(
     goals: Annotated[Path, planning.GOALS],
     observed: planning.Observed = None,
     beta: planning.Beta = None,
-    noise: Annotated[
-        str | None,
-        option("--noise miss=P,wrong=Q", "How often what is done is missed, and what is seen is wrong."),
-    ] = None,
+    noise: planning.Noise = None,
     limited: limits.Limits,
     to: Annotated[output.Destination, output.ROWS_TOO],
 ) -> int:

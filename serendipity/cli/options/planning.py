@@ -93,6 +93,10 @@ Observed = Annotated[
 Beta = Annotated[
     str | None, option("--beta B", "How strictly the human saves cost; 0 and more. [default: 1]")
 ]
+Noise = Annotated[
+    str | None,
+    option("--noise miss=P,wrong=Q", "How often what is done is missed, and what is seen is wrong."),
+]
 """Where the human's goal is not known (semantics 8)."""
 
 Solver = Annotated[str, option("--solver highs|cbc", "highs, or cbc as a cross-check.")]

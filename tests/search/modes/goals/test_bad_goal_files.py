@@ -67,6 +67,8 @@ def test_observations(text: str, words: list[str], run: Runs) -> None:
         ("--goals .", ["can't be read"]),
         ("--observed goals.txt", ["--observed", "--goals"]),
         ("--beta 1", ["--beta", "--goals"]),
+        ("--noise wrong=0.1", ["--noise", "--goals"]),
+        ("--goals goals.txt --noise wrong=2", ["wrong: expected a probability"]),
         ("--goals goals.txt --beta -1", ["beta", "at least 0"]),
         ("--goals goals.txt --mode composite", ["goals", "serendipity"]),
         ("--goals two.txt --ties robust", ["ties", "fixed"]),
