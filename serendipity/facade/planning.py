@@ -140,11 +140,11 @@ def planned(
     unsure: dict[str, Any] = {name: asked.pop(name) for name in _UNSURE if name in asked}
     expect_or_none(FUNCTION, on_improvement=on_improvement)
     with no_collection():  # beside a large task a collection takes longer than a short deadline
-        call, answers = _begun(prepared, given, cancelled, memory, asked, unsure)
+        _, answers = _begun(prepared, given, cancelled, memory, asked, unsure)
         if on_improvement is None:
-            *_, last = answers
-            return _with_strategies_recorded(_result(call, last))
-    return _told(_results(call, answers), on_improvement)
+            *_, (about, last) = answers
+            return _with_strategies_recorded(_result(about, last))
+    return _told(_results(answers), on_improvement)
 
 
 @listing
@@ -183,7 +183,7 @@ def planned_anytime(
         call, answers = _begun(prepared, given, cancelled, memory, asked)
     said = "left"
     try:
-        for result in _results(call, answers):
+        for result in _results(answers):
             said = _said(result)
             yield result
     finally:
@@ -197,8 +197,8 @@ def _begun(
     memory: SessionMemory | None,
     asked: Mapping[str, Any],
     said: Mapping[str, Any] = MappingProxyType({}),
-) -> tuple[Request, Iterator[Answer]]:
-    """A call whose time has started, and its answers as they get better."""
+) -> tuple[Request, Iterator[tuple[Request, Answer]]]:
+    """A call whose time has started, and its answers as they get better, each with what it is to."""
     options = {**asked}
     visible, deadline = options.pop("visible", None), options.pop("deadline", None)
     expect_or_none(FUNCTION, visible=visible)
@@ -212,16 +212,16 @@ def _begun(
         plan = None if call.given is None else named_plan(call.task, call.given)
         call = replace(call, question=memory.question(chosen, visible, about, plan))
     if call.known is not None:
-        return call, iter((call.known,))
+        return call, iter(((call, call.known),))
     if memory is not None:
         refuse_time(options=chosen)
     if unsure is not None:
-        from serendipity.facade.scenarios import settled
+        from serendipity.facade import scenarios
 
-        call, solver = settled(call, unsure)
-    elif needs_time(call.task, options=chosen, plan=call.given):
-        return call, answers_in_time(call, solver)
-    return call, solver(call)
+        return call, scenarios.answers(call, unsure)
+    in_time = needs_time(call.task, options=chosen, plan=call.given)
+    found = answers_in_time(call, solver) if in_time else solver(call)
+    return call, ((call, answer) for answer in found)
 
 
 def _unsure(options: Options, given: Given, said: Mapping[str, Any]) -> "Callable[[Task], Unsure] | None":
@@ -254,14 +254,14 @@ def _solver(options: Options) -> Solver:
     return lambda call: assist(call.prepared, call.options, call.deadline)
 
 
-def _results(call: Request, answers: Iterator[Answer]) -> Iterator[Result]:
+def _results(answers: Iterator[tuple[Request, Answer]]) -> Iterator[Result]:
     result = None
     while True:
         with no_collection():  # only while it plans: what the caller does with an answer is the caller's
             following = next(answers, None)
             if following is None:
                 break
-            answer = following
+            call, answer = following
             result = _result(call, answer, last=False)
         record("DEBUG", f"on the way: {_said(result)}", call.limits.elapsed())
         yield result

@@ -7,21 +7,20 @@ their current plan for a goal is the canonical optimal plan from ``I`` that embe
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
 from itertools import islice
 from typing import Final, NamedTuple
 
-from search import optimal_human_plans
+from search import canonical_human_plan, first_answer, optimal_human_plans
 from search.modes.goals import Explainer, Likelihood
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade import ties
-from serendipity.facade.call import Request, Solver
+from serendipity.facade.call import Request
 from serendipity.facade.in_time import HumanInTime, answers_in_time, answers_over_scenarios
 from serendipity.facade.results import named_plan
-from serendipity.model import Condition, HumanPlan, Options, Task, UsageError
+from serendipity.model import Condition, Deadline, HumanPlan, Options, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.answers.recognition import Recognition
-from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
 from serendipity.model.numbers import Number
 from serendipity.model.task.gate import needs_time
 from serendipity.model.task.plans import TimedPlan
@@ -37,6 +36,9 @@ from serendipity.recognition.recognise import (
     posterior,
     strictness,
 )
+
+_SOON: Final = 0.5
+"""The share of the time for some plan to each goal, which the optimal ones don't need."""
 
 _FIXED: Final[dict[str, object]] = {"human_model": "omniscient", "max_cost": None}
 """Options that have one value only where there are several scenarios."""
@@ -83,17 +85,25 @@ def read_unsure(
     return Unsure(None, candidate_goals(task, goals), names, strictness(beta), noise_from(noise))
 
 
-def settled(call: Request, unsure: Unsure) -> tuple[Request, Solver]:
-    """The call that is left once the scenarios are known, and its solver.
+_Said = tuple[Request, Answer]
+"""An answer, and the call that it is to."""
+
+
+def answers(call: Request, unsure: Unsure) -> Iterator[_Said]:
+    """Answers to the call that is left once the scenarios are known.
 
     With several of them that is a policy; with one, section 3 for that one.  Goals of posterior 0, or that
-    the human can't reach alone, are not considered.  Without the time to find them the answer is ``unknown``.
+    the human can't reach alone, are not considered.  Where nothing was observed, idle robots come first,
+    beside some plan to each goal, and last where there is no time for more; else that is ``unknown``.
 
     Raises:
         UsageError: an option that has no meaning here; more optimal plans than ``max_ties``.
     """
-    recognition = None
+    _require_answerable(call, unsure)
+    recognition, first = None, None
     try:
+        if not unsure.observed and (first := _beside_some_plans(call, unsure.goals or ())) is not None:
+            yield first
         if unsure.plans is not None:
             considered = [Candidate(one.goal, one.plan, one.probability, one.name) for one in unsure.plans]
         elif unsure.goals is None:
@@ -101,19 +111,74 @@ def settled(call: Request, unsure: Unsure) -> tuple[Request, Solver]:
         else:
             considered, recognition = _by_goals(call, unsure, unsure.goals)
     except LIMITS as limit:
-        unknown = Answer("unknown", reason=limit_reason(limit), expanded=None, generated=None)
-        return call, lambda _: iter((unknown,))
+        if first is None:
+            yield call, Answer("unknown", reason=limit_reason(limit), expanded=None, generated=None)
+        return
     if not considered:
         nothing = Answer("infeasible", reason="no-human-plan", expanded=None, generated=None, goals=())
-        return call, lambda _: iter((nothing._replace(recognition=recognition),))
-    if len(considered) == 1:
+        yield call, nothing._replace(recognition=recognition)
+    elif len(considered) == 1:
         only = considered[0]
-        own = _unsaid(call.task, only, recognition)
-        plain = recognition is None and own is None
-        solver = _answers if plain else partial(_certain, only, recognition, own)
-        return _about(call, only, recognition), solver
-    _refuse(call.task, call.options)
-    return call, partial(_expected, considered, recognition)
+        about = _about(call, only, recognition)
+        for answer in _answers(about):
+            yield about, _certain(only, recognition, _unsaid(call.task, only, recognition), answer)
+    else:
+        _refuse(call.task, call.options)
+        for answer in _expected(considered, recognition, call):
+            yield call, answer
+
+
+def _require_answerable(call: Request, unsure: Unsure) -> None:
+    """Raise UsageError where an option has no meaning beside goals, or what was observed."""
+    if unsure.goals is not None and len(unsure.goals) > 1:
+        _refuse(call.task, call.options)
+    if unsure.observed and call.task.needs_time:
+        raise UsageError("observed: in time the posterior is not known, only the goals' priors")
+    if unsure.observed and call.options.ties == "watched":
+        raise UsageError("ties: 'watched' goes without observed: each goal's plans are all its optimal ones")
+
+
+def _beside_some_plans(call: Request, candidates: Sequence[CandidateGoal]) -> _Said | None:
+    """Idle robots beside a plan to each goal that is found soon, as if such plans were given.
+
+    None where they are no answer, and where time does not do.
+    """
+    options = call.options
+    plain = options.ties == "fixed" and all(getattr(options, name) == of for name, of in _FIXED.items())
+    if not plain or call.task.robot_goal or needs_time(call.task, options=options):
+        return None
+    known, late = [], call.deadline.part(_SOON)
+    try:
+        for number, one in enumerate(candidates):
+            part = late.part(1 / (len(candidates) - number))
+            if one.prior and (idle := _beside_some_plan(call, one, part)) is not None:
+                known.append((Candidate(one.goal, idle.human_plan or (), one.prior, one.name), idle))
+    except LIMITS:
+        return None
+    total = sum(one.weight for one, _ in known)
+    found = [replace(one, weight=one.weight / total) for one, _ in known]
+    if not found:
+        return None
+    if len(found) > 1:
+        return call, next(_expected(found, None, call))
+    own = _unsaid(call.task, found[0], None)
+    return _about(call, found[0], None), _certain(found[0], None, own, known[0][1])
+
+
+def _beside_some_plan(call: Request, one: CandidateGoal, deadline: Deadline) -> Answer | None:
+    """Idle robots beside a plan to a goal; None where there is none that fits.
+
+    Raises:
+        LimitReachedError: a limit came first.
+    """
+    prepared = call.prepared.with_goal(one.goal)
+    known = first_answer(prepared, call.options, deadline)
+    plan = known.plan or canonical_human_plan(prepared, deadline, call.options)
+    if plan is None:
+        return None
+    if (found := known.beside(plan)) is None:
+        raise LimitReachedError("time-limit")
+    return found
 
 
 def _answers(call: Request) -> Iterator[Answer]:
@@ -131,20 +196,14 @@ def _by_goals(
     With noise there is none to show: the scenarios are as if they were given.
 
     Raises:
-        UsageError: as :func:`settled`.
+        UsageError: as :func:`answers`.
         LimitReachedError: a limit came first.
     """
-    if len(candidates) > 1:
-        _refuse(call.task, call.options)
-    watched = call.options.ties == "watched"
-    if unsure.observed and call.task.needs_time:
-        raise UsageError("observed: in time the posterior is not known, only the goals' priors")
-    if unsure.observed and watched:
-        raise UsageError("ties: 'watched' goes without observed: each goal's plans are all its optimal ones")
     noise = unsure.noise
     recognition, plans = _recognised(call, candidates, unsure.observed, unsure.beta, noise)
     considered = _considered(candidates, recognition, plans)
-    return _shared(call, considered) if watched else considered, None if noise else recognition
+    shared = _shared(call, considered) if call.options.ties == "watched" else considered
+    return shared, None if noise else recognition
 
 
 def _shared(call: Request, considered: Sequence[Candidate]) -> list[Candidate]:
@@ -246,13 +305,14 @@ def _about(call: Request, candidate: Candidate, recognition: Recognition | None)
 
 
 def _certain(
-    candidate: Candidate, recognition: Recognition | None, goal: tuple[str, ...] | None, call: Request
-) -> Iterator[Answer]:
-    """One scenario is left; ``goal``: its literals, where neither task nor recognition has them."""
-    for answer in _answers(call):
-        plan = answer.human_plan
-        served = ServedGoal(candidate.name, Fraction(1), plan, answer.steps, answer.window, answer.cost, goal)
-        yield answer._replace(recognition=recognition, goals=(served,))
+    candidate: Candidate, recognition: Recognition | None, goal: tuple[str, ...] | None, answer: Answer
+) -> Answer:
+    """The answer to the one scenario that is left; ``goal``: its literals, where nothing else has them."""
+    if recognition is None and goal is None:
+        return answer
+    plan = answer.human_plan
+    served = ServedGoal(candidate.name, Fraction(1), plan, answer.steps, answer.window, answer.cost, goal)
+    return answer._replace(recognition=recognition, goals=(served,))
 
 
 def _expected(

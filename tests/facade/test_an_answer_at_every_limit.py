@@ -30,11 +30,20 @@ TIES: list[dict[str, Any]] = [
     {"ties": "robust", "human_model": "observant"},
 ]
 SILENT: list[dict[str, Any]] = [{"mode": "assistance"}, {"mode": "assistance", "ties": "robust"}]
-ALL: list[dict[str, Any]] = [{}, {"preservation": "state"}, {"horizon": 9}, *REPLANS, *TIES, *SILENT]
 
 
 def _switches() -> Task:
     return family_task("switches", 4, 6)
+
+
+def _goals(*sizes: int) -> dict[str, Any]:
+    """As many goals, the task's but for some literals."""
+    literals = _switches().goal.literals(_switches().facts)
+    return {"goals": [{"name": str(size), "goal": literals[:size]} for size in sizes]}
+
+
+UNSURE = [_goals(3), _goals(2, 3), _goals(1, 2) | {"risk": "worst"}]
+ALL: list[dict[str, Any]] = [{}, {"preservation": "state"}, {"horizon": 9}, *REPLANS, *TIES, *SILENT]
 
 
 def _ended(options: dict[str, Any], *, memory: bool = False) -> list[Result]:
@@ -62,7 +71,7 @@ def _is_at_hand(result: Result) -> bool:
     return idle and result.saving_alone is None
 
 
-@pytest.mark.parametrize("options", ALL, ids=str)
+@pytest.mark.parametrize("options", [*ALL, *UNSURE], ids=str)
 def test_an_answer_is_not_lost_breaks_no_rule_and_is_not_refuted(options: dict[str, Any]) -> None:
     """Where humans replan, ties count or help is silent there was none before their optimum was proved.
 
@@ -110,6 +119,22 @@ def test_bounds_never_fall_and_costs_never_rise(options: dict[str, Any]) -> None
         assert early.lower_bound is not None and later.lower_bound is not None
         assert early.lower_bound <= later.lower_bound
         assert early.cost is not None and later.cost is not None and later.cost <= early.cost
+
+
+@pytest.mark.parametrize("options", UNSURE, ids=str)
+def test_help_for_several_goals_begins_with_doing_nothing(options: dict[str, Any]) -> None:
+    told: list[Result] = []
+    last = serendipity.plan(_switches(), on_improvement=told.append, **options)
+    assert told[0].status == "feasible" and told[0].recognition is None and last.recognition is not None
+    for served in told[0].goals or ():
+        assert [step.action for step in served.plan or ()] == list(served.human_plan or ())
+
+
+def test_what_was_observed_weighs_goals_by_their_optimal_plans_alone() -> None:
+    known = serendipity.recognise(_switches(), _goals(3)["goals"]).goals[0].plan
+    asked = {"observed": (known or ())[:1], **_goals(2, 3)}
+    for found in _ended(asked):
+        assert (found.status == "unknown") == (found.recognition is None)
 
 
 def test_silent_help_begins_with_doing_nothing() -> None:
