@@ -88,8 +88,9 @@ def test_a_violation_names_epoch_and_action() -> None:
 
 
 def test_help_needs_a_plan_of_the_humans_even_where_nobody_says_it_is_the_best() -> None:
-    """What robots do for a human who can't reach their goal alone is no answer in a mode of windows."""
-    task = build(goal="done", actions={"do h": "open -> done", "bring r": "-> done @ 2"})
+    """Robots that reach both goals are no answer in a mode of windows where the human has no plan alone."""
+    actions = {"do h": "open -> done", "bring r": "-> done @ 2", "tidy r": "-> tidy"}
+    task = build(goal="done", robot_goal="tidy", actions=actions)
     joint = serendipity.plan(task, mode="composite", horizon=3)
     assert (joint.status, joint.human_plan) == ("optimal", None)
     windows = replace(joint, mode="serendipity", options=joint.options.but(mode="serendipity"), horizon=None)
