@@ -228,11 +228,14 @@ class Line:
         """Bound and worth of the whole, if this is what the human does for certain."""
         return self.certainly(self.first(), 0, deadline)
 
-    def learn(self, at: Member, epoch: int, way: Way) -> None:
-        """Note what is left after an epoch in which the best plan known was followed."""
-        before = self.rest(at, epoch - 1)
-        if before is not None and way.after.phase != OVER:
-            after = way.after
+    def learn(self, at: Member, epoch: int, way: Way, robots: JointAction) -> None:
+        """Note what is left after an epoch, if the best plan known was followed in it."""
+        before, after = self.rest(at, epoch - 1), way.after
+        if before is None or after.phase == OVER:
+            return
+        begun = {step.action for step in before.steps if step.epoch == 1}
+        done, inside = {*way.part.actions, *robots.actions}, after.phase == INSIDE
+        if all(not self._acting.begins(action) for action in begun ^ done) and before.goes_on(inside=inside):
             self.certain.learn(after.state, epoch, _start(after, epoch), before.after(way.paid))
 
     def certainly(self, at: Member, epoch: int, deadline: Deadline, *, again: bool = True) -> tuple[int, int]:

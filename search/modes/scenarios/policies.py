@@ -253,7 +253,7 @@ class PolicySearch:
             if way is None:
                 return None
             if guide is not None and m.scenario == guide.scenario:
-                line.learn(m, epoch, way)
+                line.learn(m, epoch, way, robots)
             ways.append(way)
         return self._choice(group, robots, tuple(ways))
 

@@ -50,6 +50,13 @@ class Remainder(NamedTuple):
     steps: tuple[Step, ...] = ()
     window: Window | None = None
 
+    def goes_on(self, *, inside: bool) -> bool:
+        """Whether it has more epochs of its window after the first, or the window is still to come."""
+        window = self.window
+        if window is None:
+            return not inside
+        return (window.start == 1) == inside and window.end > 2
+
     def after(self, paid: int) -> "Remainder":
         """What is left once its first epoch has been paid."""
         steps = tuple(Step(step.epoch - 1, step.action) for step in self.steps if step.epoch > 1)

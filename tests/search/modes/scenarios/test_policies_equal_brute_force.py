@@ -18,7 +18,7 @@ _LARGEST = {1: 4, 2: 4, 3: 3}
 """Horizons that brute force copes with, by the number of scenarios."""
 
 
-def solved(task: Task, candidates: list[Candidate], options: Options) -> Answer:
+def solved(task: Task, options: Options, candidates: list[Candidate]) -> Answer:
     """The last answer, which is exact."""
     *_, answer = solve_scenarios(PreparedTask(task), options, candidates)
     assert answer.status == "optimal"
@@ -34,7 +34,7 @@ def test_search_equals_brute_force(given_: tuple[Task, list[Candidate]], data: s
     if horizon > _LARGEST[len(candidates)] or len(task.actions) * horizon > 45:
         return
     best = best_policy(task, options, candidates, horizon)
-    answer = solved(task, candidates, options)
+    answer = solved(task, options, candidates)
     assert (answer.objective, answer.cost) == (best.objective, best.cost)
     assert (answer.opportunity, answer.baseline) == (best.opportunity, best.baseline)
     if options.risk == "mean":
@@ -70,7 +70,8 @@ def lifted() -> tuple[Task, list[Candidate]]:
 
 def test_a_window_may_close_before_the_human_profits() -> None:
     """Both things are up after epoch 2; the human waits in a window of one epoch, and is quick after it."""
-    answer = solved(*lifted(), Options(horizon=3, window_weight=Fraction(1), policy="fixed"))
+    task, candidates = lifted()
+    answer = solved(task, Options(horizon=3, window_weight=Fraction(1), policy="fixed"), candidates)
     assert (answer.objective, answer.cost) == (Fraction(7, 2), Fraction(5, 2))
 
 
