@@ -4,25 +4,30 @@ import threading
 import weakref
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
+from hashlib import sha256
 from itertools import combinations
-from typing import Any, Unpack
+from typing import Any, Final, Unpack
 
 from search import PreparedTask
-from serendipity.facade.call import Given
+from serendipity.facade.call import Given, options_from
 from serendipity.facade.memory import SessionMemory
 from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned, planned_anytime
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_plan, named_steps
-from serendipity.model import HumanPlan, PlanError, PlanStep, Result, Task, UsageError
-from serendipity.model.arguments import BY_NAME, TASK_IN_TIME, expect
+from serendipity.model import HumanPlan, InputError, Options, PlanError, PlanStep, Result, Task, UsageError
+from serendipity.model.arguments import BY_NAME, TASK, TASK_IN_TIME, expect
 from serendipity.model.keywords import listing
+from serendipity.model.schemas import schema_fault
 from serendipity.model.task.actions import NOOP, GroundAction, apply, conflicting
 from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.facts import Facts
+from serendipity.model.task.gate import refuse_time
 from serendipity.model.task.passing import epoch_later
 from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries
 from serendipity.model.task.plans_in_time import times_of
 from serendipity.model.task.task import canonical_name, several
+
+SNAPSHOT: Final = "serendipity.session/1"
 
 
 class Session:
@@ -100,16 +105,79 @@ class Session:
             self._learn(answer)
             yield answer
 
-    def _remembered(self) -> dict[str, Any]:
-        """The knowledge that another session in the same state needs, as plain values."""
-        return {"predicted": self._predicted, "answers": self._memory.written(self.task)}
+    def snapshot(self) -> dict[str, Any]:
+        """Where it stands, as a JSON object: schema ``serendipity.session/1``, for :meth:`restore`.
 
-    def _remind(self, remembered: Mapping[str, Any]) -> None:
-        self._predicted = remembered["predicted"]
-        self._memory.read(self.task, remembered["answers"])
+        Raises:
+            UsageError: in time, or where what the human sees is a function.
+        """
+        task, chosen = self.task, options_from(self._plain_options())
+        refuse_time(task, options=chosen, plan=self._human_plan)
+        asked = chosen.to_dict()
+        return {
+            "schema": SNAPSHOT,
+            "task": self._mark,
+            "options": {name: asked[name] for name in self._options},
+            "facts": [task.facts[fact] for fact in sorted(task.init)],
+            "goal": list(task.goal.literals(task.facts)),
+            "human_plan": None if self.human_plan is None else list(self.human_plan),
+            "predicted": self._predicted,
+            "answers": self._memory.written(task),
+        }
+
+    @classmethod
+    def restore(cls, task: Task, snapshot: Mapping[str, Any], **options: Unpack[SessionOptions]) -> "Session":
+        """A session that stands where another one stood, in this process or another.
+
+        Args:
+            task: the task that the other one began with, from any of its states.
+            snapshot: what :meth:`snapshot` has told.
+            **options: instead of those of the other one.
+
+        Raises:
+            InputError: the snapshot is of another task, or none.
+        """
+        expect(TASK, task=task)
+        expect(BY_NAME, snapshot=snapshot)
+        if fault := schema_fault(snapshot.get("schema"), SNAPSHOT):
+            raise InputError(f"snapshot: {fault}")
+        moved = cls(task)
+        if snapshot.get("task") != moved._mark:
+            raise InputError("snapshot: it is of another task")
+        try:
+            true = frozenset(snapshot["facts"])
+            moved.set_goal(snapshot["goal"])
+            moved.change({fact: fact in true for fact in task.facts})
+            asked: dict[str, Any] = {**snapshot["options"], **options}
+            session = cls(moved.task, human_plan=snapshot["human_plan"], **asked)
+            session._predicted = snapshot["predicted"]
+            session._memory.read(session.task, snapshot["answers"])
+        except (KeyError, TypeError, ValueError, AttributeError, IndexError):
+            raise InputError("snapshot: expected what Session.snapshot() writes") from None
+        return session
+
+    def _plain_options(self) -> dict[str, Any]:
+        """The defaults that are plain values.
+
+        Raises:
+            UsageError: one is not.
+        """
+        other = self._options.keys() - Options.__dataclass_fields__.keys()
+        if other:
+            raise UsageError(f"snapshot: {min(other)} is no plain value; give it to each call")
+        return {**self._options}
+
+    @cached_property
+    def _mark(self) -> str:
+        """A digest of the task but for its state and goals, which no move changes."""
+        task = self.task
+        digest = sha256(repr((task.agents, task.human, task.facts)).encode())
+        for action in task.actions:
+            digest.update(repr(action).encode())
+        return digest.hexdigest()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        raise TypeError("a session is not pickled: pickle session.task, and begin another there")
+        raise TypeError("a session is not pickled: restore(task, snapshot()) begins one where it stands")
 
     def _known_plan(self, asked: Mapping[str, Any]) -> Given:
         if self._is_outdated:

@@ -131,42 +131,14 @@ class HeldSessions:
         state = remembered["state"]
         if state is None:
             return Session(task, human_plan=begun["human_plan"], **options)
-        session = Session(_moved(task, state), human_plan=state["human_plan"], **options)
-        session._remind(state["known"])
-        return session
+        return Session.restore(task, state)
 
     def keep(self, remembered: Remembered, session: Session) -> dict[str, Any]:
         """Hold a session as its next version; what has to be remembered of it."""
         self._held[remembered["id"]] = (remembered["version"] + 1, session)
         while len(self._held) > self._most:
             self._held.popitem(last=False)
-        return stands(session)
-
-
-def stands(session: Session) -> dict[str, Any]:
-    """Where a session stands: the true facts, the human's goal, and what they are going to do, if known.
-
-    ``known`` is what is left of its answers.
-    """
-    task = session.task
-    return {
-        "facts": [task.facts[fact] for fact in sorted(task.init)],
-        "goal": [
-            *(task.facts[fact] for fact in task.goal.positive),
-            *(f"!{task.facts[fact]}" for fact in task.goal.negative),
-        ],
-        "human_plan": None if session.human_plan is None else list(session.human_plan),
-        "known": session._remembered(),
-    }
-
-
-def _moved(task: Task, state: Mapping[str, Any]) -> Task:
-    """The task from another state, with another goal."""
-    fresh = Session(task)
-    fresh.set_goal(state["goal"])
-    true = frozenset(state["facts"])
-    fresh.change({fact: fact in true for fact in task.facts})
-    return fresh.task
+        return session.snapshot()
 
 
 Given = Mapping[str, Any]

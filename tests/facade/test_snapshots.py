@@ -1,0 +1,75 @@
+"""A session goes on from a snapshot of itself, in this process or another."""
+
+import json
+from typing import Any
+
+import pytest
+
+import serendipity
+from serendipity import InputError, Session, UsageError
+from serendipity.model import Script
+from serendipity.testing.builders import task as build
+
+
+def begun() -> Session:
+    """A session two epochs after its first answer."""
+    session = Session(serendipity.example("room2"), discount="0.9", time_limit=20)
+    answer = session.plan()
+    for epoch in (1, 2):
+        session.execute(step.action for step in answer.plan or () if step.epoch == epoch)
+    return session
+
+
+def written(session: Session) -> dict[str, Any]:
+    """A snapshot that has been to a file."""
+    read: dict[str, Any] = json.loads(json.dumps(session.snapshot()))
+    return read
+
+
+def test_a_restored_session_goes_on_where_the_other_stood() -> None:
+    session = begun()
+    restored = Session.restore(serendipity.example("room2"), written(session))
+    assert restored.task.init == session.task.init
+    assert (restored.human_plan, restored.rest) == (session.human_plan, session.rest)
+    assert written(restored) == written(session)
+    answer = restored.plan()
+    assert (answer.status, answer.statistics["expanded"]) == ("optimal", 0)
+    assert answer.cost == session.plan().cost
+    assert restored.plan(discount=0).options.time_limit == 20
+
+
+def test_options_of_the_snapshot_give_way() -> None:
+    restored = Session.restore(serendipity.example("room2"), written(begun()), discount=0)
+    assert restored.plan().options.discount == 0
+
+
+def test_a_goal_and_facts_that_were_seen_are_kept() -> None:
+    task = serendipity.example("room2")
+    session = Session(task)
+    session.set_goal(["conducted_triage commx room3"])
+    session.change({"at robot room4": False, "at robot room2": True})
+    restored = Session.restore(task, written(session))
+    assert (restored.task.init, restored.task.goal) == (session.task.init, session.task.goal)
+    assert restored.plan().cost == session.plan().cost
+
+
+def test_what_is_no_snapshot_of_the_task_is_refused() -> None:
+    whole = written(begun())
+    with pytest.raises(InputError, match=r"snapshot: it is of another task"):
+        Session.restore(serendipity.example("parcels"), whole)
+    with pytest.raises(InputError, match=r"snapshot: schema: 'serendipity.session/9' is newer"):
+        Session.restore(serendipity.example("room2"), {**whole, "schema": "serendipity.session/9"})
+    wrong = {"facts": 3, "goal": None, "options": [], "answers": [{}], "predicted": None, "human_plan": 7}
+    for name in ("facts", "goal", "human_plan", "options", "answers"):
+        for bad in ({k: v for k, v in whole.items() if k != name}, {**whole, name: wrong[name]}):
+            with pytest.raises(serendipity.SerendipityError) as caught:
+                Session.restore(serendipity.example("room2"), bad)
+            assert "\n" not in str(caught.value)
+
+
+def test_what_can_not_be_written_is_refused() -> None:
+    task = build(goal="done", actions={"do h": "-> done", "help r": "-> done"})
+    with pytest.raises(UsageError, match="snapshot: visible is no plain value"):
+        Session(task, visible=lambda *_: True).snapshot()
+    with pytest.raises(UsageError, match="time: the task has a script"):
+        Session(task.with_script(Script(facts=[(2, "done")]))).snapshot()
