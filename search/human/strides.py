@@ -58,9 +58,7 @@ class Script:
         self._shift = (self.clock & -self.clock).bit_length() - 1 if ticks else 0
         self.last = len(ticks)
         self._ticks = {value >> self._shift: op for _, value, op in ticks}
-        self.fields = 0
-        for op in self._ticks.values():
-            self.fields |= packed.all_ones & ~op.keep & ~self.clock
+        self.fields = packed.changed_by(self._ticks.values()) & ~self.clock
         self._changing = sorted(v for v, op in self._ticks.items() if ~op.keep & self.fields)
         self._courses: dict[tuple[int, int], list[int]] = {}
         self._runs: dict[tuple[int, int, PackedGoal], list[int]] = {}
@@ -356,8 +354,5 @@ def may_stride(packed: PackedTask) -> bool:
     robots = sum(1 << robot for robot in packed.task.robots)
     if any(op.agents & ~(robots | packed.human_bit | packed.clock_bit) for _, _, op in packed.due):
         return False
-    scripted = 0
-    for _, _, op in packed.due:
-        if op.agents == packed.clock_bit:
-            scripted |= packed.all_ones & ~op.keep
+    scripted = packed.changed_by(op for _, _, op in packed.due if op.agents == packed.clock_bit)
     return not scripted & (set_by(packed.own_forms) | packed.goal.mask | packed.robot_goal.mask)

@@ -48,9 +48,8 @@ class Replan:
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
         """See :class:`Suffix`."""
-        if self.both is None and not self.robot_goal.holds(state):
-            return INFINITE_KEY
-        if self.at_rest.mask and not self.at_rest.holds(state):
+        reached = self.both is not None or self.robot_goal.holds(state)
+        if not reached or not self.at_rest.holds(state):
             return INFINITE_KEY
         own = self.alone.key(state, limit)
         if own >= limit or self.keys.actions(own) > epochs:

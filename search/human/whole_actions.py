@@ -12,7 +12,7 @@ from search.classical.problem import classical_problem
 from search.kernel.library import library
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY, own_costs, own_weights
 from search.packed.due import Due, as_one
-from search.packed.operators import Operator, asked_by
+from search.packed.operators import Operator, union
 from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.options import MAX_EPOCH
 from serendipity.model.resources.deadline import Deadline
@@ -117,9 +117,7 @@ def alone_planner(packed: PackedTask, goal: PackedGoal, deadline: Deadline) -> O
     going_on = {op.action for _, _, op in packed.due}
     chains = [packed.chain(op) for op in packed.own if op.action not in going_on]
     operators = [as_one(packed, chain) for chain in chains]
-    kept = goal.mask
-    for op in operators:
-        kept |= asked_by(op) | packed.all_ones & ~op.keep
+    kept = goal.mask | union(map(packed.mentioned, operators))
     fields = ((field, len(packed.values(field))) for field in packed.fields if field & kept)
     prices = [sum(costs[op.cost] for op in chain) for chain in chains]
     shift = _COUNT_BITS if packed.due else 0

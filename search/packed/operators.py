@@ -9,6 +9,8 @@ ops of the same agents that mention the same fields in the same way.
 """
 
 from collections.abc import Iterable, Iterator
+from functools import reduce
+from operator import or_
 from typing import NamedTuple
 
 from serendipity.model.resources.deadline import Deadline
@@ -83,10 +85,12 @@ def forms_of(ops: Iterable[Operator], all_ones: int, deadline: Deadline) -> tupl
 
 def set_by(forms: Iterable[Signature]) -> int:
     """The fields that some ops set."""
-    fields = 0
-    for form in forms:
-        fields |= form.sets
-    return fields
+    return union(form.sets for form in forms)
+
+
+def union(masks: Iterable[int]) -> int:
+    """All fields of some masks."""
+    return reduce(or_, masks, 0)
 
 
 def split(mask: int, by_lowest_bit: dict[int, int]) -> Iterator[int]:

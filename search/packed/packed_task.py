@@ -15,7 +15,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from search.packed.operator_index import by_most_asked
-from search.packed.operators import Operator, Signature, asked_by, forms_of, set_by, split
+from search.packed.operators import Operator, Signature, asked_by, forms_of, set_by, split, union
 from search.packed.relevance import deeds_of, relevant_to_goals
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
@@ -35,10 +35,7 @@ class PackedGoal:
     @property
     def mask(self) -> int:
         """The fields that the condition looks at."""
-        mask = self.need_mask
-        for field, _ in self.forbidden:
-            mask |= field
-        return mask
+        return self.need_mask | union(field for field, _ in self.forbidden)
 
     def within(self, fields: int) -> "PackedGoal":
         """What it asks of some fields."""
@@ -204,11 +201,8 @@ class PackedTask:
             *task.at_rest,
             *(f for f in task.goal.positive if task.facts[f] == f"free {task.agents[task.human]}"),
         }
-        mask = 0
-        for fact in free if task.due else ():
-            bits = self.fact_bits[fact]
-            mask |= 0 if bits is None else bits[0]
-        return mask
+        placed = (self.fact_bits[fact] for fact in free if task.due)
+        return union(bits[0] for bits in placed if bits is not None)
 
     @cached_property
     def lasting(self) -> int:
@@ -254,10 +248,7 @@ class PackedTask:
     @cached_property
     def own_mask(self) -> int:
         """The fields that what the human does alone asks for or sets."""
-        mask = 0
-        for form in self.own_forms:
-            mask |= form.mentions
-        return mask
+        return union(form.mentions for form in self.own_forms)
 
     def is_interaction(self, form: Signature) -> bool:
         """Whether ops of the human mention what others change, or others take part."""
@@ -269,12 +260,8 @@ class PackedTask:
 
     def pack(self, state: Iterable[int]) -> int:
         """The packed form of a set of true facts."""
-        packed = 0
-        for fact in state:
-            bits = self.fact_bits[fact]
-            if bits is not None:
-                packed |= bits[1]
-        return packed
+        placed = (self.fact_bits[fact] for fact in state)
+        return union(bits[1] for bits in placed if bits is not None)
 
     def values(self, field: int) -> list[int]:
         """The values that a field can have, in place."""
@@ -328,10 +315,7 @@ class PackedTask:
 
     def changed_by(self, ops: Iterable[Operator]) -> int:
         """The union of the fields that some of ``ops`` set."""
-        mask = 0
-        for op in ops:
-            mask |= self.all_ones & ~op.keep
-        return mask
+        return union(self.all_ones & ~op.keep for op in ops)
 
     def _literals(
         self, positive: Iterable[int], negative: Iterable[int]

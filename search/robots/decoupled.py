@@ -22,7 +22,7 @@ from search.engine.best_first import Node
 from search.packed.cost_vector import own_costs
 from search.packed.joint_actions import Idle, JointAction, together
 from search.packed.operator_index import LiteralIndex
-from search.packed.operators import Operator, Signature
+from search.packed.operators import Operator, Signature, union
 from search.packed.packed_task import PackedTask
 from search.packed.state_cache import StateCache
 from search.packed.successor_generator import MOST_KEPT, Successors, in_time
@@ -127,8 +127,8 @@ class Decoupled:
                 led.setdefault(form.agents & -form.agents, []).append(deed)
         self.joint = _by_largest(joint, packed)
         self.led = [_by_largest(deeds, packed) for _, deeds in sorted(led.items())]
-        self.joint_mask = _asked(joint)
-        self.led_mask = _asked(deed for deeds in led.values() for deed in deeds)
+        self.joint_mask = union(map(_asked, joint))
+        self.led_mask = union(_asked(deed) for deeds in led.values() for deed in deeds)
         costs = [{move.cost for moves in way.values() for move in moves} for way in self._moves]
         return bool(self._going_on) or all(len(cost) <= 1 for cost in costs)
 
@@ -257,12 +257,9 @@ class Decoupled:
             node = node.parent
 
 
-def _asked(deeds: Iterable[CenterAction]) -> int:
-    """The fields that deeds ask for."""
-    mask = 0
-    for deed in deeds:
-        mask |= deed.form.need_mask | deed.form.forbids
-    return mask
+def _asked(deed: CenterAction) -> int:
+    """The fields that a deed asks for."""
+    return deed.form.need_mask | deed.form.forbids
 
 
 def _by_largest(deeds: Iterable[CenterAction], packed: PackedTask) -> CenterActionIndex:

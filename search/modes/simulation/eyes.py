@@ -1,85 +1,68 @@
 """Looks: the human's belief after they have looked up (semantics 6)."""
 
-from typing import Protocol
+from collections.abc import Callable
 
+from search.packed.operators import union
 from search.packed.packed_task import PackedTask
 from serendipity.model.task.visibility import Surroundings, Visible
 
 
-class Eyes(Protocol):
-    """A way to see, which changes a belief."""
+class Eyes:
+    """A way to see, which changes a belief.
+
+    Args:
+        depends: the fields on which it depends what they see.
+        sees: the fields that they see, by what the former are.
+    """
+
+    def __init__(self, depends: int, sees: Callable[[int], int]) -> None:
+        self._depends = depends
+        self._sees = sees
+        self._seen: dict[int, int] = {}
 
     def look(self, belief: int, state: int) -> int:
         """The belief after a look at the packed state."""
+        at = state & self._depends
+        seen = self._seen.get(at)
+        if seen is None:
+            seen = self._seen[at] = self._sees(at)
+        return belief & ~seen | state & seen
 
 
-class Everywhere:
+def everywhere() -> Eyes:
     """The observant human: they see the whole state."""
-
-    def look(self, belief: int, state: int) -> int:
-        """See :class:`Eyes`."""
-        return state
+    return Eyes(0, lambda _: -1)
 
 
-class Nearby:
-    """The local human: they see what is where they are."""
+def nearby(encoding: PackedTask, places: Surroundings) -> Eyes:
+    """The local human: they see what is where they are, or all where nothing is anywhere."""
+    if not places.located:
+        return Eyes(0, lambda _: encoding.all_ones)
+    human, naming = encoding.task.agents[encoding.task.human], _naming(encoding, places)
+    located = [
+        (*bits, who, place)
+        for fact, (who, place) in places.located.items()
+        if (bits := encoding.fact_bits[fact]) is not None
+    ]
 
-    def __init__(self, encoding: PackedTask, places: Surroundings) -> None:
-        task = encoding.task
-        self._human = task.agents[task.human]
-        self._naming = _naming(encoding, places)
-        self._located = [
-            (*bits, who, place)
-            for fact, (who, place) in places.located.items()
-            if (bits := encoding.fact_bits[fact]) is not None
-        ]
-        self._positions = 0
-        for mask, *_ in self._located:
-            self._positions |= mask
-        self._everything = 0 if places.located else encoding.all_ones
-        self._seen: dict[int, int] = {}
+    def sees(positions: int) -> int:
+        here = [(who, place) for mask, value, who, place in located if positions & mask == value]
+        at = {place for who, place in here if who == human}
+        return union(naming.get(name, 0) for name in at.union(who for who, place in here if place in at))
 
-    def look(self, belief: int, state: int) -> int:
-        """See :class:`Eyes`."""
-        positions = state & self._positions
-        seen = self._seen.get(positions)
-        if seen is None:
-            seen = self._seen[positions] = self._everything | self._mask(positions)
-        return belief & ~seen | state & seen
-
-    def _mask(self, positions: int) -> int:
-        here = [(who, place) for mask, value, who, place in self._located if positions & mask == value]
-        places = {place for who, place in here if who == self._human}
-        near = places.union(who for who, place in here if place in places)
-        seen = 0
-        for name in near:
-            seen |= self._naming.get(name, 0)
-        return seen
+    return Eyes(union(mask for mask, *_ in located), sees)
 
 
-class AsTold:
+def as_told(encoding: PackedTask, visible: Visible) -> Eyes:
     """The local human of a caller who says themselves what is visible."""
+    human = encoding.task.human
+    packed = [(fact, *bits) for fact, bits in enumerate(encoding.fact_bits) if bits is not None]
 
-    def __init__(self, encoding: PackedTask, visible: Visible) -> None:
-        self._encoding = encoding
-        self._visible = visible
-        self._seen: dict[int, int] = {}
+    def sees(state: int) -> int:
+        facts = frozenset(fact for fact, mask, value in packed if state & mask == value)
+        return union(mask for fact, mask, _ in packed if visible(human, fact, facts))
 
-    def look(self, belief: int, state: int) -> int:
-        """See :class:`Eyes`."""
-        seen = self._seen.get(state)
-        if seen is None:
-            seen = self._seen[state] = self._mask(state)
-        return belief & ~seen | state & seen
-
-    def _mask(self, state: int) -> int:
-        human, bits = self._encoding.task.human, self._encoding.fact_bits
-        facts = frozenset(f for f, b in enumerate(bits) if b is not None and state & b[0] == b[1])
-        seen = 0
-        for fact, b in enumerate(bits):
-            if b is not None and self._visible(human, fact, facts):
-                seen |= b[0]
-        return seen
+    return Eyes(-1, sees)
 
 
 def _naming(encoding: PackedTask, places: Surroundings) -> dict[str, int]:

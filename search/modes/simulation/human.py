@@ -7,11 +7,11 @@ from typing import NamedTuple
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask, TaskTables
 from search.human.individual_planner import canonical
-from search.modes.simulation.eyes import AsTold, Everywhere, Eyes, Nearby
+from search.modes.simulation.eyes import Eyes, as_told, everywhere, nearby
 from search.modes.simulation.intention import Intention, Intentions
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option
-from search.packed.operators import Operator, applicable, asked_by
+from search.packed.operators import Operator, applicable, asked_by, union
 from search.packed.packed_task import PackedTask
 from search.packed.packings import asked_facts
 from serendipity.model.options import Options
@@ -91,12 +91,11 @@ class Human:
         self.alone = self.context.alone
         self.intentions = Intentions(self.packed, self.keys, self.weights.human)
         self.sees_all = not local
-        self.eyes: Eyes = _eyes(prepared, self.packed, visible, deadline) if local else Everywhere()
-        self.concern = self.packed.own_mask | self.packed.goal.mask
+        self.eyes = _eyes(prepared, self.packed, visible, deadline) if local else everywhere()
         task = prepared.task
-        for i in actions:
-            if task.actions[i].participants == (task.human,):
-                self.concern |= asked_by(self.packed.op(i))
+        asked = (i for i in actions if task.actions[i].participants == (task.human,))
+        self.concern = self.packed.own_mask | self.packed.goal.mask
+        self.concern |= union(asked_by(self.packed.op(i)) for i in asked)
         self._looks: dict[tuple[int, int], Glance] = {}
 
     def look(self, expected: int, state: int, intention: Intention, *, settled: bool) -> tuple[int, Glance]:
@@ -197,4 +196,4 @@ def _missing(packed: PackedTask, actions: Collection[int]) -> frozenset[int]:
 
 
 def _eyes(prepared: PreparedTask, packed: PackedTask, visible: Visible | None, deadline: Deadline) -> Eyes:
-    return Nearby(packed, prepared.surroundings(deadline)) if visible is None else AsTold(packed, visible)
+    return nearby(packed, prepared.surroundings(deadline)) if visible is None else as_told(packed, visible)

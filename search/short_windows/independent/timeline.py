@@ -13,7 +13,7 @@ import numpy as np
 
 from search.call.context import SearchContext
 from search.packed.cost_vector import FAR, NEVER
-from search.packed.operators import Operator, asked_by
+from search.packed.operators import Operator, asked_by, union
 from search.short_windows.independent.provision import Provision, detours, leaves
 from search.short_windows.independent.rows import Amounts, Flags, Rows, agree, cheapest, codes, column
 from serendipity.model.errors import LimitReachedError
@@ -105,12 +105,8 @@ class RobotLayers:
         for (field, value), epoch in others.items():
             self._settable.setdefault(field, {})[value] = epoch
         self._acts = [self._act(op, amount(op)) for op in deadline.each(ops)]
-        self._local = 0
-        for op in ops:
-            self._local |= packed.mentioned(op)
-        self._asked = self._local & ~self.changes
-        for op in ops:
-            self._asked |= asked_by(op)
+        self._local = union(map(packed.mentioned, ops))
+        self._asked = self._local & ~self.changes | union(map(asked_by, ops))
         lent = {field for field, _ in others}
         self._detours = {
             field: detours(packed, field, robot, amount)

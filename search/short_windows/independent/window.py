@@ -7,7 +7,7 @@ import numpy as np
 
 from search.call.context import SearchContext
 from search.packed.cost_vector import ACTIONS_BITS, FAR, INFINITE_KEY
-from search.packed.operators import Operator
+from search.packed.operators import Operator, union
 from search.short_windows.independent.landmarks import Landmark, Landmarks, left_to_pay
 from search.short_windows.independent.outcomes import Outcomes, Remaining, Together, outcomes, values
 from search.short_windows.independent.provision import Value
@@ -72,9 +72,7 @@ class Window:
         """What each robot can leave behind on its own."""
         deadline = self._context.deadline
         for timeline in self._timelines:
-            others = 0
-            for other in self._timelines:
-                others |= 0 if other is timeline else other.changes
+            others = union(other.changes for other in self._timelines if other is not timeline)
             own = [field for field in self._fields if field & timeline.changes]
             self._shared.append(others & sum(own))
             self._apart.append(outcomes(timeline.ends(), self._base, own, others, lost, deadline))
@@ -159,10 +157,8 @@ class Window:
             self._timelines, self._apart, self._shared, parts, strict=True
         ):
             change = states(apart.rows[:, part : part + 1])[0]
-            mask = 0
-            for field in self._fields:
-                if field & timeline.changes and (change & field or not field & shared):
-                    mask |= field
+            own = (field for field in self._fields if field & timeline.changes)
+            mask = union(field for field in own if change & field or not field & shared)
             way = timeline.way(self._epochs, mask, (self._base ^ change) & mask, int(apart.amounts[part]))
             for epoch, op in enumerate(way):
                 if op is not None:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from itertools import islice
 from typing import Any
 
-from search.modes.simulation.eyes import Nearby
+from search.modes.simulation.eyes import Eyes
 from search.modes.simulation.human import Human
 from serendipity.facade import ties
 from tests.verify.planted.bug import Bug, always, replaced, wrapped
@@ -38,5 +38,5 @@ BUGS = (
     Bug(Human, "_decide", "nothing new, if their plan works", wrapped(_stubborn)),
     Bug(Human, "accepts", "always", replaced(always(True))),
     Bug(Human, "accepts", "never", replaced(always(False))),
-    Bug(Nearby, "look", "everything", wrapped(_all_seeing)),
+    Bug(Eyes, "look", "everything", wrapped(_all_seeing)),
 )

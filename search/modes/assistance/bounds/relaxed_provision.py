@@ -238,10 +238,7 @@ class RelaxedProvision:
 
 def _monotone(ops: Iterable[Operator], private: int, fields: list[int]) -> int:
     """The private single-bit fields that no action unsets."""
-    bits = 0
-    for field in fields:
-        if field & private and field.bit_count() == 1:
-            bits |= field
+    bits = sum(field for field in fields if field & private and field.bit_count() == 1)
     for op in ops:
         bits &= op.keep | op.put
     return bits

@@ -144,9 +144,9 @@ class PackedPlaces:
     def _choices(self, condition: PackedGoal, keep: int, put: int) -> tuple[int, list[list[tuple[int, int]]]]:
         """Per axis that an action mentions, the pairs of places that it leads between; and their mask."""
         choices = []
-        mask = 0
+        mask, mentioned = 0, condition.mask | ~keep
         for axis in self.axes:
-            if condition.mask & axis.mask or axis.mask & ~keep:
+            if axis.mask & mentioned:
                 choices.append(list(_pairs(axis, condition, keep, put)))
                 mask |= (1 << axis.width) - 1 << axis.shift
         return mask, choices
