@@ -119,6 +119,11 @@ class Successors:
         """Joint actions with the human that are applicable."""
         return self._joint.options(state) if self._joint is not None else []
 
+    def free(self, state: int) -> Sequence[JointAction]:
+        """What the human may do where they follow no plan: go on, or wait and whatever they can."""
+        going_on = self.going_on(state)
+        return (*self.idle, *self.human(state), *self.joint(state)) if going_on is None else going_on
+
     def name(self, part: JointAction) -> str | None:
         """The name of what the human begins; None where they wait, or go on."""
         acts = part.actions and self.begins(part.actions[0])

@@ -23,6 +23,7 @@ class FixedHumanPlan:
         steps: the human's packed actions and what they do, in order.
         goals: what has to hold at the end.
         successors: what agents can do in an epoch.
+        begins: the number of epochs that are over.
     """
 
     initial: int
@@ -30,6 +31,7 @@ class FixedHumanPlan:
     steps: list[tuple[Operator, JointAction]]
     goals: tuple[PackedGoal, ...]
     successors: Successors
+    begins: int = 0
 
     def __post_init__(self) -> None:
         self._best: dict[tuple[int, int], int] = {}
@@ -38,8 +40,8 @@ class FixedHumanPlan:
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state."""
-        self._best[0, self.initial] = 0
-        yield self._rest[0], Node(0, 0, self.initial, 0, 0, None, ())
+        self._best[self.begins, self.initial] = 0
+        yield self._left(self.begins), Node(0, self.begins, self.initial, 0, 0, None, ())
 
     def alive(self, node: Node) -> bool:
         """Whether the state was not reached cheaper in the same epoch."""
@@ -65,8 +67,11 @@ class FixedHumanPlan:
             key = node.key + option.weight
             if key < self._best.get((epoch, state), best.key):
                 self._best[epoch, state] = key
-                bound = key + (self._rest[epoch] if epoch < len(self.steps) else 0)
-                yield bound, Node(key, epoch, state, 0, 0, node, option.actions)
+                yield key + self._left(epoch), Node(key, epoch, state, 0, 0, node, option.actions)
+
+    def _left(self, epoch: int) -> int:
+        """What the rest of the human's plan costs after an epoch."""
+        return self._rest[epoch] if epoch < len(self.steps) else 0
 
 
 def follow_plan(context: SearchContext, plan: HumanPlan, horizon: int | None, best: Incumbent) -> None:

@@ -99,9 +99,7 @@ class FixedWindow:
         if is_last or not successors.in_time:
             self._end(node, best)
         if not is_last:
-            going_on = successors.going_on(state)
-            free = (*successors.idle, *successors.human(state), *successors.joint(state))
-            for part in free if going_on is None else going_on:
+            for part in successors.free(state):
                 yield from self._act(node, part, best)
 
     def _follow(self, node: Node, part: JointAction, best: Incumbent) -> Iterator[tuple[int, Node]]:

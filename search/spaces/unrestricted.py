@@ -102,10 +102,6 @@ class Unrestricted:
         if self._in_turn:
             yield from successors.in_turn(state)
             return
-        going_on = successors.going_on(state)
-        free = going_on
-        if free is None:
-            free = (*successors.idle, *successors.human(state), *successors.joint(state))
-        for part in free:
+        for part in successors.free(state):
             for option in successors.with_robots(part, state):
                 yield part, option

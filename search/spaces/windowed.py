@@ -139,6 +139,8 @@ class Windowed:
             that opens with the next epoch is as good, and later.
         relevant: the fields that matter to the human alone, and to goals: what robots do in the last epoch
             of a window changes one of them, or it is in vain.
+        begins: the number of epochs that are over.
+        opened: the first epoch of a window that is open then; 0 where none is.
     """
 
     initial: int
@@ -156,16 +158,24 @@ class Windowed:
     labels: ParetoFront
     relevant: int
     opens_late: bool = False
+    begins: int = 0
+    opened: int = 0
 
     def __post_init__(self) -> None:
         self._followed = ParetoFront()
 
     def roots(self) -> Iterator[tuple[int, Node]]:
-        """The initial state, in the prefix."""
-        if self.last >= 1:
-            self._followed.add((0, self.initial), 0, 0, self.idle)
-            root = Node(0, 0, self.initial, PREFIX, 0, None, (), self.idle)
-            yield self.on_the_way.later(0, self.initial, self.idle), root
+        """The initial state, in the prefix or in the window that is open."""
+        epoch, initial = self.begins, self.initial
+        phase = WINDOW if self.opened else PREFIX
+        root = Node(0, epoch, initial, phase, self.opened, None, (), self.idle)
+        if self.opened:
+            if epoch - self.opened + 1 < self.max_window:
+                self.labels.add(initial, epoch, 0, self.idle)
+                yield self.keys.epoch_weight + self.bounds.private(initial), root
+        elif epoch < self.last:
+            self._followed.add((epoch, initial), epoch, 0, self.idle)
+            yield self.on_the_way.later(epoch, initial, self.idle), root
 
     def alive(self, node: Node) -> bool:
         """Whether no better node makes this one superfluous."""

@@ -1,20 +1,26 @@
 """What one scenario may do in an epoch beside robots: rules 1 to 3 of semantics 3.1 (semantics 11)."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from search.call.context import SearchContext
-from search.modes.scenarios.measure import INFINITE_WORTH, Measure, Member, Tail, Worths
+from search.modes.scenarios.measure import (
+    FOLLOWING,
+    INFINITE_WORTH,
+    INSIDE,
+    OVER,
+    Measure,
+    Member,
+    Tail,
+    Worths,
+)
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option, together
 from search.packed.operators import Operator, applicable
 from search.packed.successor_generator import Successors
 from serendipity.model.resources.deadline import Deadline
-
-FOLLOWING, INSIDE, OVER = range(3)
-"""Phases: before a window, or without any; in it; after it."""
 
 
 class Way(NamedTuple):
@@ -39,31 +45,29 @@ class Guide:
 
     Attributes:
         scenario: its number.
-        epoch: the number of epochs that were over when it was made.
-        remainder: the plan, counted from there.
+        remainder: the plan.
         phase: of the window at that time.
         context: of the scenario's call.
     """
 
     scenario: int
-    epoch: int
     remainder: Remainder
     phase: int
     context: SearchContext
 
     def at(self, epoch: int) -> tuple[JointAction, tuple[int, ...], int]:
         """What robots begin by themselves in an epoch, what the human does, and the phase after it."""
-        now, packed = epoch - self.epoch, self.context.packed
-        ops = [packed.op(step.action) for step in self.remainder.steps if step.epoch == now]
+        packed = self.context.packed
+        ops = [packed.op(step.action) for step in self.remainder.steps if step.epoch == epoch]
         robots = NOTHING
         for op in ops:
             if not op.agents & packed.human_bit and packed.counted(op.action):
                 robots = together(robots, as_option(op, self.context.weights.team(op)))
         part = tuple(op.action for op in ops if op.agents & packed.human_bit)
         window = self.remainder.window
-        if window is None or now < window.start:
+        if window is None or epoch < window.start:
             return robots, part, self.phase
-        return robots, part, INSIDE if now + 1 < window.end else OVER
+        return robots, part, INSIDE if epoch + 1 < window.end else OVER
 
 
 class Line:
@@ -121,17 +125,10 @@ class Line:
                 return
         opens = at.phase == FOLLOWING
         start = epoch if opens and self._tells_starts else at.start
-        for part in self._free(at.state):
+        for part in self._acting.free(at.state):
             if self._fits(part, beside):
                 inside = at._replace(start=start, phase=INSIDE)
                 yield from self._within(inside, epoch, part, beside, opens, most)
-
-    def _free(self, state: int) -> Iterable[JointAction]:
-        """What the human may do in a window: go on with what they are at, or anything they can."""
-        going_on = self._acting.going_on(state)
-        if going_on is not None:
-            return going_on
-        return NOTHING, *self._acting.human(state), *self._acting.joint(state)
 
     def _planned(self, state: int, epoch: int) -> JointAction | None:
         """Rule 1; beyond the end of their plan they wait."""
@@ -190,14 +187,14 @@ class Line:
 
     def guide(self, at: Member, epoch: int, deadline: Deadline) -> Guide | None:
         """The best plan known for what is left, if this is what the human does for certain."""
-        found = self.certain.remainder(at.state, epoch, _start(at, epoch), deadline)
+        found = self.certain.remainder(at, epoch, deadline)
         if found.worth >= INFINITE_WORTH:
             return None
-        return Guide(self.number, epoch, found, at.phase, self._context)
+        return Guide(self.number, found, at.phase, self._context)
 
     def floor(self, at: Member, epoch: int) -> int:
         """A bound on what is left to pay after an epoch, where it was asked for; else 0."""
-        found = self.rest(at, epoch) if at.phase != OVER else None
+        found = self.certain.known(at, epoch) if at.phase != OVER else None
         return 0 if found is None else found.least
 
     def least(self, at: Member, epoch: int) -> int:
@@ -206,7 +203,7 @@ class Line:
             if not at.tail.done:
                 return self._worths.of_key(self._suffix.key(*at.tail[:3], INFINITE_KEY))
             return sum(self._worths.of_key(part.weight) for _, part in self._suffix_steps(at.tail))
-        known = self.certain.known(at.state, epoch, _start(at, epoch))
+        known = self.certain.known(at, epoch)
         if known is not None:
             return known.least
         if epoch == self._horizon:
@@ -220,23 +217,16 @@ class Line:
         steps = self._steps[epoch:] if at.tail is None else self._suffix_steps(at.tail)
         return tuple(op.action for op, _ in steps)
 
-    def rest(self, at: Member, epoch: int) -> Remainder | None:
-        """What is left of a scenario that goes on for certain, as it was found; None where it was not."""
-        return self.certain.known(at.state, epoch, _start(at, epoch))
-
-    def known(self, deadline: Deadline) -> tuple[int, int]:
-        """Bound and worth of the whole, if this is what the human does for certain."""
-        return self.certainly(self.first(), 0, deadline)
-
     def learn(self, at: Member, epoch: int, way: Way, robots: JointAction) -> None:
         """Note what is left after an epoch, if the best plan known was followed in it."""
-        before, after = self.rest(at, epoch - 1), way.after
+        before, after = self.certain.known(at, epoch - 1), way.after
         if before is None or after.phase == OVER:
             return
-        begun = {step.action for step in before.steps if step.epoch == 1}
+        begun = {step.action for step in before.steps if step.epoch == epoch}
         done, inside = {*way.part.actions, *robots.actions}, after.phase == INSIDE
-        if all(not self._acting.begins(action) for action in begun ^ done) and before.goes_on(inside=inside):
-            self.certain.learn(after.state, epoch, _start(after, epoch), before.after(way.paid))
+        as_planned = all(not self._acting.begins(action) for action in begun ^ done)
+        if as_planned and before.goes_on(epoch, inside=inside):
+            self.certain.learn(after, epoch, before.after(way.paid))
 
     def certainly(self, at: Member, epoch: int, deadline: Deadline, *, again: bool = True) -> tuple[int, int]:
         """Bound and worth of what is left, if this is what the human does for certain.
@@ -250,9 +240,9 @@ class Line:
         if at.phase == OVER or epoch == self._horizon:
             rest = self.least(at, epoch)
             return rest, rest
-        found = None if again else self.rest(at, epoch)
+        found = None if again else self.certain.known(at, epoch)
         if found is None:
-            found = self.certain.remainder(at.state, epoch, _start(at, epoch), deadline)
+            found = self.certain.remainder(at, epoch, deadline)
         return found.least, found.worth
 
 
@@ -278,8 +268,3 @@ class Question(NamedTuple):
     def value(self, rests: Sequence[int]) -> int:
         """What it is worth if each scenario has so much to pay."""
         return self.measure.value(self.members, rests)
-
-
-def _start(at: Member, epoch: int) -> int:
-    """``xi1`` of an open window, any where it does not matter; 0 before it."""
-    return 0 if at.phase == FOLLOWING else at.start or epoch

@@ -15,6 +15,10 @@ INFINITE_WORTH: Final = 1 << (1 << 16)
 """No plan: above every worth."""
 
 
+FOLLOWING, INSIDE, OVER = range(3)
+"""Phases: before a window, or without any; in it; after it."""
+
+
 class Tail(NamedTuple):
     """A suffix, by the state that it begins in.
 

@@ -114,7 +114,7 @@ class _ScenarioCall:
         acting = context.successors()
         lines = [Line(s, i, acting, self._worths) for i, s in enumerate(scenarios)]
         known = (
-            [line.known(deadline) for line in lines]
+            [line.certainly(line.first(), 0, deadline) for line in lines]
             if self._options.risk == "regret"
             else [(0, 0)] * len(lines)
         )

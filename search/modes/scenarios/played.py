@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 from search.engine.paths import plan_steps
-from search.modes.scenarios.lines import OVER, Line, Way
-from search.modes.scenarios.measure import Member
+from search.modes.scenarios.lines import Line, Way
+from search.modes.scenarios.measure import OVER, Member
 from search.packed.joint_actions import NOTHING, JointAction
 from serendipity.model.task.plans import Step, Window
 
@@ -38,12 +38,11 @@ class Course:
 
     def finish(self, line: Line, at: Member, epoch: int, *, certain: bool) -> None:
         """All that is left: the suffix, the ordinary call's plan, or the human's own."""
-        rest = line.rest(at, epoch) if certain and at.phase != OVER else None
+        rest = line.certain.known(at, epoch) if certain and at.phase != OVER else None
         if rest is not None:
-            self.steps += [Step(step.epoch + epoch, step.action) for step in rest.steps]
+            self.steps += [step for step in rest.steps if step.epoch > epoch]
             if rest.window is not None:
-                self.start = self.start or rest.window.start + epoch
-                self.end = rest.window.end + epoch
+                self.start, self.end = self.start or rest.window.start, rest.window.end
         else:
             self.steps += plan_steps(line.left_alone(at, epoch), epoch + 1)
 

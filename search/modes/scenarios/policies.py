@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from heapq import heapify, heapreplace
 from typing import Final, NamedTuple
 
-from search.modes.scenarios.lines import FOLLOWING, OVER, Guide, Question, Way
-from search.modes.scenarios.measure import INFINITE_WORTH, Member
+from search.modes.scenarios.lines import Guide, Question, Way
+from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, OVER, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
 

@@ -5,7 +5,6 @@ and its strategies answer it.  Where it is open, or the suffix looks back at the
 windows is searched as it is.
 """
 
-from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Final, NamedTuple
@@ -16,14 +15,13 @@ from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, Node, Progress, Space, best_first, solve_space
 from search.engine.dominance import ParetoFront
 from search.engine.paths import path_steps, plan_steps
-from search.human.suffix_rules import Suffix
-from search.modes.scenarios.measure import INFINITE_WORTH, Worths
+from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, Member, Worths
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due
 from search.packed.operators import applicable
 from search.spaces.factory import no_worse, suffix_rule
 from search.spaces.fixed_human_plan import FixedHumanPlan
-from search.spaces.windowed import WINDOW, InLayers, PrivateRest, Windowed
+from search.spaces.windowed import InLayers, PrivateRest, Windowed
 from search.strategies.outcome import steps_of
 from search.strategies.portfolio import TURNS, best_plan
 from serendipity.model.errors import LimitReachedError
@@ -36,13 +34,13 @@ _TURNS: Final = tuple(turn for turn in TURNS if turn.name not in ("alone", "ties
 
 
 class Remainder(NamedTuple):
-    """The best known of what is left, in epochs counted from there.
+    """The best known of what is left.
 
     Attributes:
         least: no plan is worth less.
         worth: of the plan; infinite without one.
-        steps: what everybody does.
-        window: of the plan, which begins with its first epoch where it is open already; None without one.
+        steps: what everybody does from then on, and maybe did in the epochs before.
+        window: of the plan; None without one.
     """
 
     least: int
@@ -50,20 +48,16 @@ class Remainder(NamedTuple):
     steps: tuple[Step, ...] = ()
     window: Window | None = None
 
-    def goes_on(self, *, inside: bool) -> bool:
-        """Whether it has more epochs of its window after the first, or the window is still to come."""
+    def goes_on(self, epoch: int, *, inside: bool) -> bool:
+        """Whether it has more epochs of its window after one, or the window is still to come."""
         window = self.window
         if window is None:
             return not inside
-        return (window.start == 1) == inside and window.end > 2
+        return (window.start <= epoch) == inside and window.end > epoch + 1
 
     def after(self, paid: int) -> "Remainder":
         """What is left once its first epoch has been paid."""
-        steps = tuple(Step(step.epoch - 1, step.action) for step in self.steps if step.epoch > 1)
-        window = self.window
-        if window is not None:
-            window = Window(max(1, window.start - 1), window.end - 1)
-        return Remainder(self.least - paid, self.worth - paid, steps, window)
+        return self._replace(least=self.least - paid, worth=self.worth - paid)
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,29 +107,25 @@ class Certain:
         self._known: dict[tuple[int, int, int], Remainder] = {}
         self.expanded = self.generated = 0
 
-    def known(self, state: int, epoch: int, start: int) -> Remainder | None:
+    def known(self, at: Member, epoch: int) -> Remainder | None:
         """A remainder that was asked for before."""
-        return self._known.get((epoch, state, start))
+        return self._known.get(_beginning(at, epoch))
 
-    def remainder(self, state: int, epoch: int, start: int, deadline: Deadline) -> Remainder:
-        """The remainder from a state on.
+    def remainder(self, at: Member, epoch: int, deadline: Deadline) -> Remainder:
+        """The remainder after an epoch, its suffix not begun.
 
         Args:
-            state: packed.
-            epoch: the number of those that are over.
-            start: ``xi1`` of a window that was open in the last epoch and is in the next one, any epoch that
-                is over where it does not matter; 0 where the human has followed their plan so far.
             deadline: what is known by then is returned.
         """
-        at = epoch, state, start
-        found = self._known.get(at)
+        found = self.known(at, epoch)
         if found is None or found.least < found.worth:
-            found = self._known[at] = self._find(*at, deadline)
+            beginning = _beginning(at, epoch)
+            found = self._known[beginning] = self._find(*beginning, deadline)
         return found
 
-    def learn(self, state: int, epoch: int, start: int, found: Remainder) -> None:
+    def learn(self, at: Member, epoch: int, found: Remainder) -> None:
         """Note a remainder that follows from another one."""
-        self._known.setdefault((epoch, state, start), found)
+        self._known.setdefault(_beginning(at, epoch), found)
 
     def _find(self, epoch: int, state: int, start: int, deadline: Deadline) -> Remainder:
         if start:
@@ -157,13 +147,14 @@ class Certain:
 
     def _mended(self, state: int, epoch: int, deadline: Deadline) -> Remainder:
         """The human follows their plan to its end, and robots make that possible again."""
-        context, horizon = self._scenario.context.under(deadline), self._scenario.horizon - epoch
+        context = self._scenario.context.under(deadline)
         space = FixedHumanPlan(
             initial=state,
-            horizon=horizon,
-            steps=self.steps[epoch:],
+            horizon=self._scenario.horizon,
+            steps=self.steps,
             goals=context.goals,
             successors=context.successors(),
+            begins=epoch,
         )
         best = Incumbent(INFINITE_KEY)
         least, worth = self._searched(space, best, deadline)
@@ -231,8 +222,9 @@ class Certain:
         least = worth if is_best else min(worth, worths.of_key(call.progress.bound))
         if best.key >= INFINITE_KEY:
             return Remainder(least, worth)
-        window = Window(best.node.start, best.end) if best.node and best.end else None
-        return Remainder(least, worth, steps_of(call, best), window)
+        window = Window(best.node.start + epoch, best.end + epoch) if best.node and best.end else None
+        steps = tuple(Step(step.epoch + epoch, step.action) for step in steps_of(call, best))
+        return Remainder(least, worth, steps, window)
 
     def _in_space(self, state: int, epoch: int, start: int, deadline: Deadline) -> Remainder:
         context = self._scenario.context.under(deadline)
@@ -240,68 +232,41 @@ class Certain:
         best = Incumbent(INFINITE_KEY)
         if not start and self.follows(state, epoch):
             best.key = self._left_alone(state, epoch) + context.keys.epoch_weight
-            best.key += context.keys.of_start(len(self.steps) - epoch, space.horizon)
+            best.key += context.keys.of_start(len(self.steps), space.horizon)
         bounds = self._searched(space, best, deadline)
         if best.node is None:  # left alone, or no plan at all
-            steps = plan_steps(self._scenario.plan[epoch:]) if best.key < INFINITE_KEY else ()
-            return Remainder(*bounds, steps)
+            left = self._scenario.plan[epoch:] if best.key < INFINITE_KEY else ()
+            return Remainder(*bounds, plan_steps(left, epoch + 1))
         steps = path_steps(best.node) + plan_steps(best.tail, best.end)
         return Remainder(*bounds, steps, Window(best.node.start, best.end))
 
     def _space(
         self, context: SearchContext, state: int, epoch: int, start: int, *, idle: bool = False
     ) -> Windowed:
-        horizon = self._scenario.horizon - epoch
-        plan = self._scenario.plan[epoch:] if not start else ()
-        options, keys = context.options, context.keys
-        rest = self.max_window - (epoch - start + 1 if start else 0)
-        return (_OpenWindow if start else Windowed)(
+        options, keys, horizon, last = context.options, context.keys, self._scenario.horizon, len(self.steps)
+        return Windowed(
             initial=state,
             idle=(),
             horizon=horizon,
-            last=len(plan),
-            max_window=rest,
+            last=last,
+            max_window=self.max_window,
             most_cost=None,
             keys=keys,
             successors=context.successors(idle=idle),
             bounds=Bounds(context.bound, context.steps, no_bound, None, context.team_bound),
-            prefix=InLayers([[step] for step in context.followed(plan)]),
-            on_the_way=PrivateRest(len(plan), context.bound, keys, horizon),
-            suffix=_Later(self.suffix, epoch, start),
+            prefix=InLayers([[step] for step in self.steps]),
+            on_the_way=PrivateRest(last, context.bound, keys, horizon),
+            suffix=self.suffix,
             labels=ParetoFront(no_worse(keys, options, None)),
             relevant=context.relevant,
+            begins=epoch,
+            opened=start,
         )
 
 
-class _OpenWindow(Windowed):
-    """The space of what is left once the window is open."""
+def _beginning(at: Member, epoch: int) -> tuple[int, int, int]:
+    """What tells remainders apart: the epoch, the state, and ``xi1`` of an open window.
 
-    def roots(self) -> Iterator[tuple[int, Node]]:
-        """The state, in the window."""
-        if self.max_window > 0:
-            bound = self.keys.epoch_weight + self.bounds.private(self.initial)
-            self.labels.add(self.initial, 0, 0, self.idle)
-            yield bound, Node(0, 0, self.initial, WINDOW, 1, None, (), self.idle)
-
-
-@dataclass(frozen=True, slots=True)
-class _Later:
-    """A rule for the suffix, in epochs counted from a later one.
-
-    Attributes:
-        rule: the rule.
-        epoch: the number of epochs before.
-        start: ``xi1`` where the window is open already, else 0.
+    That is any epoch that is over where it does not matter, and 0 where the human has followed their plan.
     """
-
-    rule: Suffix
-    epoch: int
-    start: int
-
-    def key(self, state: int, epochs: int, start: int, limit: int) -> int:
-        """See :class:`Suffix`."""
-        return self.rule.key(state, epochs, self.start or start + self.epoch, limit)
-
-    def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
-        """See :class:`Suffix`."""
-        return self.rule.actions(state, epochs, self.start or start + self.epoch)
+    return epoch, at.state, 0 if at.phase == FOLLOWING else at.start or epoch

@@ -12,8 +12,8 @@ from operator import itemgetter
 from typing import Final, NamedTuple
 
 from search.engine.paths import plan_steps
-from search.modes.scenarios.lines import OVER, Question, Way
-from search.modes.scenarios.measure import INFINITE_WORTH, Member
+from search.modes.scenarios.lines import Question, Way
+from search.modes.scenarios.measure import INFINITE_WORTH, OVER, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
 from serendipity.model.task.plans import Step
@@ -88,7 +88,7 @@ class SequenceSearch:
         """
         for i, line in enumerate(self._lines):
             deadline = self._deadline.part(_SHARE / (len(self._lines) - i + 1))
-            self._floors[i], _ = line.known(deadline)
+            self._floors[i], _ = line.certainly(line.first(), 0, deadline)
             self.lower = max(self.lower, self._question.value(self._floors))
             guide = line.guide(line.first(), 0, deadline)
             if guide is not None:

@@ -22,7 +22,6 @@ def test_only_a_window_that_is_where_the_scenario_is_goes_on(
     window: Window | None, inside: bool, goes_on: bool
 ) -> None:
     found = Remainder(5, 5, (Step(1, 0), Step(2, 1)), window)
-    assert found.goes_on(inside=inside) == goes_on
+    assert found.goes_on(1, inside=inside) == goes_on
     if goes_on:
-        later = found.after(2)
-        assert (later.least, later.steps) == (3, (Step(1, 1),))
+        assert found.after(2) == Remainder(3, 3, found.steps, window)
