@@ -8,9 +8,10 @@ may open before any epoch; each epoch inside it may be its last.
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 from search.bounds.first_interaction import Bounds
+from search.bounds.prefix_bounds import FirstInteractionOnTheWay
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
 from search.human.pattern_database import PatternDatabase
@@ -26,23 +27,6 @@ PREFIX, WINDOW, TOUCHED = 0, 1, 2
 """Phases: before the window; in it, before and after the first touch of the human in it."""
 
 
-class Prefix(Protocol):
-    """The human's part of the epochs before the window."""
-
-    def options(self, epoch: int, state: int) -> Iterable[JointAction]:
-        """What they may do in ``epoch`` from a packed state."""
-
-
-class PrefixBound(Protocol):
-    """Lower bound of the key increment from a node of the prefix after ``epoch``, window included."""
-
-    def opening(self, epoch: int, state: int, idle: Idle) -> int:
-        """The bound if the window opens in the next epoch."""
-
-    def later(self, epoch: int, state: int, idle: Idle) -> int:
-        """The bound if it opens then or later."""
-
-
 class InLayers:
     """Rule 1: in epoch ``t`` the human does ``pi_H[t]`` (Def. 3.0), or one of several actions that are due.
 
@@ -54,7 +38,7 @@ class InLayers:
         self._layers = layers
 
     def options(self, epoch: int, state: int) -> Iterable[JointAction]:
-        """See :class:`Prefix`."""
+        """What they may do in ``epoch`` from a packed state."""
         return [option for op, option in self._layers[epoch - 1] if applicable(op, state)]
 
 
@@ -67,7 +51,7 @@ class AnyOfPlan:
         self._planned = packed.task.names((*plan, *packed.idling))
 
     def options(self, epoch: int, state: int) -> Iterable[JointAction]:
-        """See :class:`Prefix`."""
+        """See :class:`InLayers`."""
         going_on = self._successors.going_on(state)
         if going_on is not None:
             return going_on
@@ -76,9 +60,13 @@ class AnyOfPlan:
         return (*self._successors.idle, *planned)
 
 
+Prefix = InLayers | AnyOfPlan
+"""The human's part of the epochs before the window."""
+
+
 @dataclass(eq=False)
 class PrivateRest:
-    """A :class:`PrefixBound` where no touch is known in advance: what the human has to do themselves.
+    """The bound in the prefix where no touch is known in advance: what the human has to do themselves.
 
     Attributes:
         last: the last epoch in which a window may open.
@@ -93,12 +81,16 @@ class PrivateRest:
     horizon: int
 
     def opening(self, epoch: int, state: int, idle: Idle) -> int:
-        """See :class:`PrefixBound`."""
+        """See :class:`.FirstInteractionOnTheWay`."""
         return self.keys.of_start(epoch + 1, self.horizon) + self.keys.epoch_weight + self.bound(state)
 
     def later(self, epoch: int, state: int, idle: Idle) -> int:
-        """See :class:`PrefixBound`."""
+        """See :class:`.FirstInteractionOnTheWay`."""
         return self.opening(self.last - 1, state, idle)
+
+
+PrefixBound = PrivateRest | FirstInteractionOnTheWay
+"""Lower bound of the key increment from a node of the prefix after an epoch, window included."""
 
 
 class _JudgedNode(NamedTuple):

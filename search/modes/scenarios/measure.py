@@ -7,7 +7,7 @@ comparing them compares objectives first.
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import lcm
-from typing import Final, NamedTuple, Protocol
+from typing import Final, NamedTuple
 
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
 
@@ -94,33 +94,14 @@ class Worths:
         return Fraction(objective, unit), Fraction(cost, unit)
 
 
-class Measure(Protocol):
-    """How worths of scenarios make one number.
-
-    Attributes:
-        parts: of a worth that one of these numbers counts.
-    """
-
-    parts: int
-
-    def value(self, members: Sequence[Member], rests: Sequence[int]) -> int:
-        """Of a group of which each scenario has so much left to pay."""
-
-    def pay(self, members: Sequence[Member], paid: Sequence[int]) -> tuple[int, tuple[Member, ...]]:
-        """What each of a group pays in an epoch: what that adds to its value, and the group after it."""
-
-    def together(self, values: Iterable[int]) -> int:
-        """Of groups that were one before."""
-
-    def limit(self, members: Sequence[Member], rests: Sequence[int], one: int, value: int) -> int:
-        """The least rest of one with which the group, the others' being given, is worth a value."""
-
-
 class Mean:
     """The mean of worths.
 
     Args:
         probabilities: of the scenarios; they add up to 1.
+
+    Attributes:
+        parts: of a worth that one of its values counts.
     """
 
     def __init__(self, probabilities: Sequence[Fraction]) -> None:
@@ -128,21 +109,21 @@ class Mean:
         self._shares = [int(p * self.parts) for p in probabilities]
 
     def value(self, members: Sequence[Member], rests: Sequence[int]) -> int:
-        """See :class:`Measure`."""
+        """Of a group of which each scenario has so much left to pay."""
         if max(rests) >= INFINITE_WORTH:
             return INFINITE_WORTH
         return sum(self._shares[m.scenario] * rest for m, rest in zip(members, rests, strict=True))
 
     def pay(self, members: Sequence[Member], paid: Sequence[int]) -> tuple[int, tuple[Member, ...]]:
-        """See :class:`Measure`."""
+        """What each of a group pays in an epoch: what that adds to its value, and the group after it."""
         return self.value(members, paid), tuple(members)
 
     def together(self, values: Iterable[int]) -> int:
-        """See :class:`Measure`."""
+        """Of groups that were one before."""
         return min(sum(values), INFINITE_WORTH)
 
     def limit(self, members: Sequence[Member], rests: Sequence[int], one: int, value: int) -> int:
-        """See :class:`Measure`."""
+        """The least rest of one with which the group, the others' being given, is worth a value."""
         if value >= INFINITE_WORTH:
             return INFINITE_WORTH
         others = self.value(members, [0 if i == one else rest for i, rest in enumerate(rests)])
@@ -155,24 +136,28 @@ class Greatest:
     parts = 1
 
     def value(self, members: Sequence[Member], rests: Sequence[int]) -> int:
-        """See :class:`Measure`."""
+        """See :class:`Mean`."""
         if max(rests) >= INFINITE_WORTH:
             return INFINITE_WORTH
         return max(m.ahead + rest for m, rest in zip(members, rests, strict=True))
 
     def pay(self, members: Sequence[Member], paid: Sequence[int]) -> tuple[int, tuple[Member, ...]]:
-        """See :class:`Measure`."""
+        """See :class:`Mean`."""
         ahead = [m.ahead + amount for m, amount in zip(members, paid, strict=True)]
         least = min(ahead)
         return least, tuple(m._replace(ahead=a - least) for m, a in zip(members, ahead, strict=True))
 
     def together(self, values: Iterable[int]) -> int:
-        """See :class:`Measure`."""
+        """See :class:`Mean`."""
         return max(values)
 
     def limit(self, members: Sequence[Member], rests: Sequence[int], one: int, value: int) -> int:
-        """See :class:`Measure`."""
+        """See :class:`Mean`."""
         return value - members[one].ahead if value < INFINITE_WORTH else INFINITE_WORTH
+
+
+Measure = Mean | Greatest
+"""How worths of scenarios make one number."""
 
 
 def measure_of(risk: str, probabilities: Sequence[Fraction]) -> Measure:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any, Protocol
+from typing import Any
 
 from search.modes.assistance.game.game import Game
 from search.modes.assistance.game.solution import Costs
@@ -12,43 +12,25 @@ Value = Any
 """An ``int`` of the game (robust), or a pair of exact costs (expected); ordered by ``<``."""
 
 
-class ChoiceRule(Protocol):
-    """The operations in which robust and expected differ."""
-
-    infinite: Value
-
-    def lift(self, value: int) -> Value:
-        """A value of the game in the rule's form."""
-
-    def add(self, value: int, rest: Value) -> Value:
-        """A move's value and what follows it."""
-
-    def combine(self, values: Sequence[Value]) -> Value:
-        """The value of a state in which the prime chooses."""
-
-    def costs(self, game: Game, value: Value) -> Costs | None:
-        """The costs in a value; None if infinite."""
-
-
 class Worst:
     """Robust: the lexicographically greatest."""
 
     infinite: Value = INFINITE_KEY
 
     def lift(self, value: int) -> Value:
-        """See :class:`ChoiceRule`."""
+        """A value of the game in the rule's form."""
         return value
 
     def add(self, value: int, rest: Value) -> Value:
-        """See :class:`ChoiceRule`."""
+        """A move's value and what follows it."""
         return min(value + rest, INFINITE_KEY)
 
     def combine(self, values: Sequence[Value]) -> Value:
-        """See :class:`ChoiceRule`."""
+        """The value of a state in which the prime chooses."""
         return max(values)
 
     def costs(self, game: Game, value: Value) -> Costs | None:
-        """See :class:`ChoiceRule`."""
+        """The costs in a value; None if infinite."""
         return None if value >= INFINITE_KEY else game.pair(value)
 
 
@@ -61,18 +43,18 @@ class Mean:
         self._unit = 1 << game.unit_bits
 
     def lift(self, value: int) -> Value:
-        """See :class:`ChoiceRule`."""
+        """See :class:`Worst`."""
         return self.infinite if value >= INFINITE_KEY else divmod(value, self._unit)
 
     def add(self, value: int, rest: Value) -> Value:
-        """See :class:`ChoiceRule`."""
+        """See :class:`Worst`."""
         if rest == self.infinite:
             return rest
         prime, supporter = divmod(value, self._unit)
         return (prime + rest[0], supporter + rest[1])
 
     def combine(self, values: Sequence[Value]) -> Value:
-        """See :class:`ChoiceRule`."""
+        """See :class:`Worst`."""
         if len(values) == 1:
             return values[0]
         if any(value == self.infinite for value in values):
@@ -83,7 +65,11 @@ class Mean:
         )
 
     def costs(self, game: Game, value: Value) -> Costs | None:
-        """See :class:`ChoiceRule`."""
+        """See :class:`Worst`."""
         if value == self.infinite:
             return None
         return Fraction(value[0]) / game.scale, Fraction(value[1]) / game.scale
+
+
+ChoiceRule = Worst | Mean
+"""How the prime's optimal actions count."""
