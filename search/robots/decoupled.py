@@ -64,8 +64,20 @@ class Way(NamedTuple):
     action: int
 
 
-CenterActionIndex = LiteralIndex[tuple[CenterAction, Operator]]
-"""Ops of robots with their center actions."""
+class Deeds(NamedTuple):
+    """Deeds that are looked up together.
+
+    Attributes:
+        by_literal: ops of robots with their center actions.
+        mask: the fields that they ask for, places among them.
+    """
+
+    by_literal: LiteralIndex[tuple[CenterAction, Operator]]
+    mask: int
+
+
+Known = StateCache[list[JointAction]]
+"""What of some deeds is possible, by the fields that they ask for."""
 
 
 class Decoupled:
@@ -80,7 +92,6 @@ class Decoupled:
         mask: all of them.
         joint: joint deeds.
         led: deeds without the human, by their first robot.
-        joint_mask, led_mask: the fields that these ask for.
         foldable: whether every robot's walks can be folded.
     """
 
@@ -94,9 +105,8 @@ class Decoupled:
         self._most: dict[tuple[int, int], int] = {}
         self._costs = own_costs(packed)
         self._going_on = frozenset(action for _, action in packed.task.due)
-        self.joint: CenterActionIndex = LiteralIndex()
-        self.led: list[CenterActionIndex] = []
-        self.joint_mask = self.led_mask = 0
+        self.joint = _by_largest([], packed)
+        self.led: list[Deeds] = []
         # What only robots together move is the place of each of them, and of none alone.
         apart = all(self.fields) and len({*self.fields}) == len(self.fields)
         self.foldable = apart and self._fold(deadline)
@@ -127,8 +137,6 @@ class Decoupled:
                 led.setdefault(form.agents & -form.agents, []).append(deed)
         self.joint = _by_largest(joint, packed)
         self.led = [_by_largest(deeds, packed) for _, deeds in sorted(led.items())]
-        self.joint_mask = union(map(_asked, joint))
-        self.led_mask = union(_asked(deed) for deeds in led.values() for deed in deeds)
         costs = [{move.cost for moves in way.values() for move in moves} for way in self._moves]
         return bool(self._going_on) or all(len(cost) <= 1 for cost in costs)
 
@@ -257,20 +265,15 @@ class Decoupled:
             node = node.parent
 
 
-def _asked(deed: CenterAction) -> int:
-    """The fields that a deed asks for."""
-    return deed.form.need_mask | deed.form.forbids
-
-
-def _by_largest(deeds: Iterable[CenterAction], packed: PackedTask) -> CenterActionIndex:
+def _by_largest(deeds: Sequence[CenterAction], packed: PackedTask) -> Deeds:
     """Center actions by the value of the largest field that they ask for, places aside."""
     largest_first = sorted(packed.fields, key=lambda field: -len(packed.values(field)))
-    index: CenterActionIndex = LiteralIndex()
+    found = Deeds(LiteralIndex(), union(deed.form.need_mask | deed.form.forbids for deed in deeds))
     for deed in deeds:
         field = next((field for field in largest_first if deed.need_mask & field), 0)
         for op in deed.form.ops:
-            index.add(field, op.need & field, (deed, op))
-    return index
+            found.by_literal.add(field, op.need & field, (deed, op))
+    return found
 
 
 class DecoupledSuccessors(Successors):
@@ -298,20 +301,14 @@ class DecoupledSuccessors(Successors):
         self._walks = walks
         self._weight = weight
         self._price = price
-        self._joint_deeds: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
-        self._led_deeds: StateCache[list[list[JointAction]]] = StateCache(MOST_KEPT)
+        self._joint_deeds = walks.joint, Known(MOST_KEPT)
+        self._led_deeds = [(deeds, Known(MOST_KEPT)) for deeds in walks.led]
         self._rests: dict[Idle, Idle] = {}  # of equal ones, nodes keep the same
         self._latest: tuple[int, Idle, list[list[JointAction]]] = (-1, (), [])
 
     def joint(self, state: int) -> list[JointAction]:
         """See :class:`Successors`."""
-        walks = self._walks
-        at = state & (walks.mask | walks.joint_mask)
-        found = self._joint_deeds.get(at)
-        if found is None:
-            found = self._options(walks.joint, state)
-            self._joint_deeds.keep(at, found, len(found))
-        return found
+        return self._options(*self._joint_deeds, state)
 
     def beside(
         self, first: JointAction, state: int, idle: Idle, promising: Callable[[JointAction], bool]
@@ -347,24 +344,22 @@ class DecoupledSuccessors(Successors):
     def _in_time(self, state: int, idle: Idle) -> list[list[JointAction]]:
         """Deeds to which the robots that lead them can have walked by now."""
         if self._latest[:2] != (state, idle):
-            ready = [[deed for deed in led if in_time(deed, idle)] for led in self._by_leader(state)]
-            self._latest = state, idle, ready
+            by_leader = (self._options(*led, state) for led in self._led_deeds)
+            self._latest = state, idle, [[deed for deed in led if in_time(deed, idle)] for led in by_leader]
         return self._latest[2]
 
-    def _by_leader(self, state: int) -> list[list[JointAction]]:
-        walks = self._walks
-        at = state & (walks.mask | walks.led_mask)
-        found = self._led_deeds.get(at)
+    def _options(self, deeds: Deeds, known: Known, state: int) -> list[JointAction]:
+        """Deeds that are possible after a walk, cheapest first."""
+        found = known.get(state & deeds.mask)
         if found is None:
-            found = [self._options(index, state) for index in walks.led]
-            self._led_deeds.keep(at, found, sum(map(len, found)))
+            found = self._found(deeds, state)
+            known.keep(state & deeds.mask, found, len(found))
         return found
 
-    def _options(self, index: CenterActionIndex, state: int) -> list[JointAction]:
-        """Deeds that are possible after a walk, cheapest first."""
+    def _found(self, deeds: Deeds, state: int) -> list[JointAction]:
         self._deadline.check()
         walks, found = self._walks, []
-        for deed, op in index.candidates(state):
+        for deed, op in deeds.by_literal.candidates(state):
             need = op.need & deed.need_mask
             if state & deed.need_mask != need or any(state & m == v for m, v in op.forbidden):
                 continue
