@@ -67,11 +67,9 @@ def _by_windows(
     steps = [context.followed(tuple(sorted(layer))) for layer in graph.layers()]
     space = Windowed(
         initial=context.packed.init,
-        idle=(),
         horizon=horizon,
         last=len(steps),
         max_window=most,
-        most_cost=None,
         keys=context.keys,
         successors=context.successors(),
         bounds=Bounds(context.bound, context.steps, touches=context.interactions),

@@ -7,7 +7,6 @@ may open before any epoch; each epoch inside it may be its last.
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import NamedTuple
 
 from search.bounds.first_interaction import Bounds
@@ -136,11 +135,11 @@ class Windowed:
     """
 
     initial: int
-    idle: Idle
+    idle: Idle = ()
     horizon: int
     last: int
     max_window: int
-    most_cost: int | None
+    most_cost: int | None = None
     keys: CostLayout
     successors: Successors
     bounds: Bounds
@@ -222,7 +221,8 @@ class Windowed:
             return
         successors, state = self.successors, node.state
         sooner = _sooner(node.idle)
-        is_last = not node.idle and not self._goes_on_from(node, best)
+        after = node.key + self.keys.epoch_weight + self.bounds.private(state)
+        is_last = not node.idle and not self._goes_on(node.start, node.epoch + 1, after, best)
         going_on = successors.going_on(state)
         free = going_on
         if free is None:
@@ -231,7 +231,10 @@ class Windowed:
             judged = self._judge(node, part, best)
             if judged is None:
                 continue
-            promising = partial(self._promising, judged, sooner, best)
+
+            def promising(option: JointAction, judged: _JudgedNode = judged) -> bool:
+                return self._least(judged, option, sooner) < best.key
+
             every = successors.beside(part, state, node.idle, promising)
             sets = successors.with_changers(part, state, self.relevant) if is_last else every
             for option in sets:
@@ -240,7 +243,7 @@ class Windowed:
                     break
                 child = self._child(judged, option)
                 self._end(child, best)
-                if self._goes_on(child, bound, best):
+                if self._goes_on(node.start, child.epoch, bound, best):
                     bound = self._least(judged, option, child.idle) + self.keys.epoch_weight
                     if bound < best.key and self.labels.add(child.state, child.epoch, child.key, child.idle):
                         yield bound, child
@@ -282,19 +285,9 @@ class Windowed:
             return key + rest
         return key + max(rest, self.bounds.untouched(node.epoch + 1, after, key, idle))
 
-    def _promising(self, judged: _JudgedNode, sooner: Idle, best: Incumbent, option: JointAction) -> bool:
-        """Whether the human's part and what one robot does may still pay."""
-        return self._least(judged, option, sooner) < best.key
-
-    def _goes_on_from(self, node: Node, best: Incumbent) -> bool:
-        """Whether the window may have two more epochs than it has at a node, and still pay."""
-        if node.epoch + 1 >= self.horizon or node.epoch - node.start + 2 >= self.max_window:
-            return False
-        return node.key + 2 * self.keys.epoch_weight + self.bounds.private(node.state) < best.key
-
-    def _goes_on(self, child: Node, bound: int, best: Incumbent) -> bool:
-        """Whether the window may have another epoch, and a plan with it may still pay."""
-        if child.epoch >= self.horizon or child.epoch - child.start + 1 >= self.max_window:
+    def _goes_on(self, start: int, epoch: int, bound: int, best: Incumbent) -> bool:
+        """Whether a window may have another epoch after one, and a plan with it may still pay."""
+        if epoch >= self.horizon or epoch - start + 1 >= self.max_window:
             return False
         return bound + self.keys.epoch_weight < best.key
 

@@ -246,11 +246,9 @@ class Certain:
         options, keys, horizon, last = context.options, context.keys, self._scenario.horizon, len(self.steps)
         return Windowed(
             initial=state,
-            idle=(),
             horizon=horizon,
             last=last,
             max_window=self.max_window,
-            most_cost=None,
             keys=keys,
             successors=context.successors(idle=idle),
             bounds=Bounds(context.bound, context.steps, no_bound, None, context.team_bound),
