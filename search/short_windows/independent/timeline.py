@@ -55,7 +55,7 @@ class _Literal(NamedTuple):
 
 
 class _Act(NamedTuple):
-    """One of the robot's operators.
+    """One of the robot's operators, or of the human's.
 
     Attributes:
         op: the operator.
@@ -93,7 +93,6 @@ class RobotLayers:
         amount: Callable[[Operator], int],
     ) -> None:
         self._packed = packed = context.packed
-        self._steps = steps
         self._others = others
         self._strict = context.options.strict
         self._relevant = context.relevant
@@ -105,6 +104,8 @@ class RobotLayers:
         for (field, value), epoch in others.items():
             self._settable.setdefault(field, {})[value] = epoch
         self._acts = [self._act(op, amount(op)) for op in deadline.each(ops)]
+        self._steps = [self._act(op, 0, self.changes) for op in steps]
+        """What the human asks for of what the robot sets."""
         self._local = union(map(packed.mentioned, ops))
         self._asked = self._local & ~self.changes | union(map(asked_by, ops))
         lent = {field for field, _ in others}
@@ -121,12 +122,14 @@ class RobotLayers:
         self._layers = [self._last]
         self._free: Layer | None = None
 
-    def _act(self, op: Operator, amount: int) -> _Act:
+    def _act(self, op: Operator, amount: int, fields: int = -1) -> _Act:
+        """An operator, with what it asks for of some fields."""
         needs = [
             _Literal(field, value, self._others.get((field, value), NEVER))
-            for field, value in self._packed.assigned(op.need_mask, op.need)
+            for field, value in self._packed.assigned(op.need_mask & fields, op.need)
         ]
-        forbids = [_Literal(field, value, self._rid_of(field, value)) for field, value in op.forbidden]
+        forbidden = (pair for pair in op.forbidden if pair[0] & fields)
+        forbids = [_Literal(field, value, self._rid_of(field, value)) for field, value in forbidden]
         return _Act(op, amount, needs, forbids)
 
     def _rid_of(self, field: int, value: int) -> int:
@@ -150,12 +153,17 @@ class RobotLayers:
         Raises:
             LimitReachedError: there are too many, or the deadline came.
         """
-        while self._free is None:
+        if self._free is None:
+            self._free = self._in_room(lambda: self._moved(self._last, None))
+        return self._free
+
+    def _in_room(self, make: Callable[[], Layer]) -> Layer:
+        """A layer, for which as much is forgotten as it takes."""
+        while True:
             try:
-                self._free = self._moved(self._last, None)
+                return make()
             except TooManyStatesError:
                 self._forget()
-        return self._free
 
     def _forget(self) -> None:
         """Look no longer at a field of the robot's own: from now on it has whatever value is asked for.
@@ -197,18 +205,13 @@ class RobotLayers:
         Raises:
             LimitReachedError: there are too many states, or the deadline came.
         """
-        while True:
-            try:
-                self._last = self._followed(self._steps[self.epochs], most)
-                break
-            except TooManyStatesError:
-                self._forget()
+        self._last = self._in_room(lambda: self._followed(self._steps[self.epochs], most))
         self._layers.append(self._last)
         self._free = None
 
-    def _followed(self, step: Operator, most: int) -> Layer:
-        epoch, layer = len(self._layers), self._last
-        fits = self._allows(step, layer.rows, epoch)
+    def _followed(self, planned: _Act, most: int) -> Layer:
+        epoch, layer, step = len(self._layers), self._last, planned.op
+        fits = self._able(planned, layer.rows, epoch)
         in_the_way = any(not self._beside(act, step) for act in self._acts)
         if in_the_way or not fits.all():
             layer = self._moved(Layer(layer.rows[:, fits], layer.amounts[fits], layer.fresh[fits]), step)
@@ -218,17 +221,6 @@ class RobotLayers:
         fresh = layer.fresh | (in_the_way or epoch in self._changing or self._stirs(step))
         kept = layer.amounts < most
         return self._distinct(rows[:, kept], layer.amounts[kept], fresh[kept])
-
-    def _allows(self, step: Operator, rows: Rows, epoch: int) -> Flags:
-        """After which states the human can go on with their plan, unless others see to what is missing."""
-        fits = np.ones(rows.shape[1], dtype=np.bool_)
-        for field, value in self._packed.assigned(step.need_mask & self.changes, step.need):
-            if self._others.get((field, value), NEVER) >= epoch:
-                fits &= agree(rows, field, value)
-        for field, value in step.forbidden:
-            if field & self.changes and self._rid_of(field, value) >= epoch:
-                fits &= ~agree(rows, field, value)
-        return fits
 
     def _stirs(self, step: Operator) -> bool:
         """Whether a step of the human's changes what the robot can do, or undoes what it has done."""
@@ -290,7 +282,7 @@ class RobotLayers:
         return paid
 
     def _able(self, act: _Act, rows: Rows, epoch: int) -> Flags:
-        """After which states the robot can do something in an epoch."""
+        """After which states something can be done in an epoch, unless others see to what is missing."""
         mask = value = 0
         for literal in act.needs:
             if literal.epoch >= epoch:
@@ -329,10 +321,9 @@ class RobotLayers:
     ) -> tuple[Operator | None, int, int, int]:
         """A last action, or None, and the state and the cost before it."""
         layer = self._layers[epoch - 1]
-        step = None if last else self._steps[epoch - 1]
-        fits = np.ones(len(layer.amounts), dtype=np.bool_)
-        if step is not None:
-            fits = self._allows(step, layer.rows, epoch)
+        step, fits = None, np.ones(len(layer.amounts), dtype=np.bool_)
+        if not last:
+            step, fits = self._steps[epoch - 1].op, self._able(self._steps[epoch - 1], layer.rows, epoch)
         for op, before, rows in self._ways(layer, epoch, amount, fits, step):
             after = rows if op is None else self._after(rows, op)
             if step is not None:

@@ -8,10 +8,10 @@ import numpy as np
 from search.call.context import SearchContext
 from search.packed.cost_vector import ACTIONS_BITS, FAR, INFINITE_KEY
 from search.packed.operators import Operator, union
-from search.short_windows.independent.landmarks import Landmark, Landmarks, left_to_pay
+from search.short_windows.independent.landmarks import Landmarks, left_to_pay
 from search.short_windows.independent.outcomes import Outcomes, Remaining, Together, outcomes, values
 from search.short_windows.independent.provision import Value
-from search.short_windows.independent.rows import Amounts, column, states
+from search.short_windows.independent.rows import Rows, column, states
 from search.short_windows.independent.timeline import RobotLayers, TooManyStatesError
 
 ACTION: Final = 1 << ACTIONS_BITS
@@ -62,11 +62,12 @@ class Window:
         self._leave_behind(lost)
         # Whether robots can do what is looked at: nothing was forgotten by now.
         self._is_exact = all(timeline.is_exact for timeline in timelines)
-        self._given = self._values()
+        left = [apart.rows ^ column(base, len(apart.rows)) for apart in self._apart]
+        self._given = set[Value]().union(*(values(rows, self._fields) for rows in left))
         self._together: Together | None = None
         self._remaining: Remaining | None = None
         self._least = 0  # the amount that nothing is below, where there are too many outcomes
-        self._join(limit)
+        self._join(left, limit)
 
     def _leave_behind(self, lost: Mapping[int, Collection[int]]) -> None:
         """What each robot can leave behind on its own."""
@@ -77,21 +78,14 @@ class Window:
             self._shared.append(others & sum(own))
             self._apart.append(outcomes(timeline.ends(), self._base, own, others, lost, deadline))
 
-    def _values(self) -> set[Value]:
-        """The values that fields can have."""
-        found = set()
-        for apart in self._apart:
-            rows = apart.rows ^ column(self._base, len(apart.rows))
-            found |= values(rows, self._fields)
-        return found
-
-    def _join(self, limit: int) -> None:
-        """Put together what each of them leaves behind."""
+    def _join(self, left: Sequence[Rows], limit: int) -> None:
+        """Put together what each of them leaves behind, states at first."""
         pairs = np.prod([len(apart.amounts) for apart in self._apart], dtype=np.float64)
         found = self._landmarks.of(self._base, self._given) if pairs > _FEW else []
         finite = [landmark for landmark in found if landmark.cost < FAR]
         own = sum(landmark.cost for landmark in finite)
-        nets = [apart.amounts - self._saved(apart, finite, own) for apart in self._apart]
+        saved = (own - left_to_pay(finite, rows) for rows in left)  # of landmarks, after each outcome
+        nets = [apart.amounts - less for apart, less in zip(self._apart, saved, strict=True)]
         most, deadline = self._most(limit) - own, self._context.deadline
         try:
             self._together = Together(self._apart, nets, self._fields, most, self._most_paid(), deadline)
@@ -110,10 +104,6 @@ class Window:
         context = self._context
         dearest = max(map(context.weights.scaled_cost, context.packed.others))
         return (dearest * len(self._timelines) * (self._epochs + 1) + 1) * ACTION
-
-    def _saved(self, apart: Outcomes, landmarks: Sequence[Landmark], own: int) -> Amounts:
-        """What of landmarks the human need not pay for after each of a robot's outcomes."""
-        return own - left_to_pay(landmarks, apart.rows ^ column(self._base, len(apart.rows)))
 
     @property
     def bound(self) -> int:
