@@ -11,9 +11,9 @@ from search.bounds.private_distances import PrivateDistances
 from search.call.prepared_task import PreparedTask, TaskTables
 from search.engine.best_first import Node
 from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
-from search.human.pattern_database import NOTHING_KNOWN, PatternDatabase
+from search.human.pattern_database import NOTHING_KNOWN, NearestGoal, PatternDatabase
 from search.human.plan_graph import PlanGraph
-from search.human.strides import NearestGoal, StridingPlanner, may_stride
+from search.human.strides import StridingPlanner, may_stride
 from search.packed.cost_vector import INFINITE_KEY, Weights
 from search.packed.joint_actions import JointAction, as_option
 from search.packed.operators import Operator, changed

@@ -6,10 +6,11 @@ search per projection, and a search also fills in the states along its result.
 """
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from search.engine.astar import AStar
 from search.human.own_options import BesideScript
+from search.human.pattern_database import GoalBound
 from search.human.plan_graph import PlanGraph, edges_into
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
@@ -70,17 +71,6 @@ class FoundPlan(NamedTuple):
     actions: tuple[int, ...]
     expanded: int
     generated: int
-
-
-class GoalBound(Protocol):
-    """A lower bound on what is left to the human."""
-
-    @property
-    def mask(self) -> int:
-        """The fields that it looks at."""
-
-    def __call__(self, state: int) -> int:
-        """The bound from a packed state."""
 
 
 class TakenOverError(Exception):

@@ -55,6 +55,32 @@ NOTHING_KNOWN: Final = PatternDatabase(0, {0: 0})
 """The bound that is always right."""
 
 
+class NearestGoal(NamedTuple):
+    """The bound of :func:`alone_projection`, or where that knows nothing another one.
+
+    Attributes:
+        private: by private variables.
+        alone: by all that the human changes.
+    """
+
+    private: PatternDatabase
+    alone: PatternDatabase
+
+    @property
+    def mask(self) -> int:
+        """The fields that it looks at."""
+        return self.private.mask | self.alone.mask
+
+    def __call__(self, state: int) -> int:
+        """Lower bound on what is left to the human alone from a packed state."""
+        found = self.alone.distances.get(state & self.alone.mask)
+        return self.private(state) if found is None else found
+
+
+GoalBound = PatternDatabase | NearestGoal
+"""A lower bound on what is left to the human."""
+
+
 @dataclass(frozen=True, slots=True)
 class Projected:
     """The human's actions projected onto fields of theirs, as far as they lead from ``I``.

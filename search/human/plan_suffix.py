@@ -108,12 +108,12 @@ class PlanSuffix:
         )
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
-        """See :class:`.Suffix`."""
+        """See :class:`.Replan`."""
         ends = (paid + self._best(rest)[0] for paid, rest in self._begins(state, epochs, start))
         return min(min(ends, default=INFINITE_KEY), INFINITE_KEY)
 
     def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
-        """See :class:`.Suffix`."""
+        """See :class:`.Replan`."""
         _, rest = min(self._begins(state, epochs, start), key=lambda begun: self._best(begun[1])[0])
         found = [*self._packed.idling[-1:]] * (epochs - rest.left)  # which is told apart by nobody
         while (way := self._best(rest)[1]) is not None:

@@ -14,7 +14,6 @@ from itertools import chain, count
 from typing import NamedTuple
 
 from search.human.individual_planner import FoundPlan, IndividualPlanner, TakenOverError
-from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due, as_one
 from search.packed.operator_index import OperatorIndex, by_most_asked
@@ -99,28 +98,6 @@ class Script:
             found.reverse()
             self._runs[*course, condition] = found
         return found
-
-
-class NearestGoal(NamedTuple):
-    """The bound of :func:`.alone_projection`, or where that knows nothing another one.
-
-    Attributes:
-        private: by private variables.
-        alone: by all that the human changes.
-    """
-
-    private: PatternDatabase
-    alone: PatternDatabase
-
-    @property
-    def mask(self) -> int:
-        """The fields that it looks at."""
-        return self.private.mask | self.alone.mask
-
-    def __call__(self, state: int) -> int:
-        """Lower bound on what is left to the human alone from a packed state."""
-        found = self.alone.distances.get(state & self.alone.mask)
-        return self.private(state) if found is None else found
 
 
 class _Label(NamedTuple):

@@ -2,29 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 from search.human.individual_planner import IndividualPlanner, canonical
+from search.human.plan_suffix import PlanSuffix
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.packed.due import Due
 from search.packed.packed_task import PackedGoal, PackedTask
-
-
-class Suffix(Protocol):
-    """A rule for the epochs from ``xi2`` on."""
-
-    def key(self, state: int, epochs: int, start: int, limit: int) -> int:
-        """Key increment of the best suffix that fits ``epochs``; ``INFINITE_KEY`` if none does.
-
-        Args:
-            state: packed state at the end of the window.
-            epochs: how many are left.
-            start: ``xi1`` of the window.
-            limit: values at or above it are not told apart.
-        """
-
-    def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
-        """The actions of that suffix."""
 
 
 @dataclass(eq=False)
@@ -47,7 +30,14 @@ class Replan:
     keys: CostLayout
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
-        """See :class:`Suffix`."""
+        """Key increment of the best suffix that fits ``epochs``; ``INFINITE_KEY`` if none does.
+
+        Args:
+            state: packed state at the end of the window.
+            epochs: how many are left.
+            start: ``xi1`` of the window.
+            limit: values at or above it are not told apart.
+        """
         reached = self.both is not None or self.robot_goal.holds(state)
         if not reached or not self.at_rest.holds(state):
             return INFINITE_KEY
@@ -64,7 +54,7 @@ class Replan:
         return self.keys.announce(own)
 
     def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
-        """See :class:`Suffix`."""
+        """The actions of that suffix."""
         return canonical(self.both or self.alone, state)
 
 
@@ -87,12 +77,12 @@ class Lasting:
     packed: PackedTask
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
-        """See :class:`Suffix`."""
+        """See :class:`Replan`."""
         found = self.replan.key(state | self.packed.awake, epochs, start, limit)
         return INFINITE_KEY if found < limit and self._lasting(state, epochs) is None else found
 
     def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
-        """See :class:`Suffix`."""
+        """See :class:`Replan`."""
         found = self._lasting(state, epochs)
         assert found is not None, "asked for after its key"
         return found
@@ -118,3 +108,7 @@ class Lasting:
             return all(goal.holds(end) for goal in self.goals)
 
         return graph.ending(lambda end: self.due.lasting(end | others, left, holds))
+
+
+Suffix = Replan | Lasting | PlanSuffix
+"""A rule for the epochs from ``xi2`` on."""
