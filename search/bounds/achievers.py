@@ -51,15 +51,18 @@ class Provided:
 
         Robots that have been idle may have walked meanwhile, where walks are folded.
         """
-        if not idle:
-            return self._steps(state) // self.unit
-        each = zip_longest(self.each(state), idle, fillvalue=0)  # bystanders and the clock never rest
-        return max(0, min(epochs - rest for epochs, rest in each))
+        return soonest(self.each(state), idle) if idle else self._steps(state) // self.unit
 
     def each(self, state: int) -> tuple[int, ...]:
         """The same without a rest, per robot that may act first."""
         each = self._steps.each(state)
         return tuple(NEVER if steps >= INFINITE_KEY else steps // self.unit for steps in each)
+
+
+def soonest(epochs: Sequence[int], idle: Idle) -> int:
+    """In how many epochs from now a robot can act, by how long each needs that has been idle for some."""
+    each = zip_longest(epochs, idle, fillvalue=0)  # bystanders and the clock never rest
+    return max(0, min(needed - rest for needed, rest in each))
 
 
 class Achievers:
@@ -93,9 +96,8 @@ class Achievers:
         self._changes: dict[int, int] = {}
         self._judges: dict[int, int] = {}
         for epoch, op in enumerate(followed, start=1):
-            for field in packed.fields:
-                if field & ~op.keep:
-                    self._changes.setdefault(field, epoch)
+            for field in packed.split(packed.all_ones & ~op.keep):
+                self._changes.setdefault(field, epoch)
         self._shared = shared_fields(packed, transitions.places)
         used = {weights[form.cost] for form in packed.other_forms}
         self._uniform = len(used) <= 1

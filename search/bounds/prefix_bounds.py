@@ -1,10 +1,10 @@
 """The bound while the human follows ``pi_H``, by when the window opens (see :mod:`.first_interaction`)."""
 
 from collections.abc import Iterator, Sequence
-from itertools import accumulate, zip_longest
+from itertools import accumulate
 from typing import Final, NamedTuple
 
-from search.bounds.achievers import Provided
+from search.bounds.achievers import Provided, soonest
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import Idle
 from search.packed.state_cache import StateCache
@@ -87,12 +87,6 @@ class Offer(NamedTuple):
     epochs: tuple[int, ...]
     need: int
 
-    def soonest(self, idle: Idle) -> int:
-        """In how many epochs from now robots can provide it, having been idle for some."""
-        if not idle:
-            return min(self.epochs)
-        return max(0, min(epochs - rest for epochs, rest in zip_longest(self.epochs, idle, fillvalue=0)))
-
 
 class FirstInteractionOnTheWay:
     """The bound while the human follows ``pi_H``; a window has still to open.
@@ -136,8 +130,8 @@ class FirstInteractionOnTheWay:
         for offer in self._from(state):
             if offer.least >= least:
                 break
-            total = openings.now[offer.need][opens] + offer.cost
-            if total < least and epoch + offer.soonest(idle) <= min(openings.latest[offer.need], until):
+            total, latest = openings.now[offer.need][opens] + offer.cost, openings.latest[offer.need]
+            if total < least and epoch + soonest(offer.epochs, idle) <= min(latest, until):
                 least = total
         return least - self._spent[epoch]
 
@@ -149,7 +143,7 @@ class FirstInteractionOnTheWay:
             if offer.least >= least:
                 break
             if openings.later[offer.need][epoch] + offer.cost < least:
-                total = openings.total(offer.need, offer.cost, offer.soonest(idle), epoch)
+                total = openings.total(offer.need, offer.cost, soonest(offer.epochs, idle), epoch)
                 least = min(least, total)
         return least - self._spent[epoch]
 

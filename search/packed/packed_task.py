@@ -134,24 +134,14 @@ class PackedTask:
         return other
 
     def _sort_by_actor(self, deadline: Deadline) -> None:
-        own: list[Operator] = []
-        joint: list[Operator] = []
-        others: list[Operator] = []
-        human = self.human_bit
-        for op in map(self.op, self.useful):
-            deadline.tick()
-            if op.need < 0:
-                continue  # no state passes its test
-            if op.agents == human:
-                own.append(op)
-            elif op.agents & human:
-                joint.append(op)
-            else:
-                others.append(op)
-        self.own, self.joint, self.others = tuple(own), tuple(joint), tuple(others)
-        self.own_forms = forms_of(own, self.all_ones, deadline)
-        self.joint_forms = forms_of(joint, self.all_ones, deadline)
-        self.other_forms = forms_of(others, self.all_ones, deadline)
+        human, ops = self.human_bit, map(self.op, deadline.each(self.useful))
+        possible = [op for op in ops if op.need >= 0]  # some state passes its test
+        self.own = tuple(op for op in possible if op.agents == human)
+        self.joint = tuple(op for op in possible if op.agents & human and op.agents != human)
+        self.others = tuple(op for op in possible if not op.agents & human)
+        self.own_forms = forms_of(self.own, self.all_ones, deadline)
+        self.joint_forms = forms_of(self.joint, self.all_ones, deadline)
+        self.other_forms = forms_of(self.others, self.all_ones, deadline)
         robots = sum(1 << robot for robot in self.task.robots)
         led: dict[int, list[Signature]] = {}
         for form in self.other_forms:

@@ -1,5 +1,7 @@
 """Writes solutions in the model's terms: names of facts and actions, plans by epochs."""
 
+from contextlib import suppress
+
 from search.modes.assistance.game.game import NOOP, Game, Move
 from search.modes.assistance.game.solution import Costs, GameSolution
 from search.packed.cost_vector import INFINITE_KEY
@@ -45,19 +47,12 @@ class Writer:
             Decision(self._delta(state), self._name(entry.action), entry.value)
             for state, entry in solution.policy.items()
         )
-        try:
-            return Policy(decisions, self._floors(solution))
-        except LIMITS:
-            return Policy(decisions, None)
-
-    def _floors(self, solution: GameSolution) -> tuple[Floor, ...] | None:
-        if solution.floors is None:
-            return None
-        floors = []
-        for state, value in solution.floors.items():
-            self._game.deadline.tick()
-            floors.append(Floor(self._delta(state), value))
-        return tuple(floors)
+        floors = None
+        if solution.floors is not None:
+            with suppress(*LIMITS):
+                each = self._game.deadline.each(solution.floors.items())
+                floors = tuple(Floor(self._delta(state), value) for state, value in each)
+        return Policy(decisions, floors)
 
     def plan(self, solution: GameSolution) -> tuple[Step, ...] | None:
         """The only run of a policy; None where the prime's choices make several."""
@@ -112,12 +107,6 @@ class Writer:
 
     def _delta(self, state: int) -> StateDelta:
         packed, init = self._game.packed, self._game.init
-        differs = state ^ init
-        true, false = [], []
-        for field in packed.fields:
-            if differs & field:
-                now = self._named.get((field, state & field))
-                before = self._named.get((field, init & field))
-                true += [] if now is None else [now]
-                false += [] if before is None else [before]
-        return StateDelta(tuple(sorted(true)), tuple(sorted(false)))
+        fields = [field for field in packed.fields if (state ^ init) & field]
+        facts = ([self._named.get((field, at & field)) for field in fields] for at in (state, init))
+        return StateDelta(*(tuple(sorted(filter(None, names))) for names in facts))

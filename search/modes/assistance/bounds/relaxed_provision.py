@@ -96,20 +96,17 @@ class RelaxedProvision:
         setters: dict[Pair, list[Operator]] = {}
         for op in self._game.supporter_ops:
             self._game.deadline.tick()
-            for field in self._game.packed.fields:
-                if field & self._provided and not field & op.keep:
-                    setters.setdefault((field, op.put & field), []).append(op)
+            for pair in self._game.packed.assigned(self._provided & ~op.keep, op.put):
+                setters.setdefault(pair, []).append(op)
         return setters
 
-    def _asked(self, op: Operator) -> list[Pair]:
-        fields = self._game.packed.fields
-        mask = op.need_mask & self._provided
-        return [(field, op.need & field) for field in fields if field & mask] if mask else []
+    def _asked(self, op: Operator) -> Iterable[Pair]:
+        return self._game.packed.assigned(op.need_mask & self._provided, op.need)
 
     def _find_charged(self) -> dict[Pair, tuple[int, int]]:
         """For each condition that is charged its price and the bit that is set with it."""
-        together: dict[Pair, int] = {}
-        for op in self._game.packed.own:
+        packed, together = self._game.packed, dict[Pair, int]()
+        for op in packed.own:
             self._game.deadline.tick()
             for pair in self._asked(op):
                 first_set = op.put & self._monotone
@@ -120,13 +117,10 @@ class RelaxedProvision:
             prices = []
             for op in self._setters[pair]:
                 self._game.deadline.tick()
-                also = sum((field, op.put & field) in bits for field in self._fields_set(op))
+                also = sum(set_too in bits for set_too in packed.assigned(packed.all_ones & ~op.keep, op.put))
                 prices.append(self._game.cost(op) // also)
             charged[pair] = (min(prices), bit)
         return charged
-
-    def _fields_set(self, op: Operator) -> list[int]:
-        return [field for field in self._game.packed.fields if not field & op.keep]
 
     def _find_countable(self) -> int:
         """Bits of the goal that each cost a step of their own; none if a step can set two."""
