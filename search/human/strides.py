@@ -153,14 +153,14 @@ class StridingPlanner(IndividualPlanner):
         """What may be done next, each as soon as it can be done to its end."""
         script, state = self._script, label.state
         outside = ~(script.fields | script.clock)
-        now = script.epoch(state)
+        now, awake = script.epoch(state), self._packed.awake
         for stride in self._strides.candidates(state):
             if state & stride.need_mask != stride.need:
                 continue
             if any(state & field == value for field, value in stride.forbidden):
                 continue
             begins = self._soonest(stride, course, now)
-            if begins is None or (begins > now and not self._may_wait(state)):
+            if begins is None or (begins > now and state & awake != awake):
                 continue
             waited, ends = begins - now, begins + len(stride.ops)
             after = (state & stride.keep | stride.put) & outside | script.at(course, ends)
@@ -193,10 +193,6 @@ class StridingPlanner(IndividualPlanner):
             found.append(soonest)
         found.reverse()
         return found
-
-    def _may_wait(self, state: int) -> bool:
-        awake = self._packed.awake
-        return state & awake == awake
 
     @cached_property
     def _waiting_weight(self) -> int:

@@ -11,7 +11,6 @@ from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from copy import copy
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 
 from search.packed.operator_index import by_most_asked
@@ -113,8 +112,8 @@ class PackedTask:
         self.goal = self.condition(task.goal)
         self.robot_goal = self.condition(task.robot_goal)
         self.at_rest = self.condition(Condition(tuple(f for f in task.at_rest if self.fact_bits[f])))
-        self.costs = _distinct_costs(task)
         # By ratio: the hash of a rational takes four times as long as all else about a cost.
+        self.costs = tuple(sorted({a.cost.as_integer_ratio(): a.cost for a in task.actions}.values()))
         self._cost_index = {cost.as_integer_ratio(): i for i, cost in enumerate(self.costs)}
         self._ops: dict[int, Operator] = {}
         self._sort_by_actor(deadline)
@@ -349,7 +348,3 @@ def _priced(task: Task) -> Iterator[int]:
     """Ids of all that the human takes part in where waiting costs: anything may be cheaper than that."""
     if task.actions and task.actions[-1].name == RESTING:
         yield from (i for i, action in enumerate(task.actions) if task.human in action.participants)
-
-
-def _distinct_costs(task: Task) -> tuple[Fraction, ...]:
-    return tuple(sorted({action.cost.as_integer_ratio(): action.cost for action in task.actions}.values()))

@@ -96,8 +96,8 @@ class _ScenarioCall:
         self._deadline = deadline
         self._candidates = _merged(candidates)
         self._question: Question | None = None
-        self._sequences: SequenceSearch | None = None
-        self._policies: PolicySearch | None = None
+        self._searches: list[SequenceSearch | PolicySearch] = []
+        """Those that have begun."""
         self._idle: int | None = None
         self.is_exact = True
 
@@ -124,23 +124,12 @@ class _ScenarioCall:
         question = Question(lines, members, acting, measure, self._horizon, deadline)
         self._question = question
         self._idle = question.value([line.certain.idle(deadline) for line in lines])
-        self._sequences = SequenceSearch(question)
-        yield from self._sequences.guided()
+        sequences = SequenceSearch(question)
+        self._searches.append(sequences)
+        yield from sequences.guided()
         if self._options.policy == "watching":
-            self._policies = PolicySearch(question, self._sequences.upper)
-            yield from self._policies.run()
-        else:
-            yield from self._sequences.run()
-
-    def _searches(self) -> list[SequenceSearch | PolicySearch]:
-        """Those that have begun."""
-        return [search for search in (self._sequences, self._policies) if search is not None]
-
-    @property
-    def _found(self) -> SequenceSearch | PolicySearch:
-        """The search that has found the best policy known."""
-        first, *later = self._searches()
-        return later[0] if later and later[0].upper < first.upper else first
+            self._searches.append(PolicySearch(question, sequences.upper))
+        yield from self._searches[-1].run()
 
     def _scenarios(self) -> list[Scenario]:
         """The task with each candidate's goal, packed with what any of them or its plan asks for."""
@@ -167,10 +156,10 @@ class _ScenarioCall:
 
     def answer(self, status: Status) -> Answer:
         """The best policy if it is cheaper than idle robots, else these."""
-        searches, baseline = self._searches(), self._baseline()
+        searches, baseline = self._searches, self._baseline()
         if not searches or self._idle is None:
             return self._told(status, baseline)
-        best = self._found
+        best = min(searches, key=lambda search: search.upper)
         _, idle = self._figures(self._idle)
         least = max(self._figures(max(search.lower for search in searches))[0], Fraction(0))
         if best.upper < INFINITE_WORTH:
@@ -220,7 +209,7 @@ class _ScenarioCall:
         cost, objective, bound = figures or (baseline, baseline, Fraction(0))
         happens = played or {}
         lines = () if self._question is None else self._question.lines
-        counted = [*(line.certain for line in lines), *self._searches()]
+        counted = [*(line.certain for line in lines), *self._searches]
         return Answer(
             status,
             horizon=self._horizon,

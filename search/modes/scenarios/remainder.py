@@ -137,13 +137,10 @@ class Certain:
         if epoch >= len(self.steps):
             alone = self.alone(state, epoch)
             return Remainder(alone, alone)
-        if self._ordinary and self._all_are_free(state):
+        all_are_free = self._packed.at_rest.holds(state) and self._due.human(state) is None  # but bystanders
+        if self._ordinary and all_are_free:
             return self._by_strategies(state, epoch, deadline)
         return self._in_space(state, epoch, 0, deadline)
-
-    def _all_are_free(self, state: int) -> bool:
-        """Whether nobody but bystanders is in the middle of anything."""
-        return self._packed.at_rest.holds(state) and self._due.human(state) is None
 
     def _mended(self, state: int, epoch: int, deadline: Deadline) -> Remainder:
         """The human follows their plan to its end, and robots make that possible again."""

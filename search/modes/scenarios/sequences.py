@@ -144,12 +144,13 @@ class SequenceSearch:
 
     def _child(self, node: _Sequence, robots: JointAction) -> _Sequence | None:
         """The sequence an epoch later; None if some scenario has no place left."""
-        epoch, after = node.epoch + 1, []
+        question, epoch, after = self._question, node.epoch + 1, []
         self.generated += 1
         for i, line in enumerate(self._lines):
             places: _Places = {}
             ended: list[tuple[int, Member, _Label]] = []
-            limit = self._limit(i)
+            # What it pays at which the sequence is no better than the best one known.
+            limit = question.measure.limit(question.members, self._floors, i, self.upper)
             for m, label in node.places[i].items():
                 self._deadline.tick()
                 if m.phase == OVER:  # the suffix goes on, as long as robots are idle
@@ -172,11 +173,6 @@ class SequenceSearch:
                 return None
             after.append(places)
         return _Sequence(epoch, tuple(after), robots, node.spent + self._lines[0].worth(robots), node)
-
-    def _limit(self, scenario: int) -> int:
-        """What a scenario pays at which a sequence is no better than the best one known."""
-        question = self._question
-        return question.measure.limit(question.members, self._floors, scenario, self.upper)
 
     def _bound(self, node: _Sequence) -> int:
         totals = [

@@ -1,12 +1,12 @@
 """Conditions under which robots may be looked at one by one, and dead-end values of the human's goal."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
 from search.packed.operators import Operator, asked_by
 from search.packed.packed_task import PackedTask
-from search.short_windows.independent.rows import Rows, column
+from search.short_windows.independent.rows import column
 from serendipity.model.resources.deadline import Deadline
 
 
@@ -48,12 +48,10 @@ def _in_the_way(packed: PackedTask, deadline: Deadline) -> Iterator[tuple[Operat
     concerned = [own for own in deadline.each(packed.own) if packed.outside & asked_by(own)]
     if not others or not concerned:
         return
-    need_mask, need = (
-        _table(words, [op.need_mask for op in others]),
-        _table(words, [op.need for op in others]),
+    each = zip(*((op.need_mask, op.need, op.keep & packed.all_ones, op.put) for op in others), strict=True)
+    need_mask, need, keep, put = (
+        np.concatenate([column(mask, words) for mask in masks], axis=1) for masks in each
     )
-    keep = _table(words, [op.keep & packed.all_ones for op in others])
-    put = _table(words, [op.put for op in others])
     for own in deadline.each(concerned):
         mask, value = column(own.need_mask, words), column(own.need, words)
         disabled = (((value & keep | put) ^ value) & mask).any(axis=0)
@@ -63,7 +61,3 @@ def _in_the_way(packed: PackedTask, deadline: Deadline) -> Iterator[tuple[Operat
         together = ~((need ^ value) & need_mask & mask).any(axis=0)
         for place in np.flatnonzero(disabled & together):
             yield own, others[place]
-
-
-def _table(words: int, masks: Sequence[int]) -> Rows:
-    return np.concatenate([column(mask, words) for mask in masks], axis=1)

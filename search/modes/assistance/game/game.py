@@ -104,18 +104,11 @@ class Game:
         """
         moves = self._prime_moves.get(state)
         if moves is None:
-            moves = self._prime_moves[state] = tuple(self._optimal(state))
-        return moves
-
-    def _optimal(self, state: int) -> list[Move]:
-        actions = self.packed.task.actions
-        seen: set[tuple[str, int]] = set()
-        moves = []
-        for op, after in self.own.optimal(state):
-            form = (actions[op.action].name, after)
-            if form not in seen:
-                seen.add(form)
-                moves.append(Move(self._scaled[op.cost] << self.unit_bits, after, op.action))
+            found: dict[tuple[str, int], Move] = {}
+            for op, after in self.own.optimal(state):
+                move = Move(self._scaled[op.cost] << self.unit_bits, after, op.action)
+                found.setdefault((self.packed.task.actions[op.action].name, after), move)
+            moves = self._prime_moves[state] = tuple(found.values())
         return moves
 
     def alone(self, state: int) -> int:

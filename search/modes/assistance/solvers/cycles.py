@@ -100,13 +100,9 @@ def _stays(graph: Graph, model: Model, option: Option) -> bool:
     if option.end is not None:
         return bool(option.end < graph.rule.infinite)
     return all(
-        move.after in model or (move.after not in graph.choices and _finite(graph, move.after))
-        for move in option.outcomes
+        at in model or (at not in graph.choices and graph.choice_value(at) < graph.rule.infinite)
+        for _, at, _ in option.outcomes
     )
-
-
-def _finite(graph: Graph, state: int) -> bool:
-    return bool(graph.choice_value(state) < graph.rule.infinite)
 
 
 def _attracted(model: Model, deadline: Deadline) -> dict[int, Option]:
