@@ -62,17 +62,6 @@ _ODD = """
 ODD = tuple(_ODD.strip().replace("\n", "|").split("|"))
 """Groups to put in: ``f``, ``g`` stand for groups of the file, the others for words, types and a number."""
 
-_LEGAL = """
-(or {f} {g})|(not {f})|(imply {g} {f})|(not (and {f} (not {g})))|(and {f} (or {g} (not {g})))
-(exists (?z - {t}) {f})|(forall (?z ?u - {t}) (or {f} {g}))|(forall (?z - {t}) (imply {g} {f}))
-(or (and {f} {g}) (and (not {f}) (not {g})))|(and {f} {g})|(exists (?z - {t}) (and {f} (= ?z ?z)))
-"""
-LEGAL = tuple(_LEGAL.strip().replace("\n", "|").split("|"))
-"""Conditions that are legal where ``f`` is."""
-
-SECTION = re.compile(r":(precondition|goal)\b.*?(?=:effect|:metric|:precondition|\Z)", re.DOTALL)
-ATOM = re.compile(r"\((?!and\b|or\b|not\b|total-cost)[\w-]+(\s+[?\w-]+)*\)")
-
 
 def mutant(number: int, originals: Sequence[Files] = ORIGINALS) -> Files:
     """The mutant of a number: one to four changes, raw ones or such of whole tokens and groups."""
@@ -154,20 +143,6 @@ def _odd_group(text: str, random: Random) -> str:
     return text[:start] + random.choice(ODD).format(**parts) + text[end:]
 
 
-def _conditions(text: str, random: Random) -> str:
-    """A construct that is legal there in place of an atom of a condition, made of it and its neighbours."""
-    sections = list(SECTION.finditer(text)) or [None]
-    section = random.choice(sections)
-    first, last = (0, len(text)) if section is None else section.span()
-    atoms = [(a, b) for a, b in _groups(text) if first <= a and b <= last and ATOM.fullmatch(text[a:b])]
-    if not atoms:
-        return _odd_group(text, random)
-    (start, end), (other, stop) = random.choice(atoms), random.choice(atoms)
-    kind = random.choice([*_types(text), "object"])
-    form = random.choice(LEGAL).format(f=text[start:end], g=text[other:stop], t=kind)
-    return text[:start] + form + text[end:]
-
-
 def _new_number(text: str, random: Random) -> str:
     numbers = [*re.finditer(r"(?<=[\s(])-?\d+\.?\d*(?=[\s)])", text)]
     if not numbers:
@@ -210,5 +185,5 @@ RAW: tuple[Change, ...] = (_without(_stretch), _twice(_stretch), _instead(_stret
 
 MEANT: tuple[Change, ...] = (
     *(_without(_token), _twice(_token), _instead(_word), _without(_group), _twice(_group), _instead(_group)),
-    *(_odd_group, _odd_group, _new_number, _many_objects, *[_conditions] * 12),
+    *(_odd_group, _odd_group, _new_number, _many_objects, *[_odd_group] * 6),
 )

@@ -7,6 +7,7 @@ import pytest
 
 from serendipity.model import Condition, GroundAction, InputError, Task, UsageError
 from serendipity.pddl.layouts import read_agents, read_pddl
+from tests.pddl.texts import facts, pair
 
 DOMAIN = """(define (domain home)
   (:requirements :typing :durative-actions)
@@ -35,10 +36,7 @@ PROBLEM = """(define (problem p)
 
 def read(folder: Path, domain: str = DOMAIN, problem: str = PROBLEM, **more: object) -> Task:
     """The task of two texts, ann being the human and bob the robot."""
-    files = folder / "domain.pddl", folder / "problem.pddl"
-    for file, text in zip(files, (domain, problem), strict=True):
-        file.write_text(text)
-    return read_pddl(*files, "ann", ["bob"], **more)  # type: ignore[arg-type]
+    return read_pddl(*pair(folder, domain, problem), "ann", ["bob"], **more)  # type: ignore[arg-type]
 
 
 def action(task: Task, name: str) -> GroundAction:
@@ -50,11 +48,6 @@ def action(task: Task, name: str) -> GroundAction:
 def literals(task: Task, condition: Condition) -> set[str]:
     """A condition in words."""
     return {task.facts[f] for f in condition.positive} | {f"!{task.facts[f]}" for f in condition.negative}
-
-
-def facts(task: Task, ids: tuple[int, ...]) -> set[str]:
-    """Facts in words."""
-    return {task.facts[i] for i in ids}
 
 
 def changed(old: str, new: str, text: str = DOMAIN) -> str:

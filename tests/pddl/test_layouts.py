@@ -1,13 +1,12 @@
 """The three layouts: who owns what, who takes part, who is the human."""
 
 import shutil
-from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
 from serendipity import InputError, UsageError, load, load_agents, load_pddl
-from tests.pddl.texts import OFFICE, YARD, action, domain, facts, names, one, problem, two
+from tests.pddl.texts import OFFICE, YARD, action, domain, facts, one, problem, two
 
 
 def test_directory_gives_each_agent_his_own_actions() -> None:
@@ -39,11 +38,6 @@ def test_joint_actions_name_their_participants() -> None:
     assert {a.participants for a in task.actions if a.joint} == {(0, 1)}
 
 
-def test_noops_are_dropped_whatever_they_cost() -> None:
-    assert names(load(YARD), "look") == []
-    assert names(load_pddl(*OFFICE, human="ann", robots=["bot"]), "wait") == []
-
-
 def test_actions_are_in_the_order_of_their_keys() -> None:
     for task in (load(YARD), load_pddl(*OFFICE, human="ann", robots=["bot"])):
         assert [a.key for a in task.actions] == sorted(a.key for a in task.actions)
@@ -55,13 +49,6 @@ def test_one_task_takes_participants_from_arguments() -> None:
     assert found["move ann room domain"] == (0,)
     assert found["fetch bot problem domain"] == (1,)
     assert found["pass bot ann problem domain"] == (0, 1)
-
-
-def test_an_action_without_any_agent_is_left_out_with_a_warning(tmp_path: Path) -> None:
-    rain = "(:action rain :parameters () :precondition () :effect (p))"
-    task = one(tmp_path, domain(rain, action("dig", "(p)", "(q)")), problem(init="(p)"))
-    assert names(task) == ["dig h", "dig r"]
-    assert task.warnings == ("action 'rain': no agent is among its arguments; 1 action left out",)
 
 
 def test_human_can_be_chosen_and_others_goals_are_the_robots_own() -> None:
@@ -183,11 +170,3 @@ def test_what_one_agent_changes_is_no_static_fact_of_another(tmp_path: Path) -> 
     robot = domain(action("open", "(q)", "(r)", parameters=""))
     task = two(tmp_path, (human, problem(init="")), (robot, problem(init="(q)", goal="")))
     assert {a.name: facts(task, a.pre) for a in task.actions} == {"cross": {"r"}, "open": set()}
-
-
-def test_costs_are_exact_and_by_object() -> None:
-    task = load_pddl(*OFFICE, human="ann", robots=["bot"])
-    costs = {a.name: a.cost for a in task.actions}
-    assert costs["move ann room domain"] == Fraction(3, 2)
-    assert costs["move ann domain basement"] == 11
-    assert costs["study bot problem"] == Fraction(1, 4)

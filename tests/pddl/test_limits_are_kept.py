@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity import LimitReachedError, Task, UsageError, pddl
+from serendipity import LimitReachedError, Task, pddl
 from serendipity.model import Deadline
 from serendipity.model.resources.deadline import MIB
 from serendipity.model.resources.memory import resident
@@ -172,11 +172,3 @@ def test_progress_tells_what_is_done_and_how_many_actions_there_are(tmp_path: Pa
     assert len(counts) > 2
     assert counts == sorted({*counts})
     assert told[-1] == "preparing 13,122 ground actions"
-
-
-@pytest.mark.parametrize(
-    "limits", [{"time_limit": -1}, {"memory_limit": "much"}, {"time_limit": float("nan")}]
-)
-def test_limits_have_to_be_numbers(limits: dict[str, float]) -> None:
-    with pytest.raises(UsageError, match=f"{next(iter(limits))}: expected"):
-        serendipity.load(YARD, **limits)

@@ -5,9 +5,10 @@ from pathlib import Path
 import pytest
 
 from serendipity.model import InputError, Task, TimedFact
-from serendipity.pddl.layouts import read_folder, read_pddl
+from serendipity.pddl.layouts import read_folder
 from serendipity.pddl.write import write_pddl
 from serendipity.testing.oracle import human_plans
+from tests.pddl import test_durative_actions as durative
 from tests.pddl.test_durative_actions import DOMAIN, PROBLEM
 
 SHOP = """(define (domain shop)
@@ -32,9 +33,7 @@ DAY = """(define (problem day)
 
 def read(folder: Path, domain: str = SHOP, problem: str = DAY, **more: object) -> Task:
     """The task of two texts."""
-    (folder / "domain.pddl").write_text(domain)
-    (folder / "problem.pddl").write_text(problem)
-    return read_pddl(folder / "domain.pddl", folder / "problem.pddl", "ann", ["bob"], **more)  # type: ignore[arg-type]
+    return durative.read(folder, domain, problem, **more)
 
 
 def test_a_literal_becomes_true_with_the_epoch_that_ends_then(tmp_path: Path) -> None:
