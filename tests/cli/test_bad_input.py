@@ -35,33 +35,6 @@ def test_files_that_are_missing_empty_or_noise(
     assert_one_line(run(TASK), pair[which].name)
 
 
-@pytest.mark.parametrize("share", [0.1, 0.3, 0.5, 0.7, 0.9, 0.99])
-@pytest.mark.parametrize("which", [0, 1])
-def test_file_cut_in_the_middle(which: int, share: float, pair: tuple[Path, Path], run: Runs) -> None:
-    text = pair[which].read_text()
-    pair[which].write_text(text[: int(len(text) * share)])
-    assert_one_line(run(TASK), pair[which].name)
-
-
-@pytest.mark.parametrize(
-    ("spoilt", "word"),
-    [
-        ("(lies mk1 room2)", "lies"),
-        ("(at mk1 room2 room3)", "at"),
-        ("(at mk7 room2)", "mk7"),
-        ("(at mk1 mk2)", "mk2"),
-    ],
-    ids=["unknown predicate", "wrong arity", "undeclared object", "type error"],
-)
-def test_a_wrong_atom_is_named_with_its_line(
-    spoilt: str, word: str, pair: tuple[Path, Path], run: Runs
-) -> None:
-    spoil(pair[1], "(at mk1 room2)", spoilt)
-    lines = pair[1].read_text().splitlines()
-    line = next(i for i, line in enumerate(lines, 1) if spoilt in line)
-    assert_one_line(run(TASK), f"problem.pddl:{line}:", word)
-
-
 @pytest.mark.parametrize(
     ("who", "old", "new", "words"),
     [

@@ -1,7 +1,5 @@
 """``serendipity execute``: text, JSON and CSV, logs and replays, and what it complains about."""
 
-import csv
-import io
 import json
 from pathlib import Path
 
@@ -21,12 +19,9 @@ def test_text_tells_the_story(run: Runs) -> None:
     assert "in the mean 11 instead of 13; the team 12.6" in lines
 
 
-def test_json_and_csv_hold_a_row_a_run(run: Runs) -> None:
+def test_json_says_its_schema_and_rows_can_be_written(run: Runs) -> None:
     told = json.loads(run(f"{CALL} --human noisy:0.2 --runs 3 --seed 4 --format json").out)
     assert told["schema"] == "serendipity.executions/1" and told["summary"]["runs"] == 3
-    text = run(f"{CALL} --human noisy:0.2 --runs 3 --seed 4 --format csv").out
-    rows = list(csv.DictReader(io.StringIO(text)))
-    assert [float(row["cost"]) for row in rows] == [row["cost"] for row in told["rows"]]
     assert run(f"{CALL} -o rows.csv").code == 0 and Path("rows.csv").read_text().startswith(
         "run,seed,reached"
     )
@@ -67,18 +62,13 @@ def test_a_record_may_stand_behind_the_task(run: Runs) -> None:
 @pytest.mark.parametrize(
     ("arguments", "complaint"),
     [
-        ("--human psychic", "human: expected one of recorded:FILE"),
         ("--human recorded", "expected recorded:FILE, or the FILE behind TASK"),
         ("--human recorded:nowhere", "nowhere: there is no such file"),
-        ("--human noisy:x", "noisy: expected a finite number"),
-        ("--faults often", "faults: expected some of fail=P,slow=P,drop=P"),
         ("--goals nowhere", "nowhere: there is no such file"),
         ("--noise wrong=0.1", "noise: goes with goals only"),
         ("--plans nowhere", "nowhere: there is no such file"),
         ("--plans nowhere --human-model local", "human_model: with plans only 'omniscient' is possible"),
-        ("--deadline soon", "deadline: expected"),
         ("--discount 2", "discount: expected a number in [0, 1]"),
-        ("--runs 0", "runs: expected at least 1"),
         ("--format xml", "--format: expected one of text, json, csv"),
         ("--replay nowhere", "nowhere: there is no such file"),
         ("--log no/where", "--log: there is no folder no"),

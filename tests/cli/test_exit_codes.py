@@ -45,11 +45,6 @@ def test_codes_are_the_documented_ones() -> None:
     assert set(OF_VERDICT) == {"proved", "refuted", "undecided"}
 
 
-@pytest.mark.parametrize("discount", ["0", "0.6"])
-def test_an_answer_is_0(discount: str, run: Runs) -> None:
-    assert run(f"plan --example room2 --discount {discount}").code == 0
-
-
 def test_infeasible_is_3_and_still_written(stuck: str, run: Runs) -> None:
     done = run(f"plan {stuck} --format json")
     assert done.code == 3

@@ -62,15 +62,6 @@ def test_no_window_within_an_informative_one_saves_as_much(discount: str) -> Non
         assert entry.informative == news
 
 
-def test_the_hand_over_of_section_3c(data: dict[str, Any]) -> None:
-    entry = next(e for e in data["windows"] if e["window"] == {"start": 6, "end": 7})
-    assert (entry["human_cost"], entry["team_cost"]) == (11, 12.6)
-    assert entry["removed"]["first"] == 6
-    assert any("hand_over" in name for name in entry["replacement"])
-    planned = serendipity.plan(serendipity.example("room2"), discount="0.6")
-    assert planned.cost == entry["team_cost"]
-
-
 def test_a_human_without_a_plan(run: Runs, tmp_path: Path) -> None:
     serendipity.generate_usar(tmp_path / "task", rooms=5, medkits=1, seed=1)
     for problem in (tmp_path / "task").glob("*/problem.pddl"):

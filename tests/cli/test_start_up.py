@@ -51,7 +51,7 @@ def test_a_signal_is_listened_to_before_anything_loads() -> None:
 )
 def test_nothing_heavy_loads_for(command: list[str]) -> None:
     loaded = loaded_after(f"from serendipity.cli.app import main\nassert main({command!r}) == 0")
-    assert not loaded & {*SOLVERS, "networkx", "numpy", "rich", "pydantic"}
+    assert not loaded & {*SOLVERS, "networkx", "numpy", "rich", "pydantic", "unified_planning"}
 
 
 @pytest.mark.parametrize("quiet", [False, True])

@@ -13,16 +13,6 @@ def run(code: str, folder: Path) -> str:
     return done.stdout.strip()
 
 
-def test_nothing_loads_the_library_but_the_bridge(tmp_path: Path) -> None:
-    code = """
-import sys, serendipity
-task = serendipity.example("room2")
-serendipity.plan(task, discount=0.6)
-print("unified_planning" in sys.modules)
-"""
-    assert run(code, tmp_path) == "False"
-
-
 def test_without_the_library_one_line_says_what_is_missing(tmp_path: Path) -> None:
     code = """
 import sys
