@@ -3,10 +3,11 @@
 from typing import Any
 
 import serendipity
-from serendipity import Result, Task, UsageError
+from serendipity import Options, Result, Task, UsageError
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
 from serendipity.testing.oracle.answers import Optimum
+from verify.calls.solve import solve
 
 
 def exact_and_planned(call: Call) -> tuple[Optimum, Result] | None:
@@ -31,4 +32,14 @@ def proved(task: Task, **options: Any) -> Result:
     """The planner's answer, once the certificate has proved it."""
     answer = serendipity.plan(task, **options)
     assert serendipity.verify(task, answer).verdict == "proved"
+    return answer
+
+
+def agreed(task: Task, human_plan: list[str] | None = None, **options: Any) -> Result:
+    """The planner's answer, once both encodings and the certificate have agreed to it."""
+    answer = proved(task, human_plan=human_plan, **options)
+    figures = ("status", "cost", "objective", "opportunity", "saving", "saving_alone")
+    for encoding in ("automata", "paper"):
+        other = solve(task, Options(**options), human_plan=human_plan, encoding=encoding)
+        assert [getattr(answer, name) for name in figures] == [getattr(other, name) for name in figures]
     return answer

@@ -109,19 +109,6 @@ def test_case_1_is_handed_over_in_c() -> None:
     assert (entry.removal.first, entry.removal.last) == (5, 8)
 
 
-def test_case_2_longer_windows_are_better() -> None:
-    task = cases.case_2()
-    assert window_of(task, Window(4, 5), discount="0.5").team_cost == Fraction("8.5")
-    assert window_of(task, Window(3, 6), discount="0.5").team_cost == 7
-
-
-def test_a_human_without_a_plan_has_no_report() -> None:
-    report = serendipity.interruptions(cases.case_8())
-    assert report.human_plan is None
-    assert not report.interruptible
-    assert report.to_dict()["reason"] == "no-human-plan"
-
-
 def test_other_options_are_refused() -> None:
     with pytest.raises(UsageError, match="'window_weight'"):
         serendipity.interruptions(cases.case_1(), window_weight=0)

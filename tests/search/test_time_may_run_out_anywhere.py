@@ -1,6 +1,5 @@
 """Whenever the time runs out, a call ends with what it knows: never with an exception, nor half an answer."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -186,45 +185,6 @@ def test_a_session_ends_with_its_deadline() -> None:
     assert session.plan(deadline=None).status == "optimal"
     assert session.plan(deadline=None, time_limit=0).status == "optimal"  # which is known by now
     assert session.plan(deadline=None, time_limit=0, discount=0).status in ("unknown", "feasible")
-
-
-def _parcels() -> Task:
-    """Whoever comes by may deliver one: the goals are shared."""
-    human = {f"take_{p} h": f"-> in_h_{p} @ 2" for p in "abc"}
-    return build(
-        goal="at_a at_b at_c",
-        actions={
-            **human,
-            **{f"leave_{p} h": f"in_h_{p} -> at_{p} !in_h_{p}" for p in "abc"},
-            "drive r": "-> near",
-            **{f"leave_{p} r": f"near -> at_{p}" for p in "bc"},
-        },
-    )
-
-
-REMEMBERED: list[dict[str, Any]] = [
-    {"discount": "0.9"},
-    {"discount": "0.9", "window_weight": 0},
-    {"discount": "0.9", "mode": "communication"},
-    {"discount": "0.9", "mode": "composite", "horizon": "inf"},
-    {"mode": "individual"},
-    {"discount": "0.9", "human_model": "observant"},
-]
-
-
-@pytest.mark.parametrize("options", REMEMBERED, ids=str)
-@pytest.mark.parametrize("case", [case_2, _parcels])
-def test_what_a_session_remembers_is_whole(case: Callable[[], Task], options: dict[str, Any]) -> None:
-    def call(deadline: Deadline) -> Result:
-        session = serendipity.Session(case(), **options)
-        first = session.plan()
-        session.execute([step.action for step in first.plan or () if step.epoch == 1])
-        task = session.task
-        answer = session.plan(deadline=deadline)
-        assert serendipity.check(task, answer).refuted is None
-        return answer
-
-    assert answers(call)[-1].status == "optimal"
 
 
 @pytest.mark.parametrize("suffix", ["replan", "subplan"])

@@ -1,14 +1,11 @@
 """Actions of one name are variants of one PDDL action; ``pi_H`` has what has a name of it (semantics 3.4)."""
 
-from typing import Any
-
 import pytest
 
 from serendipity import Task
-from serendipity.model import Deadline, Options, PlanStep, Result, Window
+from serendipity.model import Deadline, PlanStep, Window
 from serendipity.testing.builders import task as build
-from tests.search.exact_answers import proved
-from verify.calls.solve import solve
+from tests.search.exact_answers import agreed
 from verify.rules.replay import replay
 
 
@@ -37,20 +34,10 @@ def _switch() -> Task:
     )
 
 
-def _both(task: Task, **options: Any) -> Result:
-    """The planner's answer, once both encodings and the certificate have agreed to it."""
-    answer = proved(task, **options)
-    figures = ("status", "cost", "objective", "opportunity", "saving")
-    for encoding in ("automata", "paper"):
-        other = solve(task, Options(**options), encoding=encoding)
-        assert [getattr(answer, name) for name in figures] == [getattr(other, name) for name in figures]
-    return answer
-
-
 @pytest.mark.parametrize(("task", "cost"), [(_door(), 3.5), (_switch(), 3.0)], ids=["or", "when"])
 def test_another_variant_of_what_was_planned_costs_no_communication(task: Task, cost: float) -> None:
     """A human who planned to open, and opens, did not change their mind."""
-    answer = _both(task, mode="communication", communication_weight=1)
+    answer = agreed(task, mode="communication", communication_weight=1)
     assert answer.opportunity
     assert answer.cost == answer.objective == cost
 
@@ -66,7 +53,7 @@ def test_nor_does_it_leave_a_prefix_of_planned_actions() -> None:
             "unlock r": "-> unlocked @ 0.5",
         },
     )
-    answer = _both(task, mode="communication", keep_prefix=True, communication_weight=1, suffix="subplan")
+    answer = agreed(task, mode="communication", keep_prefix=True, communication_weight=1, suffix="subplan")
     assert (answer.cost, answer.objective, answer.window) == (2.5, 1002.5, Window(3, 4))
 
 
@@ -82,7 +69,7 @@ def test_plans_of_equal_names_are_one(ties: str) -> None:
             "pull r": "-> inside @ 1",
         },
     )
-    answer = _both(task, ties=ties, max_ties=2, max_cost=3, discount="0.5")
+    answer = agreed(task, ties=ties, max_ties=2, max_cost=3, discount="0.5")
     assert answer.optimal_plans == 2
     assert [entry.human_plan for entry in answer.ties or ()] == [("open h",), ("push h",)]
 

@@ -1,24 +1,13 @@
 """What counts as an opportunity (semantics 1, 3.1), and that the verifier means the same by it."""
 
-from typing import Any
-
 import pytest
 
 import serendipity
 from serendipity import Task
-from serendipity.model import Options, Result, Window
+from serendipity.model import Options, Window
 from serendipity.testing.builders import task as build
-from tests.search.exact_answers import proved
+from tests.search.exact_answers import agreed, proved
 from verify.calls.solve import solve
-
-
-def _agreed(task: Task, human_plan: list[str] | None = None, **options: Any) -> Result:
-    """The planner's answer, once the integer program and the certificate have agreed to it."""
-    answer = proved(task, human_plan=human_plan, **options)
-    other = solve(task, Options(**options), human_plan=human_plan)
-    figures = ("status", "cost", "objective", "opportunity", "saving", "saving_alone")
-    assert [getattr(answer, name) for name in figures] == [getattr(other, name) for name in figures]
-    return answer
 
 
 def _tidy(init: str = "", **more: str) -> Task:
@@ -30,7 +19,7 @@ def _tidy(init: str = "", **more: str) -> Task:
 @pytest.mark.parametrize("mode", ["serendipity", "communication", "composite"])
 def test_beside_an_optimal_plan_it_is_whatever_costs_less(mode: str) -> None:
     """No robot acts; the verifier refuted it for that."""
-    answer = _agreed(_tidy(), mode=mode, horizon=2, window_weight=0)
+    answer = agreed(_tidy(), mode=mode, horizon=2, window_weight=0)
     assert (answer.cost, answer.opportunity, answer.saving) == (2.0, True, 4.0)
     assert {agent for step in answer.plan or () for agent in step.agents} == {"h"}
 
@@ -38,7 +27,7 @@ def test_beside_an_optimal_plan_it_is_whatever_costs_less(mode: str) -> None:
 def test_also_where_there_is_no_baseline() -> None:
     """Robots can't reach their goal without the human: there is nothing to compare with."""
     task = build(goal="done", robot_goal="tidy", actions={"do h": "-> done", "tidy h": "-> tidy done"})
-    answer = _agreed(task, horizon=1, window_weight=0)
+    answer = agreed(task, horizon=1, window_weight=0)
     assert (answer.cost, answer.opportunity, answer.saving) == (1.0, True, None)
 
 
@@ -46,7 +35,7 @@ def test_unless_the_given_plan_is_not_optimal_and_no_robot_acts() -> None:
     """There is no saving then either; the verifier asked for one of 0."""
     tidy = {"do h": "-> done", "detour h": "-> done @ 7", "tidy h": "-> tidy done"}
     task = build(goal="done", robot_goal="tidy", actions=tidy)
-    answer = _agreed(task, ["detour h"], mode="communication")
+    answer = agreed(task, ["detour h"], mode="communication")
     assert (answer.cost, answer.opportunity, answer.saving) == (1.0, False, None)
 
 
@@ -54,10 +43,10 @@ def test_unless_the_given_plan_is_not_optimal_and_no_robot_acts() -> None:
 def test_beside_a_plan_that_is_not_optimal_a_robot_has_to_act(mode: str) -> None:
     """What the human can do alone is no help; the planner called it that where robots have goals."""
     task = _tidy(**{"detour h": "-> done @ 7"})
-    answer = _agreed(task, ["detour h"], mode=mode, horizon=2, window_weight=0)
+    answer = agreed(task, ["detour h"], mode=mode, horizon=2, window_weight=0)
     assert (answer.opportunity, answer.saving, answer.saving_alone) == (False, 0.0, 0.0)
     assert answer.cost == (12.0 if mode == "serendipity" else 2.0)
-    helped = _agreed(task, ["detour h"], mode=mode, horizon=2, window_weight=0, discount="0.9")
+    helped = agreed(task, ["detour h"], mode=mode, horizon=2, window_weight=0, discount="0.9")
     assert (helped.cost, helped.opportunity, helped.saving) == (1.5, True, 6.0)
 
 
@@ -77,7 +66,7 @@ def test_a_limit_never_rejects_doing_nothing() -> None:
         actions={"do h": "-> done @ 4", "late h": "open -> done @ 2.5", "open r": "-> open tired @ 0"},
     )
     options = {"mode": "communication", "horizon": 2, "max_cost": 3, "communication_weight": 1}
-    answer = _agreed(task, **options)
+    answer = agreed(task, **options)
     assert (answer.cost, answer.objective, answer.opportunity) == (4.0, 4.0, False)
 
 
@@ -86,7 +75,7 @@ def test_a_limit_never_rejects_doing_nothing() -> None:
 def test_goals_that_hold_already_need_no_horizon(mode: str, human_plan: list[str] | None) -> None:
     """Only a goal of the robots' that is open does."""
     held = _tidy("done tidy")
-    answer = _agreed(held, human_plan, mode=mode)
+    answer = agreed(held, human_plan, mode=mode)
     assert (answer.cost, answer.horizon, answer.opportunity) == (0.0, 0, False)
     session = serendipity.Session(held, mode=mode)
     assert session.plan().cost == session.plan().cost == 0.0
@@ -111,7 +100,7 @@ def test_an_open_goal_of_robots_needs_one(mode: str) -> None:
 def test_without_an_opportunity_nothing_is_saved(mode: str) -> None:
     """The answer is still the optimum: what the human gains alone is ``saving_alone``."""
     task = build(goal="done", actions={"do h": "-> done @ 2", "detour h": "-> done @ 7", "aid r": "-> aided"})
-    answer = _agreed(task, ["detour h"], mode=mode)
+    answer = agreed(task, ["detour h"], mode=mode)
     assert (answer.cost, answer.opportunity, answer.saving, answer.saving_alone) == (2.0, False, 0.0, 5.0)
 
 
@@ -130,7 +119,7 @@ def test_under_a_human_model_its_optimum_counts_even_where_it_is_dearer(human_mo
             "scrub r": "-> tidy @ 9",
         },
     )
-    baseline = _agreed(task)
+    baseline = agreed(task)
     assert (baseline.cost, baseline.opportunity) == (7.0, False)
     answer = proved(task, human_model=human_model)
     assert (answer.cost, answer.opportunity, answer.saving) == (14.0, False, 0.0)
@@ -138,7 +127,7 @@ def test_under_a_human_model_its_optimum_counts_even_where_it_is_dearer(human_mo
 
 def test_windows_are_those_of_the_mode() -> None:
     """The tie between a short window and a low cost goes to the lower cost."""
-    answer = _agreed(_tidy(), horizon=2, window_weight=4)
+    answer = agreed(_tidy(), horizon=2, window_weight=4)
     assert (answer.cost, answer.window, answer.opportunity) == (2.0, Window(1, 2), True)
 
 

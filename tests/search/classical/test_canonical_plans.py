@@ -1,16 +1,13 @@
 """Of all cheapest plans the kernel finds the one that enumeration puts first, and keeps those on its way."""
 
-from dataclasses import replace
 from random import Random
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import serendipity
 from search.classical.canonical import canonical_plan, in_order
 from search.classical.planner import ClassicalPlanner
-from search.human import individual_planner
 from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedTask
@@ -18,7 +15,7 @@ from serendipity import Task
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.testing.builders import task
 from serendipity.testing.countdown import Countdown
-from serendipity.testing.strategies import family_tasks, tasks
+from serendipity.testing.strategies import tasks
 from tests.search.classical.exact_costs import exact
 from tests.search.classical.test_kernel_equals_brute_force import assert_leads_to_goal, planner_of
 from tests.search.small_tasks import CORRIDOR, packed_of
@@ -106,13 +103,3 @@ def test_the_clock_is_looked_at_while_a_long_plan_is_put_together() -> None:
         planner.known_plan(packed.init, Countdown(5))
     with pytest.raises(LimitReachedError):
         in_order(planner.problem.operators, range(many), Countdown(100))
-
-
-@given(tasks() | family_tasks())
-def test_a_kernel_that_takes_over_at_once_changes_no_answer(task: Task) -> None:
-    expected = serendipity.plan(task, mode="individual")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(individual_planner, "_MANY", 1)
-        found = serendipity.plan(replace(task), mode="individual")
-    assert found.human_plan == expected.human_plan
-    assert (found.status, found.cost) == (expected.status, expected.cost)

@@ -21,7 +21,7 @@ from search.packed.packed_task import PackedTask
 from serendipity import Task, plan
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.testing.generator.families import family_task
-from serendipity.testing.strategies import tasks
+from serendipity.testing.strategies import family_tasks, tasks
 from tests.search.classical.exact_costs import exact
 from tests.search.small_tasks import CORRIDOR, packed_of
 
@@ -41,18 +41,6 @@ def assert_leads_to_goal(packed: PackedTask, state: int, numbers: list[int]) -> 
         state, total = state & op.keep | op.put, total + weights[op.cost]
     assert packed.goal.holds(state)
     return total
-
-
-@given(tasks())
-def test_bounds_never_exceed(task: Task) -> None:
-    packed = packed_of(task)
-    planner, costs = planner_of(packed), exact(packed)
-    for state, cost in costs.items():
-        assert planner.bound(state, Deadline()) <= cost
-    # All ways to break ties, and what follows from one state for the next.
-    planner.cheapest(packed.init, Deadline())
-    for state, cost in costs.items():
-        assert planner.bound(state, Deadline()) <= cost
 
 
 @given(tasks())
@@ -82,6 +70,8 @@ def test_what_was_learnt_changes_no_answer(task: Task, seed: int) -> None:
     packed = packed_of(task)
     planner, costs, random = planner_of(packed), exact(packed), Random(seed)
     weights = sorted({*costs.values()} - {INFINITE_KEY}) or [1]
+    for state, cost in costs.items():
+        assert planner.bound(state, Deadline()) <= cost
     for _ in range(3 * len(costs)):
         state, cost = random.choice([*costs.items()])
         limit = random.choice(
@@ -212,8 +202,9 @@ def test_landmarks_that_were_forgotten_are_not_used(forgetful: CDLL, seed: int, 
     ) == planner.cheapest(packed.init, Deadline())
 
 
-@given(task=tasks())
-def test_answers_are_those_of_python(task: Task) -> None:
+@pytest.mark.parametrize("many", [0, 1])
+@given(task=tasks() | family_tasks())
+def test_answers_are_those_of_python(many: int, task: Task) -> None:
     def ask() -> list[object]:
         fresh = Task(**{name: getattr(task, name) for name in FIELDS})
         alone = plan(fresh, mode="individual")
@@ -221,7 +212,7 @@ def test_answers_are_those_of_python(task: Task) -> None:
         return [alone.status, alone.cost, alone.human_plan, team.status, team.cost, team.saving]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("search.human.individual_planner._MANY", 0)
+        patch.setattr("search.human.individual_planner._MANY", many)
         compiled = ask()
         patch.setenv("SERENDIPITY_KERNEL", "off")
         assert ask() == compiled

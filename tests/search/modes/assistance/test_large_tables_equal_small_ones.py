@@ -1,47 +1,13 @@
-"""What arrays say of many states is what is found state by state, and by brute force."""
+"""What a ball of states says of distances is what is found state by state."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from search.modes.assistance.distances import closure
 from search.modes.assistance.distances.closure import Arc, Closure
 from search.modes.assistance.distances.perimeter import ball_around
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.packed_task import PackedGoal
-from serendipity.model import Task
 from serendipity.model.resources.deadline import Deadline
-from serendipity.testing.oracle.assistance import by_rounds, explore, mean_over_all_policies
-from tests.search.modes.assistance.strategies import games
-from tests.search.modes.assistance.test_search_equals_brute_force import solve
-
-
-@contextmanager
-def everything_is_large() -> Iterator[None]:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(closure, "SMALL", 0)
-        yield
-
-
-@pytest.mark.parametrize("ties", ["optimistic", "fixed", "robust"])
-@given(task=games(), no_block=st.booleans())
-def test_values_do_not_depend_on_the_tables(ties: str, task: Task, no_block: bool) -> None:
-    tree = explore(task, fixed=ties == "fixed", no_block=no_block)
-    with everything_is_large():
-        assert solve(task, ties, no_block=no_block) == by_rounds(tree, max if ties == "robust" else min)
-
-
-@given(task=games())
-def test_expected_value_does_not_depend_on_the_tables(task: Task) -> None:
-    with everything_is_large():
-        answer = solve(task, "expected")
-    least = mean_over_all_policies(explore(task, fixed=False, no_block=False), 400)
-    if least != "too many":
-        assert answer == least
-
 
 FIELDS = [0b11, 0b100, 0b1000, 0b110000]
 VALUES = [[0, 1, 2, 3], [0, 4], [0, 8], [0, 16, 32]]

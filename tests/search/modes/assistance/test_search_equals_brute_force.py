@@ -1,5 +1,6 @@
 """The values of mode ``assistance`` equal those of brute force, and stand in their order (semantics 7)."""
 
+from collections.abc import Iterator
 from fractions import Fraction
 
 import pytest
@@ -8,6 +9,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from search import PreparedTask
+from search.modes.assistance.distances import closure
 from serendipity import Result, Task
 from serendipity.testing.oracle.assistance import Costs, by_rounds, explore, mean_over_all_policies
 from tests.search.modes.assistance.joint_optimum import joint_optimum
@@ -34,6 +36,15 @@ def solve(task: Task, ties: str, *, no_block: bool = False) -> Costs | None:
     return value(serendipity.plan(task, mode="assistance", ties=ties, no_block=no_block))
 
 
+@pytest.fixture(params=[closure.SMALL, 0], ids=["state by state", "in arrays"])
+def tables(request: pytest.FixtureRequest) -> Iterator[None]:
+    """From how many states on distances are found in arrays."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(closure, "SMALL", request.param)
+        yield
+
+
+@pytest.mark.usefixtures("tables")
 @pytest.mark.parametrize("ties", ["optimistic", "fixed", "robust"])
 @given(task=games(), no_block=st.booleans())
 def test_value_is_that_of_brute_force(ties: str, task: Task, no_block: bool) -> None:
@@ -41,6 +52,7 @@ def test_value_is_that_of_brute_force(ties: str, task: Task, no_block: bool) -> 
     assert solve(task, ties, no_block=no_block) == by_rounds(tree, max if ties == "robust" else min)
 
 
+@pytest.mark.usefixtures("tables")
 @given(task=games(), no_block=st.booleans())
 def test_expected_value_is_the_least_over_all_policies(task: Task, no_block: bool) -> None:
     tree = explore(task, fixed=False, no_block=no_block)

@@ -11,10 +11,8 @@ from search import PreparedTask
 from search.modes.assistance import assist
 from search.modes.assistance.bounds import bound
 from search.modes.assistance.bounds import relaxed_provision as provision
-from search.modes.assistance.bounds.relaxed import joint_lower_bound
 from search.modes.assistance.distances import closure
 from search.modes.assistance.distances import perimeter as ball
-from search.modes.assistance.game.game import Game
 from search.modes.assistance.solvers import cheapest_run, lao_star
 from serendipity.model import Options, Task
 from serendipity.model.answers.answer import Answer
@@ -22,7 +20,6 @@ from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task
 from serendipity.testing.cases import case_5, case_6
 from serendipity.testing.countdown import Countdown
-from serendipity.testing.oracle.assistance import by_rounds, explore
 from tests.search.modes.assistance.strategies import games
 
 TIES = ("optimistic", "fixed", "robust", "expected")
@@ -74,13 +71,6 @@ def test_no_time_and_no_plan_alone_is_unknown() -> None:
     helpless = task(goal="g", actions={"open r": "-> x @ 2", "finish r": "x -> g @ 3"})
     result = serendipity.plan(helpless, mode="assistance", time_limit=0)
     assert (result.status, result.policy, result.cost) == ("unknown", None, None)
-
-
-@pytest.mark.parametrize("case", [case_5, case_6])
-def test_the_relaxed_bound_is_below_the_optimum(case) -> None:
-    game = Game(PreparedTask(case()), Deadline())
-    optimum = by_rounds(explore(case(), fixed=False, no_block=False), min)
-    assert game.pair(joint_lower_bound(game, Deadline())) <= optimum
 
 
 def test_a_goal_out_of_reach_has_no_bound() -> None:

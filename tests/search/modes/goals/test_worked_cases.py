@@ -101,12 +101,6 @@ def test_one_source_for_his_plan() -> None:
         serendipity.plan(workshop("-> z"), goals=[])
 
 
-def test_without_time_for_the_posterior_nothing_is_known() -> None:
-    answer = helped(workshop("!q -> z @ 5"), 1, 1, time_limit=0)
-    assert (answer.status, answer.reason, answer.cost) == ("unknown", "time-limit", None)
-    assert answer.goals is None
-
-
 @pytest.mark.parametrize(("discount", "cost"), [("0", 7), ("0.9", 0.5)])
 def test_idle_robots_are_the_answer_without_them(discount: str, cost: float) -> None:
     """What was seen is a detour: alone the human gains 3, and help has to beat that, not their plans."""

@@ -152,10 +152,14 @@ def test_limits_leave_it_undecided() -> None:
     assert _verdicts(only_played)["optimal"] == "undecided"
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize(
+    "numbers",
+    [range(1, 201, 40), pytest.param(range(1, 201, 5), marks=pytest.mark.slow)],
+    ids=["some", "more"],
+)
 @pytest.mark.parametrize("human_model", MODELS)
-def test_usar_answers_are_proved(human_model: str, usar200: Path) -> None:
-    for number in range(1, 201, 10):
+def test_usar_answers_are_proved(human_model: str, numbers: range, usar200: Path) -> None:
+    for number in numbers:
         task = serendipity.load(usar200 / f"test{number}", human="commx")
         _, certificate = _certified(task, discount="0.9", human_model=human_model)
         assert certificate.verdict == "proved", (number, certificate)

@@ -92,12 +92,6 @@ def test_whoever_has_no_plan_accepts_help(model: str) -> None:
     assert trace.epochs[0].did == "hand_over rob h k a"
 
 
-def test_a_local_human_does_not_see_the_kit_vanish() -> None:
-    """In case 4 an observant human turns round; a local one walks on and is met."""
-    result = serendipity.plan(case_4(), discount=0.9)
-    assert serendipity.simulate(case_4(), result, "local").realised
-
-
 def test_what_is_visible_can_be_replaced() -> None:
     result = serendipity.plan(case_4(), discount=0.9)
     trace = serendipity.simulate(case_4(), result, "local", visible=_everything)
