@@ -56,18 +56,3 @@ def test_what_is_predicted_for_a_bystander_can_be_given(house: str, run: Runs) -
     answers = [json.loads(Path(name).read_text()) for name in ("predicted.json", "given.json")]
     for name in ("bystanders", "plan", "cost", "human_plan", "human_plan_times", "horizon"):
         assert answers[0].get(name) == answers[1].get(name)
-
-
-def test_epochs_may_be_longer(house: str, run: Runs) -> None:
-    report = json.loads(run(f"check-task {house} --human ann --bystander bob --epoch 10 --format json").out)
-    assert report["time"] == {
-        "epoch": 10.0,
-        "longest": 3,
-        "script_epochs": 3,
-        "script_facts": 0,
-        "bystanders": {"bob": 3},
-    }
-    told = run(f"plan {house} --human ann --bystander bob --epoch 10 --save-plan ann.plan")
-    assert told.err.startswith("Warning: durations are rounded up to whole epochs of 10")
-    again = run(f"plan {house} --human ann --bystander bob --epoch 10 --human-plan ann.plan")
-    assert again.code == 0, again

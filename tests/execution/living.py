@@ -5,11 +5,19 @@ from random import Random
 from typing import Any
 
 from serendipity.execution import Execution, LogLine, Omniscient, Person, log_lines, moment_of
-from serendipity.model import Task
+from serendipity.model import Condition, Task
 from verify.base.optimal_plans import OptimalPlans
 from verify.certificate.simulator.person import ReplanningPerson as Oracle
 
 MOST_EPOCHS = 60
+
+ROOMS = ("room1", "room3", "room9")
+GOALS = [{"name": room, "goal": [f"conducted_triage commx {room}"]} for room in ROOMS]
+
+
+def aiming_at(task: Task, room: str) -> Task:
+    """The task of somebody who goes to that room."""
+    return task.with_goal(Condition((task.facts.index(f"conducted_triage commx {room}"),)))
 
 
 def lived(run: Execution, person: Person, most: int = MOST_EPOCHS) -> Execution:

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import pytest
 
 import serendipity
-from serendipity.execution import Execution, Moment, Replanner, replay
+from serendipity.execution import Execution, Moment, Replanner
 from serendipity.model import Task, UsageError
 from serendipity.robot import Adapter, Epoch, Report
-from tests.execution.living import as_lines, lived, told, verdicts
+from tests.execution.living import lived, told, verdicts
 
 
 class Scripted:
@@ -66,13 +66,6 @@ def test_what_always_fails_is_given_up(room2: Task) -> None:
     run = told(room2, discount="0.6", adapter=robot)
     tried = [passed.epoch for passed in run.passed if "hand_over" in (passed.human or "")]
     assert run.done and tried == [6, 7, 8], "a person who is told waits for no hand-over for ever"
-
-
-def test_logs_replay_without_the_robot(room2: Task) -> None:
-    run = live(room2, Scripted(Report("running", 1, "slow"), Report("failed", 2.5, "slipped")))
-    again = replay(room2, as_lines(run))
-    assert (again.state, again.cost) == (run.state, run.cost)
-    assert [passed.reports for passed in again.passed] == [passed.reports for passed in run.passed]
 
 
 def test_a_report_for_each_order(room2: Task) -> None:

@@ -10,14 +10,12 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.execution import Execution, Omniscient
-from serendipity.model import Condition, Task, UsageError
+from serendipity.model import Task, UsageError
 from serendipity.model.task.actions import apply
 from serendipity.testing.builders import task as build
 from serendipity.testing.strategies import tasks
-from tests.execution.living import as_lines, lived, told
+from tests.execution.living import GOALS, ROOMS, aiming_at, as_lines, lived, told
 
-ROOMS = ("room1", "room3", "room9")
-GOALS = [{"name": room, "goal": [f"conducted_triage commx {room}"]} for room in ROOMS]
 WAYS = {
     f"go h {start} {end}": f"{start} -> {end} !{start}"
     for start, end in ("ab", "bd", "ac", "cd", "ce", "de", "bf", "fd")
@@ -42,7 +40,7 @@ def test_canonical_plans_are_goals(room2: Task) -> None:
     known = serendipity.recognise(room2, GOALS).goals
     plans = [{**goal, "probability": 1, "plan": one.plan} for goal, one in zip(GOALS, known, strict=True)]
     for room in ROOMS:
-        task = room2.with_goal(Condition((room2.facts.index(f"conducted_triage commx {room}"),)))
+        task = aiming_at(room2, room)
         by_plans, by_goals = told(task, plans=plans), told(task, goals=GOALS)
         assert [p.steps for p in by_plans.passed] == [p.steps for p in by_goals.passed]
         assert [p.decided.goals for p in by_plans.passed] == [p.decided.goals for p in by_goals.passed]

@@ -10,24 +10,17 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.execution import Execution, Omniscient, Replanner
 from serendipity.execution.hypotheses import Hypotheses
-from serendipity.model import Condition, LimitReachedError, Task
+from serendipity.model import LimitReachedError, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.strategies import tasks
-from tests.execution.living import as_lines, live, lived, other_goals, told, verdicts
+from tests.execution.living import GOALS, ROOMS, aiming_at, live, lived, other_goals, told, verdicts
 from verify.base.optimal_plans import OptimalPlans
 from verify.certificate.simulator.person import ReplanningPerson as Oracle
-
-ROOMS = ("room1", "room3", "room9")
-GOALS = [{"name": room, "goal": [f"conducted_triage commx {room}"]} for room in ROOMS]
-
-
-def _for(task: Task, room: str) -> Task:
-    return task.with_goal(Condition((task.facts.index(f"conducted_triage commx {room}"),)))
 
 
 @pytest.mark.parametrize("room", ROOMS)
 def test_the_robot_waits_to_see_where_they_go(room2: Task, room: str) -> None:
-    run = told(_for(room2, room), goals=GOALS)
+    run = told(aiming_at(room2, room), goals=GOALS)
     first, second = (passed.decided for passed in run.passed[:2])
     assert first.reason.startswith("waits: not sure which goal") and not first.actions
     assert first.wishes["room3"] is None, "who needs no help waits for an epoch, which costs nothing"
@@ -41,21 +34,21 @@ def test_the_robot_waits_to_see_where_they_go(room2: Task, room: str) -> None:
 
 def test_help_is_worth_what_the_policy_promises(room2: Task) -> None:
     promised = serendipity.plan(room2, discount="0.9", goals=GOALS)
-    costs = [float(told(_for(room2, room), goals=GOALS).cost) for room in ROOMS]
+    costs = [float(told(aiming_at(room2, room), goals=GOALS).cost) for room in ROOMS]
     assert costs == [one.cost for one in promised.goals or ()]
 
 
 def test_who_leaves_the_tree_is_watched_anew(room2: Task) -> None:
-    run = Execution(_for(room2, "room1"), discount="0.9", goals=GOALS, told=True)
+    run = Execution(aiming_at(room2, "room1"), discount="0.9", goals=GOALS, told=True)
     run.step("move commx room13 hall8")
     run.step("move_reverse commx hall8 room13")
     assert set(run.decided.goals.values()) == {1 / 3}, "it is no part of any plan"
-    assert lived(run, Omniscient(_for(room2, "room1"))).done
+    assert lived(run, Omniscient(aiming_at(room2, "room1"))).done
 
 
 def test_what_was_pledged_is_kept_without_time(room2: Task, monkeypatch: pytest.MonkeyPatch) -> None:
     """Robots did nothing, and the person was left without the plan and without the kit."""
-    task = _for(room2, "room1")
+    task = aiming_at(room2, "room1")
     run = Execution(task, discount="0.9", goals=GOALS, told=True)
     lived(run, Omniscient(task), most=4)
 
@@ -74,9 +67,9 @@ def test_goals_that_nobody_reaches_alone_are_tried_one_after_the_other() -> None
 
 
 def test_whose_goal_is_none_of_them_goes_on_alone(room2: Task) -> None:
-    run = told(_for(room2, "room8"), goals=GOALS)
+    run = told(aiming_at(room2, "room8"), goals=GOALS)
     assert run.goal is None and run.done
-    row = serendipity.execute(_for(room2, "room8"), "omniscient", goals=GOALS, discount="0.9").rows[0]
+    row = serendipity.execute(aiming_at(room2, "room8"), "omniscient", goals=GOALS, discount="0.9").rows[0]
     assert row.reached and row.known is None
 
 
@@ -84,11 +77,6 @@ def test_the_last_goal_is_asked_about_again_and_again(room2: Task) -> None:
     """It was an error: the session took the only plan of one epoch for the person's in the next."""
     run = Execution(room2, discount="0.9", human_model="omniscient", goals=GOALS[:1])
     assert lived(run, Replanner(room2)).done
-
-
-def test_logs_hold_what_everybody_was_to_do(room2: Task) -> None:
-    run = told(_for(room2, "room1"), goals=GOALS)
-    serendipity.execution.replay(_for(room2, "room1"), as_lines(run))
 
 
 @given(tasks(), st.sampled_from(["0", "0.5", "0.9", "1"]), st.integers(0, 2**32))

@@ -27,6 +27,19 @@ def test_the_same_seed_gives_the_same_runs_in_any_number_of_processes(human: str
         ]
 
 
+@pytest.mark.parametrize("human", ["observant", "local", "omniscient", "noisy:0.3"])
+def test_runs_with_time_to_decide_are_those_without_a_deadline(human: str) -> None:
+    """Runs of one task share tables and the plan from before the first epoch, and nothing that happened."""
+    settings = {"runs": 3, "discount": "0.9", "ties": "drawn"}
+    timed, untimed = (
+        serendipity.execute(serendipity.example("room2"), human, deadline=deadline, **settings)
+        for deadline in (60, None)
+    )
+    assert [(r.cost, r.human_cost, r.epochs) for r in timed.rows] == [
+        (r.cost, r.human_cost, r.epochs) for r in untimed.rows
+    ]
+
+
 def test_a_summary_counts_runs() -> None:
     runs = serendipity.execute(serendipity.example("room2"), "noisy:0.2", runs=8, discount="0.9")
     found = runs.summary()
@@ -52,11 +65,6 @@ def test_a_recorded_person_does_what_is_written_and_then_goes_on() -> None:
     person = Recorded(task, ["move_reverse commx hall8 hall7"])
     assert run.step(person.choose(moment_of(run))).in_vain
     assert run.step(person.choose(moment_of(run))).human == "move commx room13 hall8"
-
-
-def test_a_run_ends_at_some_epoch() -> None:
-    (row,) = serendipity.execute(serendipity.example("room2"), epochs=3).rows
-    assert not row.reached and row.epochs == 3
 
 
 @pytest.mark.parametrize(

@@ -137,13 +137,6 @@ def test_what_was_observed_weighs_goals_by_their_optimal_plans_alone() -> None:
         assert (found.status == "unknown") == (found.recognition is None)
 
 
-def test_silent_help_begins_with_doing_nothing() -> None:
-    told: list[Result] = []
-    serendipity.plan(_switches(), mode="assistance", on_improvement=told.append)
-    assert told[0].status == "feasible"
-    assert told[0].policy is not None and not told[0].policy.decisions
-
-
 def test_people_are_told_that_the_plan_may_not_be_the_best() -> None:
     """The text spoke of an optimal plan of theirs."""
     for options in (REPLANS[0], TIES[0]):

@@ -40,12 +40,6 @@ def test_answers_to_random_calls_get_better() -> None:
     assert improved >= 20 and opened >= 10
 
 
-def test_the_first_window_raises_the_objective_by_its_weight() -> None:
-    answers = list(serendipity.plan_anytime(serendipity.example("room2"), discount=0.6))
-    told = dict.fromkeys((answer.objective, answer.cost) for answer in answers)
-    assert list(told) == [(13.0, 13.0), (1012.6, 12.6)]
-
-
 def test_verdicts_on_the_way_take_little_of_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
     left: list[float | None] = []
 

@@ -1,24 +1,10 @@
 """A session answers what a fresh call on the same state answers, and keeps the human's plan."""
 
-from dataclasses import replace
-
 import pytest
 
-import serendipity
-from serendipity import PlanError, Session, Task, UsageError
+from serendipity import PlanError, Session, UsageError
 from serendipity.testing.cases import case_1
-
-
-def _fresh(session: Session, **options: object) -> serendipity.Result:
-    task = session.task
-    untouched = Task(
-        task.name, task.agents, task.human, task.facts, task.init, task.goal, task.actions, task.robot_goal
-    )
-    return serendipity.plan(untouched, human_plan=session.human_plan, **options)
-
-
-def _same(one: serendipity.Result, other: serendipity.Result) -> bool:
-    return replace(one, statistics={}) == replace(other, statistics={})
+from tests.facade.test_sessions_in_time import fresh, same
 
 
 def test_a_fact_that_changes_and_a_new_goal() -> None:
@@ -28,7 +14,7 @@ def test_a_fact_that_changes_and_a_new_goal() -> None:
     nearer = session.plan()
     assert nearer.cost is not None
     assert nearer.cost < 8.4
-    assert _same(nearer, _fresh(session, discount=0.9))
+    assert same(nearer, fresh(session, discount=0.9))
     session.set_goal(["at h s"])
     assert session.plan().cost == 6
     with pytest.raises(UsageError, match="there is no fact 'at h nowhere'"):
@@ -60,6 +46,6 @@ def test_a_given_plan_need_not_work_before_what_was_seen_is_told() -> None:
     assert session.human_plan == predicted
     session.change({"at h a0": True})
     assert session.human_plan == predicted
-    assert _same(session.plan(), _fresh(session, discount=0.6))
+    assert same(session.plan(), fresh(session, discount=0.6))
     session.change({"at h a0": False})
     assert session.human_plan is None

@@ -240,6 +240,7 @@ def test_whenever_time_is_up_help_that_was_begun_is_answered_or_still_there() ->
             if isinstance(fresh, str) or not _is_remembered(fresh, rest):
                 continue
             for other, answer in _at_each_look(call, session):
+                assert serendipity.check(session.task, answer).refuted is None, seed
                 helped += answer.opportunity
                 unknown += answer.status == "unknown"
                 assert _value(answer) <= rest + 1e-9 or (answer.status, other.rest) == ("unknown", left), seed

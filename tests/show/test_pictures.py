@@ -24,11 +24,6 @@ def test_a_still_is_well_formed_and_says_what_it_shows(room2: Scene) -> None:
     assert {"room1", "hall4", "mk2", "13", "commx"} <= texts
 
 
-def test_there_is_no_still_of_an_epoch_beyond_the_end(room2: Scene) -> None:
-    with pytest.raises(UsageError, match="0 to 13"):
-        draw(room2, ".svg", 14)
-
-
 def test_a_long_timeline_goes_on_in_another_row(room2: Scene) -> None:
     long = replace(
         room2, frames=room2.frames + tuple(replace(room2.frames[-1], epoch=e) for e in range(14, 40))

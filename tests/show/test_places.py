@@ -26,11 +26,6 @@ def test_names_are_sorted_as_people_count() -> None:
     assert names.index("room2") < names.index("room10")
 
 
-def test_ground_files_give_the_same_map() -> None:
-    task = serendipity.example("room2")
-    assert find_places(ground(task)) == find_places(task)
-
-
 def test_places_may_share_the_beginning_of_their_names() -> None:
     task = usar(
         "cell_1-cell_2-cell_3",

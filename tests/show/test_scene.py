@@ -84,12 +84,6 @@ def test_where_no_help_pays_the_human_does_not_deviate() -> None:
     assert all(frame.former_at == frame.at[task.human] for frame in scene.frames)
 
 
-def test_without_a_plan_there_is_the_start() -> None:
-    task = cases.case_8()
-    scene = build_scene(task, serendipity.plan(task))
-    assert len(scene.frames) == 1
-
-
 def test_a_plan_that_does_not_fit_the_task_is_refused() -> None:
     task = serendipity.example("room2")
     result = serendipity.plan(task, discount="0.6")

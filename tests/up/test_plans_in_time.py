@@ -34,6 +34,7 @@ from serendipity.up import from_problem, predict, to_plan, to_problem
 from serendipity.up.engine import SerendipityEngine
 from serendipity.up.plans import human_plan_of
 from serendipity.up.reading import read
+from tests.up.test_tasks_come_back import names
 
 get_environment().credits_stream = None
 
@@ -47,10 +48,6 @@ OPTIONS: tuple[dict[str, object], ...] = (
 
 def valid(problem: Problem, plan: TimeTriggeredPlan) -> bool:
     return bool(TimeTriggeredPlanValidator().validate(problem, plan))
-
-
-def names(task: Task) -> dict[str, object]:
-    return {"human": task.agents[task.human], "robots": [task.agents[i] for i in task.robots]}
 
 
 @given(timed_tasks(), st.sampled_from(OPTIONS))

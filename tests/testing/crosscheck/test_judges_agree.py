@@ -115,11 +115,6 @@ def test_a_given_plan_is_written_beside_the_task(tmp_path: Path) -> None:
 # -- the command
 
 
-def test_command_on_random_calls(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["crosscheck", "--count", "3", "--seed", "5", "--judges", "search,automata"]) == 0
-    assert capsys.readouterr().out == "3 calls, search, automata: 0 disagreements\n"
-
-
 def test_command_with_an_unknown_judge(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["crosscheck", "--judges", "search,oracle"]) == 2
     known = "search, automata, paper, cbc, program, exhaustive, false-certificates"

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from serendipity.model import Options, Task, UsageError, Window
+from serendipity.model import Options, Task, Window
 from serendipity.testing.cases import (
     CASE_3_PLAN,
     WORKED,
@@ -77,8 +77,3 @@ def test_case_7_which_actions_share_an_epoch() -> None:
     assert not _allowed(held, hand, robot.format("k2"))
     assert not _allowed(held, hand, "move rob a b")
     assert not _allowed(held, hand, "move h a b")
-
-
-def test_case_8_communication_needs_a_horizon() -> None:
-    with pytest.raises(UsageError, match="horizon"):
-        best(case_8(), Options(mode="communication"))

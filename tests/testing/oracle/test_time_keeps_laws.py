@@ -56,25 +56,3 @@ def test_tasks_are_told_in_python(built: Task) -> None:
     kinds = [(a.name.replace(" ", "_"), a.duration, a.cost) for a in plain.actions]
     assert [(a.name.replace(" ", "_"), a.duration, a.cost) for a in again.actions] == kinds
     assert best(again, Options(mode="individual")) == best(plain, Options(mode="individual"))
-
-
-@settings(max_examples=40, deadline=None)
-@given(calls_in_time(modes=["serendipity"]))
-def test_with_free_windows_serendipity_is_composite(call: Call) -> None:
-    free = call.options.but(window_weight=0, max_window=None, suffix="replan", preservation="kernel")
-    alone = answered(replace(call, options=free))
-    together = answered(replace(call, options=free.but(mode="composite")))
-    if isinstance(alone, str) or isinstance(together, str) or alone.human_cost is None:
-        return
-    if not call.task.robot_goal and alone.saving_alone == 0:
-        assert alone.cost == together.cost
-
-
-@settings(max_examples=40, deadline=None)
-@given(calls_in_time(modes=["communication"]))
-def test_communication_that_is_free_is_composite(call: Call) -> None:
-    free = call.options.but(keep_prefix=False)
-    announced = answered(replace(call, options=free))
-    together = answered(replace(call, options=free.but(mode="composite")))
-    if isinstance(announced, Optimum) and isinstance(together, Optimum):
-        assert (announced.cost, announced.opportunity) == (together.cost, together.opportunity)

@@ -121,7 +121,6 @@ def test_a_head_start_is_time_to_help(start: int, cost: str) -> None:
     """The human carries what the robot, two rooms away, carries for less."""
     home = errand()
     assert best(home, Options(discount="0.9", head_start=start)).cost == Fraction(cost)
-    assert best(dozing(start), Options(discount="0.9")).cost == Fraction(cost)
 
 
 def errand() -> Task:
@@ -132,23 +131,6 @@ def errand() -> Task:
         actions={
             "fetch h": "bed -> here @ 3",
             "eat h": "here bed -> fed @ 1",
-            "go r": "far -> near !far @ 1",
-            "bring r": "near -> here @ 10",
-        },
-    )
-
-
-def dozing(epochs: int) -> Task:
-    """The errand after a chain of actions that only take time."""
-    chain = {f"doze{k} h": f"!doze{k} {f'doze{k - 1}' if k else ''} -> doze{k} @ 0" for k in range(epochs)}
-    awake = f"doze{epochs - 1}" if epochs else ""
-    return task(
-        init="bed far",
-        goal="fed",
-        actions={
-            **chain,
-            "fetch h": f"bed {awake} -> here @ 3",
-            "eat h": f"here bed {awake} -> fed @ 1",
             "go r": "far -> near !far @ 1",
             "bring r": "near -> here @ 10",
         },
