@@ -1,14 +1,11 @@
-"""Bounds on moves drop no plan, and those out of reach of windows, of robots or of what may be paid."""
+"""Bounds on moves drop those out of reach of windows, of robots or of what may be paid."""
 
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
 
 from serendipity.model import Options, Task
 from serendipity.testing.builders import task
-from serendipity.testing.strategies import Call, calls
-from tests.verify.test_pruning_keeps_plans import _check
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import WINDOW, Subproblem, prices
 from verify.limits import limited
@@ -16,21 +13,6 @@ from verify.programs.agents.product import Automaton, automata, private_facts
 from verify.programs.automata import encoding
 from verify.programs.automata.windows import keep_within_windows, longest_window
 from verify.programs.promising import TeamMoves, keep_promising
-
-
-@settings(max_examples=30)
-@given(calls())
-def test_bounds_on_moves_drop_no_plan(call: Call) -> None:
-    with limited(many_moves=0):
-        _check(call)
-
-
-@settings(max_examples=20)
-@given(calls())
-def test_prices_divided_for_small_words_drop_no_plan(call: Call) -> None:
-    with limited(many_moves=0, weight=10_000, methods=("programs",)):
-        _check(call)
-
 
 # -- windows
 

@@ -1,7 +1,6 @@
 """``serendipity verify``: encoding, solver and limit are the user's; proofs say how they came about."""
 
 import json
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,7 @@ import serendipity
 from serendipity.cli.app import main
 from serendipity.model import Claim, Options, Result, Task
 from serendipity.pddl.write import write_pddl
-from serendipity.testing.cases import case_4, case_10
+from serendipity.testing.cases import case_10
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
 from verify.programs import effort
@@ -39,15 +38,6 @@ def test_encoding_and_solver_are_chosen(
     certificate = json.loads(capsys.readouterr().out)
     assert certificate["encoding"] == encoding
     assert certificate["solver"].lower().startswith(solver)
-
-
-def test_a_limit_leaves_it_undecided(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    named = _written(tmp_path, case_4(), discount="0.9")
-    monkeypatch.setattr(serendipity, "verify", partial(serendipity.verify, time_limit=0))
-    assert main(["verify", *named, "--human", "h"]) == 4
-    assert "undecided, replay: the time limit came first" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

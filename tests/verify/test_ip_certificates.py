@@ -111,17 +111,6 @@ def test_every_encoding_shows_a_better_plan(encoding: str) -> None:
     assert optimal.reason == "a better plan: cost 3, objective 3"
 
 
-# -- bounds of unfinished answers
-
-
-@pytest.mark.parametrize(("bound", "verdict"), [(1008.5, "proved"), (3.25, "proved"), (1008.75, "refuted")])
-def test_bounds_of_feasible_answers(bound: float, verdict: str) -> None:
-    task, doctored = dearer()
-    certificate = certify(task, replace(doctored, status="feasible", lower_bound=bound))
-    assert _claim(certificate, "lower_bound").verdict == verdict
-    assert all(claim.claim != "optimal" for claim in certificate.claims)
-
-
 # -- bad input
 
 

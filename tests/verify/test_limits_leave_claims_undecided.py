@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 import serendipity
-from serendipity.model import Certificate, LimitReachedError, Options, Result, Task, UsageError
+from serendipity.model import Certificate, LimitReachedError, Options, Result, Task
 from serendipity.testing.cases import case_2, case_4, case_5, case_8, case_10
 from serendipity.testing.countdown import Countdown
 from tests.search.modes.goals.test_worked_cases import helped, workshop
@@ -120,12 +120,3 @@ def test_the_quick_check_says_what_it_did_not_examine(name: str, limit: str) -> 
         late = [claim for claim in certificate.claims if "limit" in claim.reason or "memory" in claim.reason]
         assert all(claim.verdict == "undecided" for claim in late)
         assert certificate.verdict == ("undecided" if late else whole.verdict)
-
-
-@pytest.mark.parametrize(
-    "limits", [{"time_limit": -1}, {"time_limit": float("nan")}, {"memory_limit": -1}], ids=str
-)
-def test_a_limit_is_a_number_of_at_least_0(limits: dict[str, float]) -> None:
-    task, answer = _answered("help")
-    with pytest.raises(UsageError, match="expected"):
-        serendipity.verify(task, answer, **limits)  # type: ignore[arg-type]

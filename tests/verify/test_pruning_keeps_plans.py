@@ -1,46 +1,38 @@
 """Bounds on moves drop no plan that brute force finds."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 
 import serendipity
-from serendipity.model import Result, Task, UsageError
-from serendipity.testing.oracle import best
+from serendipity.model import Result, Task
 from serendipity.testing.strategies import Call, calls
+from tests.verify.test_ip_equals_brute_force import check
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
 from verify.limits import limited
 
 
-def _figures(call: Call) -> tuple[object, ...] | None:
-    try:
-        optimum = best(call.task, call.options, call.human_plan)
-    except UsageError:
-        return None
-    return optimum.status, None if optimum.cost is None else float(optimum.cost)
+@pytest.mark.parametrize(
+    "limits",
+    [
+        {},
+        {"many_actions": 0},
+        {"automaton_states": 4, "states_a_value": 0},
+        {"weight": 10_000, "methods": ("programs",)},
+    ],
+    ids=["bounds on moves", "few facts first", "most facts left out", "prices divided for small words"],
+)
+def test_no_plan_is_dropped(limits: dict[str, Any]) -> None:
+    @settings(max_examples=25)
+    @given(calls())
+    def law(call: Call) -> None:
+        with limited(many_moves=0, **limits):
+            check(call, method="auto")
 
-
-def _check(call: Call) -> None:
-    figures = _figures(call)
-    if figures is not None:
-        result = solve(call.task, call.options, human_plan=call.human_plan_names, method="auto")
-        assert (result.status, result.cost) == figures
-
-
-@settings(max_examples=30)
-@given(calls())
-def test_automata_of_few_facts_first(call: Call) -> None:
-    with limited(many_actions=0, many_moves=0):
-        _check(call)
-
-
-@settings(max_examples=30)
-@given(calls())
-def test_automata_that_leave_most_facts_out(call: Call) -> None:
-    with limited(automaton_states=4, states_a_value=0, many_moves=0):
-        _check(call)
+    law()
 
 
 # -- buildings

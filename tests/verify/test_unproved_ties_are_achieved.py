@@ -8,6 +8,7 @@ import pytest
 import serendipity
 from serendipity.model import Result
 from serendipity.model.answers.result_parts import TiedAnswer
+from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_4
 from serendipity.testing.countdown import Countdown
 
@@ -100,3 +101,14 @@ def test_a_plan_that_is_listed_has_to_be_one() -> None:
     ):
         ties = tuple(wrong if each is other else each for each in listed(early))
         assert verdict(replace(early, ties=ties)) == "refuted"
+
+
+@pytest.mark.parametrize("ties", TIES)
+def test_what_is_saved_counts_from_what_robots_pay_for_goals_of_their_own(ties: str) -> None:
+    actions = {"do h": "-> g @ 5", "quick h": "q -> g @ 1", "see to it r": "-> q @ 2"}
+    task = build(goal="g", robot_goal="q", actions=actions)
+    right = serendipity.plan(task, mode="communication", horizon=2, ties=ties)
+    assert (right.cost, right.saving) == (3.0, 4.0)
+    assert serendipity.verify(task, right).verdict == "proved"
+    for status in ("optimal", "feasible"):
+        assert serendipity.verify(task, replace(right, status=status, saving=2.0)).verdict == "refuted"

@@ -24,6 +24,7 @@ from serendipity.testing.cases import case_1, case_4, case_10
 from serendipity.testing.strategies import Call, calls
 from tests.verify.proofs.samples import covering, entry, optimum
 from tests.verify.test_ip_parts import DETOUR
+from tests.verify.test_ip_solver import least
 from tests.verify.untrue import dearer
 from verify.base.undecided import UndecidedError
 from verify.calls.solve import solve
@@ -184,33 +185,11 @@ def test_random_programs_with_general_bounds(seed: int) -> None:
     for _ in range(dice.randint(1, 6)):
         terms = {x: dice.randint(-4, 4) for x in range(len(model.upper)) if dice.random() < 0.7}
         model.add(terms, dice.choice(("<=", ">=", "==")), dice.randint(-6, 6))
-    best = _least_by_trying(model)
+    best = least(model)
     _refuted(model, None if best is None else best - 1)
     if best is not None:
         with pytest.raises(UndecidedError):
             refutation(model, best, Deadline())
-
-
-def _least_by_trying(model: Model) -> int | None:
-    found: list[int] = []
-
-    def holds(values: list[int]) -> bool:
-        for row in model.rows:
-            total = sum(values[x] * c for x, c in row.terms.items())
-            if {"<=": total > row.right, ">=": total < row.right, "==": total != row.right}[row.sense]:
-                return False
-        return True
-
-    def extend(values: list[int]) -> None:
-        if len(values) == len(model.upper):
-            if holds(values):
-                found.append(sum(values[x] * c for x, c in model.objective.items()))
-            return
-        for value in range(model.lower[len(values)], model.upper[len(values)] + 1):
-            extend([*values, value])
-
-    extend([])
-    return min(found, default=None)
 
 
 def test_a_leaf_that_leaves_something_is_rejected() -> None:

@@ -111,7 +111,7 @@ def test_veripb_rejects_doctored_proofs(name: str, tmp_path: Path) -> None:
     assert not _told_by_veripb(DOCTORED[name].files(), tmp_path)
 
 
-@settings(max_examples=30)
+@settings(max_examples=12)
 @given(calls())
 def test_every_proof_of_a_call_can_be_written(call: Call) -> None:
     try:

@@ -23,7 +23,7 @@ _FAR = 10**100
 
 
 @given(calls_in_time())
-@settings(max_examples=60)
+@settings(max_examples=25)
 def test_the_least_value_is_that_of_brute_force(drawn: tuple[Task, list[Candidate], Options] | None) -> None:
     if drawn is None:
         return
@@ -50,7 +50,7 @@ def _call(task: Task, options: Options, scenario: Candidate) -> ExaminedCall:
 
 
 @given(calls_in_time())
-@settings(max_examples=60)
+@settings(max_examples=25)
 def test_answers_about_a_library_are_proved(drawn: tuple[Task, list[Candidate], Options] | None) -> None:
     if drawn is not None:
         task, scenarios, options = drawn
@@ -58,7 +58,7 @@ def test_answers_about_a_library_are_proved(drawn: tuple[Task, list[Candidate], 
 
 
 @given(tasks_in_time(), st.sampled_from(["fixed", "watched"]), st.booleans(), st.data())
-@settings(max_examples=60)
+@settings(max_examples=25)
 def test_answers_about_goals_and_ties_are_proved(
     drawn: Task, ties: str, several: bool, data: st.DataObject
 ) -> None:
