@@ -20,11 +20,6 @@ _PAIRS = 400
 """Pairs of edits of each good result, for the slow test."""
 
 
-@pytest.fixture(scope="module")
-def goods() -> list[Good]:
-    return list(corpus())
-
-
 def _verdict(good: Good, *edits: Edit) -> str:
     """What becomes of an edited result: a verdict, ``refused``, or why it is right to prove it."""
     data = edited(good.result.to_dict(), *edits)
@@ -56,8 +51,8 @@ def _why(good: Good, data: dict[str, Any], result: Result, edits: tuple[Edit, ..
     return found
 
 
-def _count(goods: list[Good], every: int, count: int) -> Counter[str]:
-    found: Counter[str] = Counter()
+def _count(every: int, count: int) -> Counter[str]:
+    goods, found = corpus(), Counter[str]()
     for number, good in enumerate(goods):
         data, other = good.result.to_dict(), goods[(number + 1) % len(goods)].result.to_dict()
         for edit in itertools.islice(single(data, other), number % every, None, every):
@@ -67,15 +62,15 @@ def _count(goods: list[Good], every: int, count: int) -> Counter[str]:
     return found
 
 
-def test_edited_results(goods: list[Good]) -> None:
-    found = _count(goods, _STRIDE, 4)
+def test_edited_results() -> None:
+    found = _count(_STRIDE, 4)
     assert found["refuted"] > 200
     assert found["refused"] > 400
 
 
 @pytest.mark.slow
-def test_every_edit_of_every_field(goods: list[Good]) -> None:
-    found = _count(goods, 1, _PAIRS)
+def test_every_edit_of_every_field() -> None:
+    found = _count(1, _PAIRS)
     assert sum(found.values()) > 50_000, found
 
 
@@ -139,6 +134,6 @@ def test_a_window_that_is_none_is_no_window() -> None:
     assert serendipity.verify(task, replace(answer, window=Window(5, 7))).verdict == "refuted"
 
 
-def test_a_billionth_of_the_window_weight_is_no_rounding(goods: list[Good]) -> None:
-    good = next(good for good in goods if good.name == "goals")
+def test_a_billionth_of_the_window_weight_is_no_rounding() -> None:
+    good = next(good for good in corpus() if good.name == "goals")
     assert _verdict(good, Edit(("options", "window_weight"), 1000.000000001)) == "refuted"

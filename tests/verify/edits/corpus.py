@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 import serendipity
@@ -206,8 +207,13 @@ _CUT_SHORT: tuple[tuple[str, Callable[[], Task], str, bool, dict[str, Any]], ...
 )
 
 
-def corpus() -> Iterator[Good]:
+@cache
+def corpus() -> tuple[Good, ...]:
     """The good results, those of ``solve`` among them."""
+    return tuple(_made())
+
+
+def _made() -> Iterator[Good]:
     for name, make, asked in _CALLS:
         task = make()
         yield Good(name, task, serendipity.plan(task, **asked), asked)

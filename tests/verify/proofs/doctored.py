@@ -109,11 +109,6 @@ def _same_side_twice(proof: Proof) -> None:
     tree["up"] = tree["down"]
 
 
-def _sides_changed(proof: Proof) -> None:
-    tree = _first(proof)["tree"]
-    tree["up"], tree["down"] = tree["down"], tree["up"]
-
-
 def _drop_side(proof: Proof) -> None:
     del _first(proof)["tree"]["up"]
 
@@ -142,10 +137,6 @@ def _more_rows(proof: Proof) -> None:
 def _dearer_objective(proof: Proof) -> None:
     for term in _first(proof)["objective"]:
         term[1] *= 2
-
-
-def _lower_limit(proof: Proof) -> None:
-    _first(proof)["limit"] -= 1
 
 
 def _lower_limit_without_solution(proof: Proof) -> None:
