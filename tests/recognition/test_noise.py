@@ -18,31 +18,11 @@ from serendipity.testing.oracle import Alone, Moment
 from serendipity.testing.strategies import tasks
 from tests.cli.conftest import Runs, assert_one_line
 
-LINE = build(
-    init="a",
-    goal="c",
-    actions={
-        "go h a b": "a -> b !a",
-        "go h b c": "b -> c !b",
-        "go h a d": "a -> d !a",
-        "go h d e": "d -> e !d",
-        "go h a c": "a -> c !a @ 4",
-    },
-)
+WAYS = {f"go h {a} {b}": f"{a} -> {b} !{a}" for a, b in ("ab", "bc", "ad", "de")}
+WAYS["go h a c"] = "a -> c !a @ 4"
+LINE = build(init="a", goal="c", actions=WAYS)
 """To c by b (2) or directly (4), to e by d."""
-HELPED = build(
-    init="a",
-    goal="c",
-    actions={
-        "go h a b": "a -> b !a",
-        "go h b c": "b -> c !b",
-        "go h a d": "a -> d !a",
-        "go h d e": "d -> e !d",
-        "go h a c": "a -> c !a @ 4",
-        "lift r": "-> up",
-        "ride h r": "a up -> c !a @ 0.5",
-    },
-)
+HELPED = build(init="a", goal="c", actions=WAYS | {"lift r": "-> up", "ride h r": "a up -> c !a @ 0.5"})
 """The same with a robot who may help to c."""
 C, E = {"goal": ["c"], "name": "c"}, {"goal": ["e"], "name": "e"}
 

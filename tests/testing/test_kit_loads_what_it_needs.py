@@ -10,6 +10,7 @@ import pytest
 
 import serendipity.testing
 from serendipity.testing import plugin
+from tests.cli.test_start_up import modules_after as loaded_after
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -17,10 +18,6 @@ ROOT = Path(__file__).resolve().parents[2]
 def printed(program: str) -> str:
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     return done.stdout
-
-
-def loaded_after(program: str) -> set[str]:
-    return set(printed(f"{program}\nimport sys\nprint(' '.join(sys.modules))").split())
 
 
 def test_hypothesis_loads_for_strategies_only() -> None:

@@ -107,6 +107,15 @@ def _unfinished() -> Given:
     return Given(epochs.task, epochs.result())
 
 
+_NOTHING: dict[str, Any] = {
+    **dict.fromkeys(("plan", "cost", "objective", "window", "saving", "saving_alone")),
+    "status": "infeasible",
+    "reason": "no-plan-within-horizon",
+    "opportunity": False,
+    "agent_costs": {},
+}
+"""That there is no answer."""
+
 RULE_BROKEN: dict[str, tuple[str, Callable[[], Given]]] = {
     "another human": ("mode-and-human", lambda: _set(helped, human="rob")),
     "mode changed after the fact": ("mode-and-human", lambda: _set(helped, mode="communication")),
@@ -120,22 +129,7 @@ RULE_BROKEN: dict[str, tuple[str, Callable[[], Given]]] = {
     "infeasible with a plan": ("status-and-plan", lambda: _set(helped, status="infeasible")),
     "a robot at work at the end": ("at-rest", _unfinished),
     "no cost": ("status-and-plan", lambda: _set(helped, cost=None)),
-    "infeasible though pi_H is an answer": (
-        "infeasible",
-        lambda: _set(
-            helped,
-            status="infeasible",
-            plan=None,
-            cost=None,
-            objective=None,
-            window=None,
-            opportunity=False,
-            saving=None,
-            saving_alone=None,
-            agent_costs={},
-            reason="no-plan-within-horizon",
-        ),
-    ),
+    "infeasible though pi_H is an answer": ("infeasible", lambda: _set(helped, **_NOTHING)),
     "a reason beside a plan": ("reason", lambda: _set(helped, reason="no-human-plan")),
     "infeasible for another reason": ("reason", _no_reason),
     "ties without their answers": ("ties", lambda: _options(helped, ties="robust")),

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.model import Certificate, Claim, Result
+from serendipity.model import Certificate, Claim
 from tests.verify.edits.corpus import corpus
 from verify.base.obligations import BEST, NEEDED, complete, kind_of, needed
 
@@ -67,15 +67,7 @@ def test_a_bound_without_an_answer_is_a_claim(mode: str, bound: float, verdict: 
     """It was left undecided, for breaking a rule that it does not break."""
     task = serendipity.example("room2")
     answer = serendipity.plan(task, mode=mode)
-    unknown = Result(
-        mode,
-        "unknown",
-        answer.human,
-        answer.options,
-        human_plan=answer.human_plan,
-        human_cost=answer.human_cost,
-        horizon=answer.horizon,
-        lower_bound=bound,
-        reason="time-limit",
-    )
+    nothing = dict.fromkeys(("plan", "window", "cost", "objective", "saving", "saving_alone"))
+    nothing |= {"agent_costs": {}, "realised": {}, "opportunity": False, "reason": "time-limit"}
+    unknown = replace(answer, status="unknown", lower_bound=bound, **nothing)
     assert serendipity.verify(task, unknown).verdict == verdict

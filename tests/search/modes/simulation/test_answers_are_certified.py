@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 
 import serendipity
-from serendipity.model import Certificate, Options, PlanStep, Result, Task, surroundings
+from serendipity.model import Certificate, Options, Result, Task, surroundings
 from serendipity.testing.builders import task as build
 from serendipity.testing.by_hand import result
 from serendipity.testing.cases import case_1, case_4
@@ -71,23 +71,11 @@ def test_worked_cases() -> None:
         assert certificate.verdict == "proved", certificate
 
 
-def _help_denied(result: Result, task: Task) -> Result:
+def _help_denied(right: Result, task: Task) -> Result:
     """The same call, answered that nothing helps."""
-    plan = [task.actions[task.named[name][0]] for name in result.human_plan or ()]
-    human = result.human
-    steps = tuple(PlanStep(t, (human,), a.name, float(a.cost)) for t, a in enumerate(plan, start=1))
-    cost = result.human_cost
-    return replace(
-        result,
-        opportunity=False,
-        cost=cost,
-        objective=cost,
-        lower_bound=cost,
-        saving=0.0,
-        plan=steps,
-        agent_costs={agent: float(cost or 0) * (agent == human) for agent in task.agents},
-        realised=dict.fromkeys(result.realised, True),
-    )
+    plan = dict(enumerate(right.human_plan or (), start=1))
+    idle = result(task, plan, human_plan=right.human_plan, discount="0.9", horizon=right.horizon)
+    return replace(idle, options=right.options, saving=0.0, realised=dict.fromkeys(right.realised, True))
 
 
 @pytest.mark.parametrize("human_model", MODELS)
