@@ -109,6 +109,11 @@ def _same_side_twice(proof: Proof) -> None:
     tree["up"] = tree["down"]
 
 
+def _sides_changed(proof: Proof) -> None:
+    tree = _first(proof)["tree"]
+    tree["up"], tree["down"] = tree["down"], tree["up"]
+
+
 def _drop_side(proof: Proof) -> None:
     del _first(proof)["tree"]["up"]
 
@@ -137,6 +142,10 @@ def _more_rows(proof: Proof) -> None:
 def _dearer_objective(proof: Proof) -> None:
     for term in _first(proof)["objective"]:
         term[1] *= 2
+
+
+def _lower_limit(proof: Proof) -> None:
+    _first(proof)["limit"] -= 1
 
 
 def _lower_limit_without_solution(proof: Proof) -> None:
@@ -177,6 +186,7 @@ def _leaf_text(text: str) -> Doctor:
 DOCTORED: Final[dict[str, Doctored]] = {
     # numbers of a program
     "limit raised by one": Doctored("help", lambda p: _set(limit=_first(p)["limit"] + 1)(p)),
+    "limit lowered": Doctored("help", _lower_limit),
     "limit lowered, without the solution": Doctored("help", _lower_limit_without_solution, alone=False),
     "limit left out": Doctored("help", lambda p: _first(p).pop("limit") and None),
     "limit given where there is none": Doctored("no plan", _set(limit=10), alone=False),
@@ -188,6 +198,11 @@ DOCTORED: Final[dict[str, Doctored]] = {
     "a coefficient changed": Doctored(
         "help", lambda p: _used_row(p)["terms"][0].__setitem__(1, 7), alone=False
     ),
+    "a row's column changed": Doctored(
+        "help",
+        lambda p: _unused_row(p)["terms"][0].__setitem__(0, len(_first(p)["columns"]) - 1),
+        alone=False,
+    ),
     "every sense turned": Doctored("branched", _flip_sense),
     "a row without a sense": Doctored("help", lambda p: _used_row(p).pop("sense") and None),
     "rows of a family left out": Doctored("branched", _drop_every("cover")),
@@ -195,19 +210,25 @@ DOCTORED: Final[dict[str, Doctored]] = {
     "the goal dropped": Doctored("no help", _drop_every("eq. 3"), alone=False),
     "a contradiction added": Doctored("help", _more_rows, alone=False),
     "a column left out": Doctored("help", lambda p: _first(p)["columns"].pop() and None, alone=False),
+    "a column with a fraction": Doctored("help", lambda p: _first(p)["columns"].append([0, 0.5])),
     "all columns fixed": Doctored("help", _tighter_columns, alone=False),
     "bounds of a column turned": Doctored("help", lambda p: _first(p)["columns"].__setitem__(0, [1, 0])),
     "the objective doubled": Doctored("no help", _dearer_objective, alone=False),
     "the objective left out": Doctored("help", _set(objective=[])),
     # the tree
     "a multiplier's sign": Doctored("branched", _flip_inequality),
+    "multipliers halved": Doctored("branched", lambda p: _scale(p, "1/2", objective=False)),
+    "the limit counted less": Doctored("branched", lambda p: _scale(p, "1/7", objective=True)),
     "the limit's sign": Doctored("branched", lambda p: _scale(p, "-1", objective=True)),
     "a multiplier with a denominator of zero": Doctored("branched", _leaf_text("1/0")),
+    "a multiplier that is a float": Doctored("branched", _leaf_text("1.5")),
     "a leaf emptied": Doctored("branched", _empty_leaf),
     "a leaf dropped": Doctored("branched", _drop_side),
     "one side for the whole": Doctored("branched", _without_branch),
     "one side twice": Doctored("branched", _same_side_twice),
+    "both sides changed": Doctored("branched", _sides_changed),
     "a branch's value raised": Doctored("branched", _move_branch(0, 1)),
+    "a branch's column shifted": Doctored("branched", _move_branch(1, 0)),
     "a branch on no column": Doctored("branched", _move_branch(10**6, 0)),
     "a multiplier for no row": Doctored("branched", lambda p: _multiply(p, 10**6, "1/1")),
     "the limit where there is none": Doctored("no plan", lambda p: _multiply(p, -1, "1/1")),
@@ -216,6 +237,7 @@ DOCTORED: Final[dict[str, Doctored]] = {
     "a program missing": Doctored("two programs", lambda p: p["programs"].pop() and None, alone=False),
     "programs swapped": Doctored("two programs", _swap_programs, alone=False),
     "a program twice": Doctored("help", lambda p: p["programs"].append(_first(p)), alone=False),
+    "no programs": Doctored("help", _top(programs=[])),
     "another schema": Doctored("help", _top(schema="serendipity.proof/0")),
     "another claim": Doctored("help", _top(claim="no_opportunity"), alone=False),
     "a claim that nobody makes": Doctored("help", _top(claim="beautiful")),
@@ -229,5 +251,8 @@ DOCTORED: Final[dict[str, Doctored]] = {
     "a solution left out": Doctored("given plan", lambda p: _first(p).pop("solution") and None, alone=False),
     "what suffixes cost left out": Doctored(
         "suffixes", lambda p: _first(p).pop("suffixes") and None, alone=False
+    ),
+    "a suffix from another epoch": Doctored(
+        "suffixes", lambda p: _first(p)["suffixes"][0].update(epoch=3), alone=False
     ),
 }

@@ -91,8 +91,11 @@ DOCTORED: Final[dict[str, Doctored]] = {
     ),
     "the bound left out": _formula("branched", _drop(r"^-\d+ x.*")),
     "a constraint left out": _formula("branched", _drop(r"^\+1 x.*")),
+    "the last constraint left out": _formula("branched", _drop(r"^\+1 x.*", -1)),
     "a constraint loosened": _formula("branched", _in(0)),
+    "every constraint loosened": _formula("branched", lambda t: t.replace(">= 1 ;", ">= 0 ;")),
     "a variable renamed": _formula("branched", _swap(r"\+1 x5 ", "+1 x6 ")),
+    "a variable made free": _formula("branched", lambda t: t.replace("+1 x5 ", "+1 x99 ")),
     "two constraints swapped": _formula(
         "help", _lines(lambda lines: [*lines[:4], lines[-1], *lines[5:-1], lines[4]])
     ),
@@ -106,7 +109,9 @@ DOCTORED: Final[dict[str, Doctored]] = {
     "nothing but the objective": _formula("help", _drop_all(r"[^*m]")),
     "contradictions taken back": _formula("no plan", lambda t: re.sub(r"(?m)^(>?=) 1 ;", r"\1 0 ;", t)),
     # steps
+    "a multiplier raised": _proof("branched", _swap(r"^(pol \d+ )60 ", r"\g<1>600 ")),
     "a multiplier lowered": _proof("branched", _swap(r"^(pol \d+ )60 ", r"\g<1>30 ")),
+    "a multiplier of zero": _proof("branched", _swap(r"^(pol \d+ )60 ", r"\g<1>0 ")),
     "a multiplier below zero": _proof("branched", _swap(r"^(pol \d+ )60 ", r"\g<1>-60 ")),
     "the limit's multiplier raised": _proof("no help", _swap(r"^(pol \d+)( \d+ \d+ \*)", r"\1 9 *\2")),
     "a multiplier of a root changed": _proof("no help", _swap(r"^(pol \d+ \d+ \d+)", r"\g<1>0")),
@@ -115,11 +120,18 @@ DOCTORED: Final[dict[str, Doctored]] = {
     "a constraint that is not there": _proof("branched", _swap(r"^pol \d+", "pol 999")),
     "a constraint of later": _proof("branched", _swap(r"^pol \d+", "pol 40")),
     "a sum cut short": _proof("help", _swap(r"^(pol (?:\S+ ){40}.*?\+).*$", r"\1")),
+    "a sum that is not finished": _proof("branched", _swap(r"^(pol .*) \+$", r"\1")),
+    "a sum emptied": _proof("branched", _swap(r"^pol .*$", "pol 1")),
     "the sums left out": _proof("branched", _drop_all("pol")),
+    "the last sum left out": _proof("branched", _drop(r"^pol .*", -1)),
     # branches
     "a branch left out": _proof("branched", _drop(r"^rup 1 x5 1 x19 >= 1 ;")),
     "one side of the root left out": _proof("branched", _drop_all(r"rup 1 ~x5")),
+    "the other side left out": _proof("branched", _drop_all(r"rup 1 x5")),
     "leaves without their branches": _proof("branched", _drop_all(r"rup 1 ")),
+    "a branch on another variable": _proof(
+        "branched", _swap(r"^rup 1 x5 1 x19 >= 1 ;", "rup 1 x5 1 x20 >= 1 ;")
+    ),
     "a branch turned round": _proof("branched", _swap(r"^rup 1 x5 1 x19 >= 1 ;", "rup 1 ~x5 1 x19 >= 1 ;")),
     "a leaf that says more": _proof("branched", _swap(r"^rup 1 x5 1 x19 >= 1 ;", "rup 1 x5 1 x19 >= 2 ;")),
     "the root at once": _proof("branched", _swap(r"^pol", r"rup >= 1 ;\npol")),
@@ -128,11 +140,15 @@ DOCTORED: Final[dict[str, Doctored]] = {
     ),
     # solutions and ends
     "a solution that breaks a row": _proof("help", _swap(r"^(soli|o) x1 ", r"\1 ~x1 ")),
+    "a solution of nothing": _proof(
+        "help", lambda t: re.sub(r"(?m)^(soli|o) .*$", lambda m: re.sub(r" x", " ~x", m[0]), t)
+    ),
     "no solution": _proof("help", _drop(r"^(soli|o) .*")),
     "a solution where there is no objective": _proof("branched", _swap(r"^f 31$", r"f 31\nsoli x1\no x1")),
     "another number of constraints": _proof("help", _swap(r"^f (\d+)", r"f 1\1")),
     "a conclusion from what is none": _proof("branched", _swap(r"(: |c )\d+$", r"\g<1>33", -1)),
     "a conclusion from a constraint": _proof("no help", _swap(r"(: |c )\d+", r"\g<1>1", -1)),
+    "a conclusion from what is not there": _proof("help", _swap(r"(: |c )\d+", r"\g<1>99999", -1)),
     "an assumption": _proof("branched", _swap(r"^pol .*$", "a >= 1 ;")),
     "another version": _proof("help", _swap(r"version \S+", "version 9.9")),
 }

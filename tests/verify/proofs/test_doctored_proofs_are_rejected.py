@@ -34,6 +34,14 @@ def test_samples_are_accepted(name: str, tmp_path: Path) -> None:
     assert found.compared != alone
 
 
+def test_samples_have_what_is_doctored() -> None:
+    assert "branch" in sample("branched").proof["programs"][0]["tree"]
+    assert sample("suffixes").proof["programs"][0]["suffixes"]
+    assert sample("no plan").proof["programs"][0]["limit"] is None
+    assert len(sample("two programs").proof["programs"]) == 2
+    assert sample("help").proof["programs"][0]["solution"]
+
+
 @pytest.mark.parametrize("name", DOCTORED)
 def test_doctored_proofs_are_rejected(name: str, tmp_path: Path) -> None:
     doctored = DOCTORED[name]
