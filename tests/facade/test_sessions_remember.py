@@ -108,8 +108,7 @@ def test_a_session_that_is_reminded_goes_on_as_the_other_one(ties: Ties) -> None
     first = serendipity.plan(case_1())
     session = Session(case_1(), human_plan=first.human_plan, ties=ties, discount=0.9)
     answer = session.plan()
-    other = Session(session.task, human_plan=session.human_plan, ties=ties, discount=0.9)
-    other._remind(session._remembered())
+    other = Session.restore(case_1(), session.snapshot())
     assert _interrupted(other).plan == answer.plan
 
 
@@ -215,8 +214,7 @@ def _at_each_look(call: PlanCall, session: Session) -> Iterator[tuple[Session, R
     """Answers of sessions that know what this one does, if the first look is the last, or the second."""
 
     def asked(deadline: Deadline) -> tuple[Session, Result]:
-        other = Session(replace(session.task), human_plan=session.human_plan, **call.keywords())
-        other._remind(session._remembered())
+        other = Session.restore(replace(session.task), session.snapshot(), **call.keywords())
         return other, other.plan(deadline=deadline)
 
     return map(_no_error, endings(asked))
