@@ -4,7 +4,6 @@ import threading
 import weakref
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
-from hashlib import sha256
 from itertools import combinations
 from typing import Any, Final, Unpack
 
@@ -49,6 +48,8 @@ class Session:
         self, task: Task, *, human_plan: Iterable[PlanEntry] | None = None, **options: Unpack[SessionOptions]
     ) -> None:
         expect(TASK_IN_TIME, task=task)
+        self._begun = task
+        """Whose digest serves all sessions that begin with it."""
         self._prepared = HELD.take(task)
         weakref.finalize(self, HELD.hold, self._prepared).atexit = False
         self._options = options
@@ -111,12 +112,15 @@ class Session:
         Raises:
             UsageError: in time, or where what the human sees is a function.
         """
-        task, chosen = self.task, options_from(self._plain_options())
+        other = self._options.keys() - Options.__dataclass_fields__.keys()
+        if other:
+            raise UsageError(f"snapshot: {min(other)} is no plain value; give it to each call")
+        task, chosen = self.task, options_from(dict(self._options))
         refuse_time(task, options=chosen, plan=self._human_plan)
         asked = chosen.to_dict()
         return {
             "schema": SNAPSHOT,
-            "task": self._mark,
+            "task": self._begun.digest,
             "options": {name: asked[name] for name in self._options},
             "facts": [task.facts[fact] for fact in sorted(task.init)],
             "goal": list(task.goal.literals(task.facts)),
@@ -141,40 +145,19 @@ class Session:
         expect(BY_NAME, snapshot=snapshot)
         if fault := schema_fault(snapshot.get("schema"), SNAPSHOT):
             raise InputError(f"snapshot: {fault}")
-        moved = cls(task)
-        if snapshot.get("task") != moved._mark:
+        if snapshot.get("task") != task.digest:
             raise InputError("snapshot: it is of another task")
         try:
-            true = frozenset(snapshot["facts"])
-            moved.set_goal(snapshot["goal"])
-            moved.change({fact: fact in true for fact in task.facts})
             asked: dict[str, Any] = {**snapshot["options"], **options}
-            session = cls(moved.task, human_plan=snapshot["human_plan"], **asked)
+            session, true = cls(task, **asked), frozenset(snapshot["facts"])
+            session.set_goal(snapshot["goal"])
+            session.change({fact: fact in true for fact in task.facts})
+            session.follow(snapshot["human_plan"])
             session._predicted = snapshot["predicted"]
             session._memory.read(session.task, snapshot["answers"])
         except (KeyError, TypeError, ValueError, AttributeError, IndexError):
             raise InputError("snapshot: expected what Session.snapshot() writes") from None
         return session
-
-    def _plain_options(self) -> dict[str, Any]:
-        """The defaults that are plain values.
-
-        Raises:
-            UsageError: one is not.
-        """
-        other = self._options.keys() - Options.__dataclass_fields__.keys()
-        if other:
-            raise UsageError(f"snapshot: {min(other)} is no plain value; give it to each call")
-        return {**self._options}
-
-    @cached_property
-    def _mark(self) -> str:
-        """A digest of the task but for its state and goals, which no move changes."""
-        task = self.task
-        digest = sha256(repr((task.agents, task.human, task.facts)).encode())
-        for action in task.actions:
-            digest.update(repr(action).encode())
-        return digest.hexdigest()
 
     def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError("a session is not pickled: restore(task, snapshot()) begins one where it stands")

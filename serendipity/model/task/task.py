@@ -149,6 +149,16 @@ class Task(Told):
         return bool(self.script) or any(action.timing is not None for action in self.actions)
 
     @cached_property
+    def digest(self) -> str:
+        """A hash of agents, facts and actions: the same in every state and for every goal."""
+        from hashlib import sha256  # only here: few callers write a task's sessions down
+
+        found = sha256(repr((self.agents, self.human, self.facts)).encode())
+        for action in self.actions:
+            found.update(repr(action).encode())
+        return found.hexdigest()
+
+    @cached_property
     def human_actions(self) -> tuple[int, ...]:
         """Ids of the actions that the human does alone."""
         return tuple(i for i, a in enumerate(self.actions) if a.participants == (self.human,))
