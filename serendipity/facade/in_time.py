@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import cached_property
 from itertools import islice
 from typing import Final
 
@@ -66,8 +67,8 @@ def answers_in_time(call: Request, solver: Solver) -> Iterator[Answer]:
         yield told
 
 
-class HumanInTime:
-    """What the human of a call does alone for several goals.
+class ScenariosInTime:
+    """The scenarios of a call: found, and answered, in single epochs.
 
     Raises:
         LimitReachedError: the deadline came.
@@ -75,53 +76,50 @@ class HumanInTime:
     """
 
     def __init__(self, call: Request) -> None:
-        require_few_epochs(call.task)
         self._call = call
-        self._units = unit_steps(call.task, call.deadline)
+
+    @cached_property
+    def _units(self) -> UnitSteps:
+        require_few_epochs(self._call.task)
+        return unit_steps(self._call.task, self._call.deadline)
 
     def canonical(self, goal: Condition) -> HumanPlan | None:
-        """Their canonical plan (semantics 10.3), or None where they have none."""
+        """The human's canonical plan to a goal (semantics 10.3), or None where they have none."""
         found = canonical_human_plan(self._aimed(goal), self._call.deadline, self._call.options)
         return None if found is None else self._units.begun(found)
 
     def optimal(self, goal: Condition) -> Iterator[HumanPlan]:
-        """Their optimal plans that differ in names."""
+        """Their optimal plans to a goal that differ in names."""
         found = optimal_plans_in_time(self._aimed(goal), self._call.deadline, self._call.options)
         return map(self._units.begun, found)
 
     def _aimed(self, goal: Condition) -> PreparedTask:
         return PreparedTask(self._units.task.with_goal(self._units.goal(goal)))
 
+    def answers(self, candidates: Sequence[Candidate]) -> Iterator[Answer]:
+        """Answers over scenarios (semantics 11).
 
-def answers_over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[Answer]:
-    """Answers over scenarios in time (semantics 11).
-
-    Args:
-        call: the call.
-        candidates: the scenarios.
-
-    Raises:
-        UsageError: the call asks for something that is not answered in time, or a plan does not last.
-    """
-    options = call.options
-    for name, value in _PLAIN.items():
-        if getattr(options, name) != value:
-            raise UsageError(f"{name}: in time, with several goals or plans, only {value!s} is possible")
-    require_few_epochs(call.task)
-    try:
-        units = unit_steps(call.task, call.deadline)
-    except LIMITS as limit:
-        yield Answer("unknown", reason=limit_reason(limit))
-        return
-    inner = [replace(one, goal=units.goal(one.goal), plan=units.plan(one.plan)) for one in candidates]
-    horizon = common_horizon(options, [one.plan for one in inner])
-    for one in candidates:
-        aimed = call.task.with_goal(one.goal)
-        if broken := outlasts(aimed, one.plan, horizon, strict=options.strict):
-            raise UsageError(f"plan '{one.name}' does not last until epoch {horizon}: {broken}")
-    for answer in solve_scenarios(PreparedTask(units.task), options, inner, call.deadline):
-        goals = tuple(_served(units, one, options.discount) for one in answer.goals or ())
-        yield _told(units, answer)._replace(goals=goals)
+        Raises:
+            UsageError: the call asks for something that is not answered in time, or a plan does not last.
+        """
+        task, options = self._call.task, self._call.options
+        for name, value in _PLAIN.items():
+            if getattr(options, name) != value:
+                raise UsageError(f"{name}: in time, with several goals or plans, only {value!s} is possible")
+        try:
+            units = self._units
+        except LIMITS as limit:
+            yield Answer("unknown", reason=limit_reason(limit))
+            return
+        inner = [replace(one, goal=units.goal(one.goal), plan=units.plan(one.plan)) for one in candidates]
+        horizon = common_horizon(options, [one.plan for one in inner])
+        for one in candidates:
+            aimed = task.with_goal(one.goal)
+            if broken := outlasts(aimed, one.plan, horizon, strict=options.strict):
+                raise UsageError(f"plan '{one.name}' does not last until epoch {horizon}: {broken}")
+        for answer in solve_scenarios(PreparedTask(units.task), options, inner, self._call.deadline):
+            goals = tuple(_served(units, one, options.discount) for one in answer.goals or ())
+            yield _told(units, answer)._replace(goals=goals)
 
 
 def _served(units: UnitSteps, one: ServedGoal, discount: Fraction) -> ServedGoal:

@@ -7,6 +7,7 @@ their current plan for a goal is the canonical optimal plan from ``I`` that embe
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from itertools import islice
 from typing import Final, NamedTuple
 
@@ -15,7 +16,7 @@ from search.modes.goals import Explainer, Likelihood
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade import ties
 from serendipity.facade.call import Request
-from serendipity.facade.in_time import HumanInTime, answers_in_time, answers_over_scenarios
+from serendipity.facade.in_time import ScenariosInTime, answers_in_time
 from serendipity.facade.results import named_plan
 from serendipity.model import Condition, Deadline, HumanPlan, Options, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
@@ -100,16 +101,16 @@ def answers(call: Request, unsure: Unsure) -> Iterator[_Said]:
         UsageError: an option that has no meaning here; more optimal plans than ``max_ties``.
     """
     _require_answerable(call, unsure)
-    recognition, first = None, None
+    recognition, first, in_time = None, None, ScenariosInTime(call)
     try:
         if not unsure.observed and (first := _beside_some_plans(call, unsure.goals or ())) is not None:
             yield first
         if unsure.plans is not None:
             considered = [Candidate(one.goal, one.plan, one.probability, one.name) for one in unsure.plans]
         elif unsure.goals is None:
-            considered = _shared(call, [Candidate(call.task.goal, (), Fraction(1))])
+            considered = _shared(call, in_time, [Candidate(call.task.goal, (), Fraction(1))])
         else:
-            considered, recognition = _by_goals(call, unsure, unsure.goals)
+            considered, recognition = _by_goals(call, in_time, unsure, unsure.goals)
     except LIMITS as limit:
         if first is None:
             yield call, Answer("unknown", reason=limit_reason(limit), expanded=None, generated=None)
@@ -124,7 +125,7 @@ def answers(call: Request, unsure: Unsure) -> Iterator[_Said]:
             yield about, _certain(only, recognition, _unsaid(call.task, only, recognition), answer)
     else:
         _refuse(call.task, call.options)
-        for answer in _expected(considered, recognition, call):
+        for answer in _expected(considered, recognition, call, in_time):
             yield call, answer
 
 
@@ -160,7 +161,7 @@ def _beside_some_plans(call: Request, candidates: Sequence[CandidateGoal]) -> _S
     if not found:
         return None
     if len(found) > 1:
-        return call, next(_expected(found, None, call))
+        return call, next(_expected(found, None, call, ScenariosInTime(call)))
     own = _unsaid(call.task, found[0], None)
     return _about(call, found[0], None), _certain(found[0], None, own, known[0][1])
 
@@ -189,7 +190,7 @@ def _answers(call: Request) -> Iterator[Answer]:
 
 
 def _by_goals(
-    call: Request, unsure: Unsure, candidates: Sequence[CandidateGoal]
+    call: Request, in_time: ScenariosInTime, unsure: Unsure, candidates: Sequence[CandidateGoal]
 ) -> tuple[list[Candidate], Recognition | None]:
     """A scenario for each goal that is possible, or for each optimal plan to it, and the posterior.
 
@@ -200,13 +201,13 @@ def _by_goals(
         LimitReachedError: a limit came first.
     """
     noise = unsure.noise
-    recognition, plans = _recognised(call, candidates, unsure.observed, unsure.beta, noise)
+    recognition, plans = _recognised(call, in_time, candidates, unsure.observed, unsure.beta, noise)
     considered = _considered(candidates, recognition, plans)
-    shared = _shared(call, considered) if call.options.ties == "watched" else considered
+    shared = _shared(call, in_time, considered) if call.options.ties == "watched" else considered
     return shared, None if noise else recognition
 
 
-def _shared(call: Request, considered: Sequence[Candidate]) -> list[Candidate]:
+def _shared(call: Request, in_time: ScenariosInTime, considered: Sequence[Candidate]) -> list[Candidate]:
     """A scenario for each optimal plan to a goal, which share its probability.
 
     Raises:
@@ -215,14 +216,14 @@ def _shared(call: Request, considered: Sequence[Candidate]) -> list[Candidate]:
     """
     found = []
     for one in considered:
-        plans = _optimal_plans(call, one.goal)
+        plans = _optimal_plans(call, in_time, one.goal)
         for number, plan in enumerate(plans, start=1):
             name = one.name if len(plans) == 1 else f"{one.name or 'plan'} {number}"
             found.append(replace(one, plan=plan, weight=one.weight / len(plans), name=name))
     return found
 
 
-def _optimal_plans(call: Request, goal: Condition) -> list[HumanPlan]:
+def _optimal_plans(call: Request, in_time: ScenariosInTime, goal: Condition) -> list[HumanPlan]:
     """The human's optimal plans to a goal.
 
     Raises:
@@ -231,7 +232,7 @@ def _optimal_plans(call: Request, goal: Condition) -> list[HumanPlan]:
     """
     if call.task.needs_time:
         most = call.options.max_ties
-        found = list(islice(HumanInTime(call).optimal(goal), most + 1))
+        found = list(islice(in_time.optimal(goal), most + 1))
         ties.require_few(len(found), call.options)
         return found
     graph = optimal_human_plans(call.prepared.with_goal(goal), call.deadline)
@@ -243,6 +244,7 @@ def _optimal_plans(call: Request, goal: Condition) -> list[HumanPlan]:
 
 def _recognised(
     call: Request,
+    in_time: ScenariosInTime,
     candidates: Sequence[CandidateGoal],
     observed: tuple[str, ...],
     beta: float,
@@ -256,8 +258,7 @@ def _recognised(
     task, deadline = call.task, call.deadline
     conditions = [candidate.goal for candidate in candidates]
     if task.needs_time:
-        human = HumanInTime(call)
-        plans = [human.canonical(goal) for goal in conditions]
+        plans = [in_time.canonical(goal) for goal in conditions]
         costs = [None if plan is None else task.cost_of(plan) for plan in plans]
         known = [Likelihood(cost, None, plan) for cost, plan in zip(costs, plans, strict=True)]
         return posterior(task, candidates, observed, known, beta), plans
@@ -316,20 +317,19 @@ def _certain(
 
 
 def _expected(
-    considered: Sequence[Candidate], recognition: Recognition | None, call: Request
+    considered: Sequence[Candidate],
+    recognition: Recognition | None,
+    call: Request,
+    in_time: ScenariosInTime,
 ) -> Iterator[Answer]:
     """Several scenarios are left."""
     own = [_unsaid(call.task, candidate, recognition) for candidate in considered]
     timed = call.task.needs_time or any(isinstance(one.plan, TimedPlan) for one in considered)
-    solve = answers_over_scenarios if timed else _over_scenarios
-    for answer in solve(call, considered):
+    plain = partial(solve_scenarios, call.prepared, call.options, deadline=call.deadline)
+    for answer in (in_time.answers if timed else plain)(considered):
         served = zip(answer.goals or (), own, strict=True)
         goals = tuple(replace(one, goal=goal) for one, goal in served)
         yield answer._replace(recognition=recognition, goals=goals)
-
-
-def _over_scenarios(call: Request, considered: Sequence[Candidate]) -> Iterator[Answer]:
-    return solve_scenarios(call.prepared, call.options, considered, call.deadline)
 
 
 def _unsaid(task: Task, candidate: Candidate, recognition: Recognition | None) -> tuple[str, ...] | None:
