@@ -88,9 +88,13 @@ class Due:
         for others in self.others(state):
             for part in parts:
                 if self.fits(part, others):
-                    (option,) = self.with_last(iter((together(part, others),)), state)
-                    return state & option.keep | option.put
+                    return self.outcome(state, together(part, others))
         return None
+
+    def outcome(self, state: int, done: JointAction) -> int:
+        """The state after an epoch in which all this is done, and the clock goes on."""
+        after, last = state & done.keep | done.put, self.last(state)
+        return after if last is None else after & last.keep | last.put
 
     def finished(self, state: int) -> tuple[int, list[JointAction]] | None:
         """The state in which the human has ended what they are at, and what they did for that, by epochs.

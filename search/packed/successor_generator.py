@@ -157,11 +157,6 @@ class Successors:
                 return together(due, begun)
         return None
 
-    def after(self, state: int, done: JointAction) -> int:
-        """The state after an epoch in which all this is done, and the clock goes on."""
-        state_after, last = state & done.keep | done.put, self._due.last(state)
-        return state_after if last is None else state_after & last.keep | last.put
-
     def with_robots(self, first: JointAction, state: int) -> Iterator[JointAction]:
         """``first`` (the human's part) alone and with each set of robots' actions that fits it."""
         return self._due.with_last(self._combine(first, self.robots(state)), state)

@@ -166,7 +166,7 @@ class Line:
 
     def _together(self, at: Member, part: JointAction, beside: JointAction) -> tuple[int, int]:
         done = together(part, beside)
-        return self._worths.of_key(done.weight), self._acting.after(at.state, done)
+        return self._worths.of_key(done.weight), self._acting.due.outcome(at.state, done)
 
     def worth(self, robots: JointAction) -> int:
         """What a set of robots' actions is worth."""
