@@ -12,14 +12,10 @@ from serendipity.model.task.unit_steps import unit_steps
 from serendipity.testing.oracle.scenarios import best_policy
 from serendipity.testing.strategies.time import tasks_in_time
 from tests.search.modes.scenarios.test_in_time import calls_in_time, library
+from tests.verify.scenarios.test_policies_equal_brute_force import require_least
 from verify.base.beside_script import alone_of
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.call import ExaminedCall
-from verify.scenarios.measure import Measure
-from verify.scenarios.policies import Better, PolicySearch
-from verify.scenarios.proof import floor_of
-
-_FAR = 10**100
 
 
 @given(calls_in_time())
@@ -31,16 +27,7 @@ def test_the_least_value_is_that_of_brute_force(drawn: tuple[Task, list[Candidat
     horizon = int(options.horizon or max(task.epochs_of(one.plan) for one in scenarios))
     right = best_policy(task, options, scenarios, horizon)
     calls = [_call(task, options.but(horizon=horizon), scenario) for scenario in scenarios]
-    measure = Measure(calls, [scenario.weight for scenario in scenarios], [floor_of(call) for call in calls])
-
-    def better(than: int) -> Better | None:
-        return PolicySearch(calls, measure).better(than)
-
-    found = better(_FAR)
-    assert found is not None
-    assert measure.figures(found.value) == right.least
-    assert better(found.value) is None
-    assert measure.joined(measure.floors) <= found.value
+    require_least(calls, [scenario.weight for scenario in scenarios], right)
 
 
 def _call(task: Task, options: Options, scenario: Candidate) -> ExaminedCall:
