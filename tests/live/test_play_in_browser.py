@@ -154,7 +154,7 @@ def test_a_double_click_is_one_choice(opened: Opened) -> None:
     with serving(command="play") as server:
         page = opened(server)
         for count in (2, 3):
-            page.wait_for_selector("body:not(.settling)")
+            page.wait_for_selector("body:not(.settling) #can button")  # there, and no longer new
             box = page.locator("#can button").first.bounding_box()
             for _ in range(3):
                 page.mouse.click(box["x"] + 20, box["y"] + 10)
