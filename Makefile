@@ -67,8 +67,8 @@ demo: $(RUNS)  ## the paper's example III-C: plan, proof, what the person will r
 test: $(READY)  ## run the tests
 	@$(BIN)/python -m pytest -n auto --dist worksteal --durations 20
 
-test-slow: $(READY)  ## run the tests that take long
-	@$(BIN)/python -m pytest -m slow -n auto --dist worksteal --durations 20
+test-slow: $(READY)  ## run the tests that take long, too
+	@$(BIN)/python -m pytest -m "long or slow" -n auto --dist worksteal --durations 20
 
 SANITIZED := CC="cc -fsanitize=address,undefined -fno-sanitize-recover=undefined -g" ASAN_OPTIONS=detect_leaks=0 \
   LD_PRELOAD="$$(cc -print-file-name=libasan.so) $$(cc -print-file-name=libubsan.so)"

@@ -53,6 +53,7 @@ def test_absence_is_noticed_without_an_import(monkeypatch: pytest.MonkeyPatch) -
     assert "no fast-downward.translate and no up-fast-downward" in reason
 
 
+@pytest.mark.long
 def test_plots_are_pictures(run: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("matplotlib")
     words = "bench --rooms 6 --seeds 2 --discounts 0.9 --repeat 1 --contenders search,automata"

@@ -10,6 +10,7 @@ from serendipity.cli.on_demand import NAMES
 from tests.cli.conftest import Runs
 
 
+@pytest.mark.long
 def test_examples_of_help_run(run: Runs, tmp_path: Path) -> None:
     (tmp_path / "goals.txt").write_text("2: conducted_triage commx room1\n1: conducted_triage commx room2\n")
     for command in EXAMPLES:

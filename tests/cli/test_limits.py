@@ -152,6 +152,7 @@ def test_what_was_going_on_is_said_once() -> None:
         raise MemoryError
 
 
+@pytest.mark.long
 def test_what_is_loaded_in_the_middle_is_loaded_first_under_a_time_limit() -> None:
     """Loading arrays and solvers takes longer than a short limit allows to overrun it."""
     late = {name for room in ("search", "verify") for name in imported_in_functions(ROOT / room)}

@@ -142,6 +142,7 @@ def test_an_error_is_not_hidden(monkeypatch: pytest.MonkeyPatch) -> None:
     assert screen.getvalue() == shown  # nothing draws any more
 
 
+@pytest.mark.long
 def test_ctrl_c_on_a_terminal_is_one_line(tmp_path: Path) -> None:
     """A report that takes long is interrupted while its bar is there."""
     serendipity.generate_usar(tmp_path / "building", rooms=60, medkits=4, robots=3, seed=1)

@@ -19,6 +19,7 @@ def suite(tmp_path: Path) -> Path:
     return tmp_path / "suite"
 
 
+@pytest.mark.long
 def test_formats_say_the_same(run: Runs, suite: Path) -> None:
     shown = run(f"reproduce suite {SHORT}")
     assert (shown.code, shown.err) == (0, "")
@@ -34,6 +35,7 @@ def test_formats_say_the_same(run: Runs, suite: Path) -> None:
     assert "Table II:" in shown.out
 
 
+@pytest.mark.long
 def test_files(run: Runs, suite: Path, tmp_path: Path) -> None:
     done = run(f"reproduce suite {SHORT} -o rows.csv --report page.html --tables table")
     assert (done.code, done.out, done.err) == (0, "", "")

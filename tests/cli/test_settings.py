@@ -85,6 +85,7 @@ def test_options_go_where_they_mean_the_same(run: Runs) -> None:
     assert set(COMMANDS) <= set(NAMES)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("text", "words"),
     [

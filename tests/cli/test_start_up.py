@@ -41,6 +41,7 @@ def test_a_signal_is_listened_to_before_anything_loads() -> None:
     }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "command",
     [

@@ -16,6 +16,7 @@ def names(folder: Path) -> list[str]:
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("command", "size", "fails"),
     [
@@ -86,6 +87,7 @@ def test_a_full_standard_output_is_one_line(command: str, shell: Callable[[str],
     assert told == "Error: standard output can't be written: No space left on device\n"
 
 
+@pytest.mark.long
 def test_closed_streams_do_no_harm(tmp_path: Path, shell: Callable[[str], tuple[int, str]]) -> None:
     assert shell("serendipity examples >&-") == (2, "Error: standard output is closed\n")
     assert shell("serendipity plan --example room2 -o answer.json >&- 2>&- <&-") == (0, "")

@@ -21,6 +21,7 @@ def name(page: Path) -> str:
     return str(page.relative_to(ROOT))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("page", pages_with(slow=False), ids=name)
 def test_blocks_run(page: Path, tmp_path: Path) -> None:
     printed: str | None = None

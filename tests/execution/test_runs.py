@@ -13,6 +13,7 @@ def _figures(runs: serendipity.execution.Runs) -> list[dict[str, object]]:
     return [{k: v for k, v in row.to_dict().items() if k not in TIMES} for row in runs.rows]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("human", ["observant", "local", "omniscient", "noisy:0.3"])
 def test_the_same_seed_gives_the_same_runs_in_any_number_of_processes(human: str) -> None:
     task = serendipity.example("room2")

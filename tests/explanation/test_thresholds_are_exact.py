@@ -59,6 +59,7 @@ def test_longer_windows_help_up_to_the_reported_weight(call: Call, weight: Fract
     assert helped(call, window_weight=weight) == pays
 
 
+@pytest.mark.long
 @given(WINDOWED)
 def test_relaxed_rules_give_what_is_said(call: Call) -> None:
     found = explained(call)

@@ -45,6 +45,7 @@ def begun(built: Task, epoch: int, name: str) -> int:
     return next(start for start, action in zip(starts, plan.human_plan, strict=True) if action == name)
 
 
+@pytest.mark.long
 def test_a_morning() -> None:
     built = serendipity.example("morning")
     found = serendipity.explain(built, discount=0.5)

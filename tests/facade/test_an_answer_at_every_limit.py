@@ -64,6 +64,7 @@ def _says(result: Result) -> tuple[Any, ...]:
     return result.status, result.human_plan, result.cost, result.lower_bound, result.saving_alone
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("options", [*ALL, *UNSURE], ids=str)
 def test_an_answer_is_not_lost_breaks_no_rule_and_is_not_refuted(options: dict[str, Any]) -> None:
     """Where humans replan, ties count or help is silent there was none before their optimum was proved.
@@ -136,6 +137,7 @@ def test_nothing_is_at_hand_where_robots_have_goals() -> None:
         assert first.saving_alone is not None or first.status != "feasible"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("options", [{}, {"mode": "communication"}, *REPLANS, *TIES], ids=str)
 def test_a_plan_that_takes_too_many_epochs_is_no_answer(options: dict[str, Any]) -> None:
     """It was an error where a limit came: that the horizon is too short, which it is for that plan alone."""
@@ -148,6 +150,7 @@ def test_a_plan_that_takes_too_many_epochs_is_no_answer(options: dict[str, Any])
         assert result.horizon in (None, len(best))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("options", ALL, ids=str)
 def test_what_was_told_on_the_way_is_not_taken_back(options: dict[str, Any]) -> None:
     """In serendipity mode it was: the answer at hand, where a limit came before the human's optimum."""

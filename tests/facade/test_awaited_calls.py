@@ -50,6 +50,7 @@ CALLS: dict[str, Callable[[Task], Awaitable[object]]] = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("call", CALLS)
 def test_cancelling_ends_the_search(endless: Task, call: str) -> None:
     async def cancelled() -> float:

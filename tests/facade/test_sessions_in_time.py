@@ -29,6 +29,7 @@ def now(answer: Result) -> list[str]:
     return [step.action for step in answer.plan or () if step.epoch == 1]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["morning", "office"])
 def test_following_the_answer_epoch_by_epoch(name: str) -> None:
     session = Session(serendipity.example(name), discount=0.5)
@@ -49,6 +50,7 @@ _FIGURES = ("status", "cost", "objective", "opportunity", "saving", "lower_bound
 MODES: Final = ("serendipity", "composite", "individual")
 
 
+@pytest.mark.long
 @given(
     st.one_of(calls_in_time(modes=MODES), calls_in_time(modes=MODES, of=timed_tasks())),
     st.randoms(use_true_random=False),

@@ -71,6 +71,7 @@ def _is_remembered(answer: Result, rest: float) -> bool:
     return _value(answer) <= rest + 1e-9 and answer.options.human_model == "omniscient" and not over_plans
 
 
+@pytest.mark.long
 def test_over_random_calls_and_whole_executions() -> None:
     """In every mode, interrupted: no worse than the rest, no false bound; and in the end the optimum."""
     counted = 0
@@ -225,6 +226,7 @@ def _no_error(ending: tuple[Session, Result] | LimitReachedError) -> tuple[Sessi
     return ending
 
 
+@pytest.mark.long
 def test_whenever_time_is_up_help_that_was_begun_is_answered_or_still_there() -> None:
     """A limit before it was known what the person gains alone gave way to idle robots, in 1 call of 4,000."""
     helped = unknown = 0

@@ -36,6 +36,7 @@ def test_calls_on_one_task_may_run_in_any_threads_at_once() -> None:
     assert found == [_cost(case_1(), options) for options in OPTIONS] * 4
 
 
+@pytest.mark.long
 def test_the_kernel_is_asked_by_one_thread_at_a_time() -> None:
     task = serendipity.example("taxis")
     sure = serendipity.plan(task, mode="individual").cost
@@ -67,6 +68,7 @@ def test_sessions_in_several_threads_keep_to_themselves() -> None:
         assert list(threads.map(executed, discounts)) == [executed(discount) for discount in discounts]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", multiprocessing.get_all_start_methods())
 def test_processes_of_every_kind_answer_the_same(method: str) -> None:
     task = case_1()

@@ -56,6 +56,7 @@ def test_a_line_is_there_whole_or_not_at_all(tmp_path: Path) -> None:
     assert [event["event"] for event in records.events] == ["one", "three"]
 
 
+@pytest.mark.long
 def test_a_participant_goes_on(folder: Path, request: pytest.FixtureRequest, monkeypatch) -> None:
     room, do = join(opened(folder)), Participant.do
     request.getfixturevalue("often_full")

@@ -306,6 +306,7 @@ def test_wrong_words_are_one_line(
     assert said.count("\n") == 1
 
 
+@pytest.mark.long
 def test_what_was_played_outlives_a_server_that_is_killed() -> None:
     with serving(command="play") as server:
         with connect(server.url.replace("http", "ws") + "/live") as page:
@@ -320,6 +321,7 @@ def test_what_was_played_outlives_a_server_that_is_killed() -> None:
         assert [event["event"] for event in shown] == ["begun", "epoch", "epoch"]
 
 
+@pytest.mark.long
 def test_a_port_in_use_is_one_line(capsys, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     with serving(command="play") as server:

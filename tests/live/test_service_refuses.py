@@ -159,6 +159,7 @@ def test_names_of_other_hosts_and_pages_of_other_sites(server: Server) -> None:
     assert not [name for name in own.headers if name.startswith("access-control")]
 
 
+@pytest.mark.long
 def test_a_token_where_there_is_one() -> None:
     with serving("--workers", "1", env={"SERENDIPITY_TOKEN": "secret word"}) as server:
         asked = {"task": ROOM2}

@@ -135,6 +135,7 @@ def test_one_call_of_a_session_at_a_time(server: Server, long_call: dict[str, ob
     assert server.post(f"/sessions/{session['id']}/execute", {"actions": []}).status_code == 200
 
 
+@pytest.mark.long
 def test_workers_end_with_a_server_that_is_killed() -> None:
     with serving("--workers", "2") as server:
         assert answers(server)
@@ -143,6 +144,7 @@ def test_workers_end_with_a_server_that_is_killed() -> None:
         until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers))
 
 
+@pytest.mark.long
 def test_what_workers_have_in_temporary_files_goes_with_them(tmp_path: Path) -> None:
     def folders() -> list[Path]:
         return [*tmp_path.iterdir()]

@@ -39,6 +39,7 @@ def test_what_is_saved_while_somebody_joins_is_whole(folder: Path, monkeypatch: 
     assert list(dict.fromkeys(event["participant"] for event in study.events())) == names
 
 
+@pytest.mark.long
 def test_the_table_of_rounds_is_read_back(folder: Path, capsys) -> None:
     study, design = opened(folder, seed=1), open_design(folder)
     for _ in range(4):

@@ -148,6 +148,7 @@ def test_a_round_that_has_no_end_ends(folder: Path) -> None:
     assert say(room, "go on")["stage"] == "questions"
 
 
+@pytest.mark.long
 def test_several_take_part_at_once(folder: Path) -> None:
     study, design = opened(folder), open_design(folder)
     with ThreadPoolExecutor(6) as pool:
@@ -158,6 +159,7 @@ def test_several_take_part_at_once(folder: Path) -> None:
     assert all(room.stage == "end" for room in rooms)
 
 
+@pytest.mark.long
 def test_whatever_a_page_sends_it_is_answered_and_can_be_saved(folder: Path) -> None:
     """Halves of characters, which no file takes, and links of nobody."""
     (folder / "study.toml").write_text(PLAIN[: PLAIN.rindex("[[scenarios]]")])
@@ -183,6 +185,7 @@ def test_whatever_a_page_sends_it_is_answered_and_can_be_saved(folder: Path) -> 
             connect(live + "nobody")
 
 
+@pytest.mark.long
 def test_neither_the_log_nor_the_files_tell_others_the_secrets(folder: Path) -> None:
     design, room = open_design(folder), join(opened(folder))
     with serving("--study", str(folder), "-v", command="play") as server:
@@ -197,6 +200,7 @@ def test_neither_the_log_nor_the_files_tell_others_the_secrets(folder: Path) -> 
 # -- restarts
 
 
+@pytest.mark.long
 def test_a_study_goes_on_where_it_was_when_the_server_comes_back(folder: Path) -> None:
     design = open_design(folder)
     rooms = [join(opened(folder)) for _ in range(3)]
@@ -213,6 +217,7 @@ def test_a_study_goes_on_where_it_was_when_the_server_comes_back(folder: Path) -
         assert after.stage == "end"
 
 
+@pytest.mark.long
 def test_whatever_was_written_last_the_study_goes_on(folder: Path) -> None:
     """The machine fails after any line."""
     (folder / "study.toml").write_text(PLAIN[: PLAIN.rindex("[[scenarios]]")])

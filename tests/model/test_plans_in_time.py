@@ -105,6 +105,7 @@ def test_durations_are_of_whole_actions() -> None:
     assert GroundAction("a h", (0,), (), (), (), (), Fraction(1)).duration == 1
 
 
+@pytest.mark.long
 @settings(max_examples=150, deadline=None)
 @given(st.data(), st.booleans())
 def test_the_course_of_plans_is_that_of_brute_force(data: st.DataObject, strict: bool) -> None:

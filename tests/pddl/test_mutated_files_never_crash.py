@@ -47,6 +47,7 @@ def check(number: int, originals: Sequence[Files] = ORIGINALS) -> None:
         )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("start", range(0, 600, 50))
 def test_mutated_files_load_or_fail_in_one_line(start: int) -> None:
     for number in range(start, start + 50):

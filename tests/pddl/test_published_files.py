@@ -36,6 +36,7 @@ def test_first_published_task(usar200: Path) -> None:
     assert groups == {"at_commx": 21, "at_robot": 21, "at_mk1": 23, "at_mk2": 23}
 
 
+@pytest.mark.long
 def test_all_published_tasks_load_without_a_warning(usar200: Path) -> None:
     folders = [path for path in usar200.iterdir() if path.is_dir()]
     assert len(folders) == 200

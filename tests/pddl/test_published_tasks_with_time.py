@@ -22,6 +22,7 @@ DURATIONS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("domain", ACTORS)
 def test_tasks_of_ipc_2002_are_read(ipc2002time: Path, domain: str) -> None:
     folder = ipc2002time / domain

@@ -66,6 +66,7 @@ except SerendipityError as error:
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("text", "more"),
     [

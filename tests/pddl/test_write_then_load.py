@@ -3,6 +3,7 @@
 import tempfile
 from pathlib import Path
 
+import pytest
 from hypothesis import given
 
 from serendipity import Task, load, load_pddl
@@ -84,6 +85,7 @@ def test_published_tasks_come_back_equal(usar200: Path) -> None:
     assert joined(again(task)) == joined(task)
 
 
+@pytest.mark.long
 @given(tasks())
 def test_writing_keeps_what_can_happen(task: Task) -> None:
     back = again(task)

@@ -29,6 +29,7 @@ RESULTS = {
 """By file: the example that it is about, its status and its cost."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", RESULTS)
 def test_a_result_is_read_and_proved(name: str) -> None:
     example, status, cost = RESULTS[name]

@@ -14,6 +14,7 @@ def test_contract(room2: Task) -> None:
     assert float(run.cost) == 12.6
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(5))
 def test_contract_where_robots_fail_and_are_late(room2: Task, seed: int) -> None:
     keeps_its_contract(room2, Simulated(Random(seed), Durations(others=(0.5, 2.5)), fail=0.3, slow=0.2))

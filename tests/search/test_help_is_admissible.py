@@ -101,6 +101,7 @@ def test_bound_holds_where_kits_are_passed_on(number: int, over: int | None) -> 
     assert assert_admissible(relays()[number], _DISCOUNTED, over) >= (10 if over is None else 0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("discount", ["0", "0.9", "1"])
 def test_bound_holds_on_random_tasks(discount: str) -> None:
     @given(tasks() | strips_tasks() | family_tasks())

@@ -28,6 +28,7 @@ def report_of(call: Call) -> InterruptionReport:
     )
 
 
+@pytest.mark.long
 @given(calls(modes=("serendipity",), ties=False))
 def test_every_window_is_as_good_as_brute_force_finds_it(call: Call) -> None:
     plan = call.human_plan or optimal_human_plan(call.task)

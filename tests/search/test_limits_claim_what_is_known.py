@@ -54,6 +54,7 @@ def _wrong(task: Task, answer: Result) -> str | None:
     return None if certificate.verdict == "proved" else str(certificate)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("options", OPTIONS, ids=str)
 def test_no_opportunity_before_the_answer_without_robots_is_known(options: dict[str, Any]) -> None:
     """What the human gains alone was taken for help while it was still being looked for."""
@@ -112,6 +113,7 @@ def test_answers_over_ties_are_certified_wherever_time_runs_out(ties: str) -> No
             assert (answer.lower_bound or 0) <= (found[-1].objective or 0) <= (answer.objective or 0)
 
 
+@pytest.mark.long
 def test_savings_are_counted_from_the_least_that_doing_nothing_costs() -> None:
     """The first way that robots had found to their goal counted, before the least was known."""
     task = build(

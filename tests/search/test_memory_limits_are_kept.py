@@ -43,6 +43,7 @@ def peak() -> float:
     return next(int(line.split()[1]) / 1024 for line in lines if line.startswith("VmHWM"))
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not STATUS.exists(), reason="asks Linux what a process has had in memory")
 @pytest.mark.parametrize("mode", ["serendipity", "composite"])
 def test_the_best_plan_so_far_is_the_answer(mode: str) -> None:

@@ -18,6 +18,7 @@ def corridor() -> Task:
     return build(goal=f"p{STEPS}", init="p0", actions={**steps, "wave r": "-> waved"})
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "options",
     [
@@ -37,6 +38,7 @@ def test_planning_beside_a_long_plan(options: dict[str, Any]) -> None:
     assert all(result.realised.values())
 
 
+@pytest.mark.long
 def test_plans_of_more_epochs_than_there_may_be_are_refused_in_one_line() -> None:
     given = build(goal="g", actions={"a h": "-> g", "b h": "-> !g", "c r": "-> !g"})
     plan = ["a h", "b h"] * 500_000 + ["a h"]

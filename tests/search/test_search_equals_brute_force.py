@@ -93,6 +93,7 @@ def extreme(draw: st.DrawFn) -> Call:
     return replace(call, task=replace(call.task, actions=actions), options=options)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("kernel", "as_if_large"), [("on", False), ("on", True), ("off", False)])
 def test_with_costs_however_far_apart(
     kernel: str, as_if_large: bool, monkeypatch: pytest.MonkeyPatch

@@ -156,6 +156,7 @@ def test_an_explanation_says_what_it_leaves_out(options: dict[str, Any]) -> None
             assert not explanation.moments and explanation.discount is None and not explanation.misses
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("human_model", ["observant", "local"])
 def test_the_epochs_played_by_then_are_told(human_model: str) -> None:
     task = case_2()

@@ -42,6 +42,7 @@ def test_every_agent_and_object_has_a_token_in_every_frame(room2: Scene) -> None
         assert ("former" in keys) == (frame.former_at != frame.at[room2.human])
 
 
+@pytest.mark.long
 def test_png_is_a_picture(room2: Scene) -> None:
     pytest.importorskip("matplotlib", reason="needs the extra 'plot'")
     content = draw(room2, ".png")

@@ -18,6 +18,7 @@ from tests.facade.test_results_tell_times import answered
 from tests.show.drawn import SVG
 
 
+@pytest.mark.long
 @given(calls_in_time())
 def test_bars_states_and_costs_are_those_of_the_answer(call: Call) -> None:
     built, answer = call.task, answered(call)

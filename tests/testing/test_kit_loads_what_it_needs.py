@@ -20,6 +20,7 @@ def printed(program: str) -> str:
     return done.stdout
 
 
+@pytest.mark.long
 def test_hypothesis_loads_for_strategies_only() -> None:
     program = "import serendipity.testing as kit\nkit.task, kit.best, kit.check_planner, kit.random_call"
     assert "hypothesis" not in loaded_after(program)

@@ -51,6 +51,7 @@ def test_nothing_is_found_in_all_calls_of_the_default(pytester: pytest.Pytester)
     checked(pytester, TEXT).assert_outcomes(passed=7)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("bug", "ci"), [*((bug, "") for bug in BUGS), (next(iter(BUGS)), "true")])
 def test_each_bug_is_found_and_its_smallest_case_shown(
     bug: str, ci: str, pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
@@ -81,6 +82,7 @@ def case_shown(done: pytest.RunResult) -> str:
     return shown[shown.index("  task(") : shown.index("again: ")]
 
 
+@pytest.mark.long
 def test_a_law_finds_one_without_brute_force(pytester: pytest.Pytester) -> None:
     right, wrong = BUGS["a window costs its weight once"]
     done = checked(pytester, TEXT.replace(right, wrong), "-k", "discount", "--serendipity-count", "5")

@@ -79,6 +79,7 @@ def hangs(task: Task, discount: Fraction) -> list[str] | None:
             continue
 
 
+@pytest.mark.long
 def test_a_planner_that_hangs_is_ended() -> None:
     started = time.monotonic()
     with pytest.raises(PlannerError, match=r"(?s)seed \d+\).*TimeoutError: no answer within 0.2 s"):

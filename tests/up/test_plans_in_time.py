@@ -50,6 +50,7 @@ def valid(problem: Problem, plan: TimeTriggeredPlan) -> bool:
     return bool(TimeTriggeredPlanValidator().validate(problem, plan))
 
 
+@pytest.mark.long
 @given(timed_tasks(), st.sampled_from(OPTIONS))
 def test_tasks_in_time_come_back_and_their_plans_are_valid(task: Task, options: dict[str, object]) -> None:
     assume(task.needs_time and not task.robot_goal)
@@ -61,6 +62,7 @@ def test_tasks_in_time_come_back_and_their_plans_are_valid(task: Task, options: 
         assert valid(problem, to_plan(after, problem))
 
 
+@pytest.mark.long
 @given(scripted_tasks(), st.sampled_from(OPTIONS))
 def test_plans_beside_timed_effects_are_valid_or_refused(task: Task, options: dict[str, object]) -> None:
     assume(task.script and not task.robot_goal)

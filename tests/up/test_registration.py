@@ -4,6 +4,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 
 def run(code: str, folder: Path) -> str:
     script = folder / "script.py"
@@ -27,6 +29,7 @@ except ImportError as error:
     )
 
 
+@pytest.mark.long
 def test_importing_registers_the_engine_once(tmp_path: Path) -> None:
     """In the environment that is there already, and in those to come."""
     code = """
@@ -45,6 +48,7 @@ with get_environment().factory.OneshotPlanner(name="serendipity"):
     assert any("Serendipity" in line for line in rest)
 
 
+@pytest.mark.long
 def test_up_ini_registers_the_engine(tmp_path: Path) -> None:
     (tmp_path / "up.ini").write_text(
         "[engine serendipity]\nmodule_name: serendipity.up.engine\nclass_name: SerendipityEngine\n"

@@ -21,6 +21,7 @@ def _verdict(task: Task, answer: Result, method: str) -> str:
     return serendipity.verify(task, answer, method=method).verdict  # type: ignore[arg-type]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("ties", ["fixed", "optimistic", "robust", "expected"])
 def test_bounds_without_help_are_net_of_its_window(ties: str, method: str) -> None:
@@ -54,6 +55,7 @@ def test_robots_that_see_to_their_own_goals_are_an_answer(method: str) -> None:
         assert _verdict(task, early, method) == verdict
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("ties", ["optimistic", "robust", "expected"])
 def test_bounds_of_what_is_unknown_hold_whichever_optimal_plan_the_human_is_on(

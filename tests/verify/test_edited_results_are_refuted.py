@@ -62,6 +62,7 @@ def _count(every: int, count: int) -> Counter[str]:
     return found
 
 
+@pytest.mark.long
 def test_edited_results() -> None:
     found = _count(_STRIDE, 4)
     assert found["refuted"] > 200

@@ -13,6 +13,7 @@ from verify.exhaustive.team import excluding
 from verify.limits import limited
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("mode", ["serendipity", "communication", "composite"])
 def test_exhaustive_search_equals_brute_force(mode: str) -> None:
     @given(calls(modes=(mode,), of=tasks() | oddly_priced_tasks()))
@@ -22,6 +23,7 @@ def test_exhaustive_search_equals_brute_force(mode: str) -> None:
     law()
 
 
+@pytest.mark.long
 @given(calls())
 def test_turns_equal_brute_force(call: Call) -> None:
     check(call, method="auto")
@@ -38,6 +40,7 @@ def test_what_excludes_each_other_is_what_an_epoch_says(call: Call) -> None:
                     assert bool(apart[i, j]) == conflicting(a, b, strict=strict)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("method", "at_once"), [("exhaustive", 2), ("exhaustive", 8_192), ("program", 1)])
 @pytest.mark.parametrize("worked", WORKED, ids=str)
 def test_worked_cases(worked: Worked, method: str, at_once: int) -> None:

@@ -37,6 +37,7 @@ def _rounded(value: Fraction | None) -> float | None:
     return None if value is None else float(value)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("mode", ["serendipity", "communication", "composite", "individual"])
 def test_automata_equal_brute_force(mode: str) -> None:
     @given(calls(modes=(mode,)))
@@ -46,6 +47,7 @@ def test_automata_equal_brute_force(mode: str) -> None:
     law()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("mode", ["serendipity", "communication"])
 def test_the_papers_equations_equal_brute_force(mode: str) -> None:
     @settings(max_examples=50)

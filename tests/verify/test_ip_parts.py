@@ -38,6 +38,7 @@ def _part(task: Task) -> Relevant | None:
 # -- relevance and automata
 
 
+@pytest.mark.long
 @given(tasks())
 def test_irrelevant_actions_change_no_optimum(task: Task) -> None:
     part = _part(task)

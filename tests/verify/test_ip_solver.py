@@ -106,6 +106,7 @@ def in_a_process() -> Iterator[None]:
         yield
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("presolve", [False, True])
 @pytest.mark.parametrize("seed", range(3))
 def test_a_process_says_what_a_call_says(seed: int, presolve: bool) -> None:

@@ -20,6 +20,7 @@ from verify.certificate.reactions import cheapest_reaction
 _PAGE = Path(__file__).parents[2] / "docs" / "verification.md"
 
 
+@pytest.mark.long
 def test_the_table_is_what_each_method_says_of_each_kind_and_the_page_has_ten_rows_of_it() -> None:
     written = Path(__file__).with_name("kinds.md").read_text()
     assert table().strip() == written.strip()
@@ -39,6 +40,7 @@ def test_nothing_is_left_out_of_scope_that_a_proof_needs() -> None:
 # -- humans who replan
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("human_model", ["observant", "local"])
 def test_what_no_joint_plan_undercuts_nothing_undercuts(human_model: str) -> None:
     """A program of all joint plans bounds what happens with a human who replans: playing finds no less."""

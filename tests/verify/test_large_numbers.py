@@ -55,6 +55,7 @@ def test_help_is_not_denied(number: int, method: str) -> None:
         assert (honest, denied) == ("proved", "refuted")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "sizes", [{"weight": 10**6, "coefficient": 10**3}, {"weight": 0}, {"coefficient": 0}]
 )

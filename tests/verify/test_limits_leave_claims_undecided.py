@@ -66,6 +66,7 @@ def _until_none_comes(examine: Callable[[Countdown], Any], limit: str) -> Iterat
         looks = max(looks + 1, looks * 6 // 5)  # each of the first ones, then fewer of them
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("limit", LIMITS)
 @pytest.mark.parametrize("name", [*CALLS, "goals"])
 def test_right_answers_are_never_refuted_and_never_proved_by_halves(name: str, limit: str) -> None:
@@ -109,6 +110,7 @@ def test_solving_ends_with_a_proved_answer_or_none(mode: str, limit: str, encodi
         assert found.status != "unknown" or found.reason
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("limit", LIMITS)
 @pytest.mark.parametrize("name", [*CALLS, "goals"])
 def test_the_quick_check_says_what_it_did_not_examine(name: str, limit: str) -> None:

@@ -17,6 +17,7 @@ def _verdict(claims: tuple[Claim, ...]) -> str:
     return Certificate(claims, 0.0).verdict
 
 
+@pytest.mark.long
 def test_every_row_of_the_table_has_an_example() -> None:
     met = {(kind_of(good.result), good.result.status) for good in corpus()}
     rows = {(kind, status) for kind, row in NEEDED.items() for status in row}

@@ -48,10 +48,12 @@ def test_bugs_can_be_planted_and_removed(bug: Bug) -> None:
     assert vars(bug.owner)[bug.attribute] is before
 
 
+@pytest.mark.long
 def test_without_a_bug_everything_is_proved() -> None:
     assert fate(None, 50).how == "survived"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", QUICK)
 def test_planted_bugs_are_refuted(name: str) -> None:
     seen = fate(BY_NAME[name], 50)

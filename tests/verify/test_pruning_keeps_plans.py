@@ -15,6 +15,7 @@ from verify.certificate.certify import certify
 from verify.limits import limited
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "limits",
     [

@@ -99,6 +99,7 @@ def test_the_graph_has_the_plans_and_no_others() -> None:
             assert graph.named(tuple(task.actions[i].name for i in plan)) == plan
 
 
+@pytest.mark.long
 def test_too_many_plans_are_refused_without_listing_them() -> None:
     task = errands(12)
     with pytest.raises(serendipity.UsageError, match="more than 1000 optimal plans"):
@@ -161,6 +162,7 @@ def test_robust_rests_on_the_plan_that_is_left_alone() -> None:
     assert "none is dearer" in next(c for c in certificate.claims if c.claim == "no_opportunity").reason
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("method", ["auto", "program", "exhaustive"])
 @pytest.mark.parametrize("ties", ["expected", "robust", "optimistic"])
 def test_wrong_ties_are_refuted_by_every_method(ties: str, method: str) -> None:

@@ -35,6 +35,7 @@ def verdict(answer: Result, **how: Any) -> str:
     return serendipity.verify(case_4(), again, **how).verdict
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("ties", TIES)
 def test_whenever_time_runs_out_the_answer_can_be_had(ties: str) -> None:
     """Each answer that is not proved comes with its plan, so that it is proved to be possible."""

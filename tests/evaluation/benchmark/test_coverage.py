@@ -40,6 +40,7 @@ def cells(grid: Grid, first: str) -> dict[str, str]:
     return next(dict(zip(grid.header, row, strict=True)) for row in grid.rows if row[0] == first)
 
 
+@pytest.mark.long
 def test_the_search_answers_each_mode_as_plan_does(suite: Path) -> None:
     rows = list(measure(problems(suite, ["flights"]), MODES, ["search"], time_limit=20))
     assert [row.mode for row in rows] == list(MODES)

@@ -13,6 +13,7 @@ SMALL = Axis("rooms", (4, 8))
 MEASURED = Axis("length", fixed={"rooms": 8})
 
 
+@pytest.mark.long
 def test_a_sample_is_the_planners_answer(
     monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
@@ -32,6 +33,7 @@ def test_a_sample_is_the_planners_answer(
         assert sample.seconds > sample.prepare_seconds
 
 
+@pytest.mark.long
 def test_a_measured_axis_has_the_length_of_his_plan(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(AXES, "length", MEASURED)
     found = list(scale(["length"], seeds=1))

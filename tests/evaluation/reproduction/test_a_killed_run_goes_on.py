@@ -101,6 +101,7 @@ def test_a_task_that_changed_is_done_again(suite: Path, tmp_path: Path, solved: 
     ]
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="needs /proc to find a process's children")
 def test_kill_in_the_middle(suite: Path, tmp_path: Path) -> None:
     answer, journal = tmp_path / "rows.csv", tmp_path / "rows.csv.journal"

@@ -24,6 +24,7 @@ from serendipity.model.resources.processes import in_processes
 SHORT: dict[str, Any] = {"modes": ["individual", "serendipity"], "discounts": ["0.6"]}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_a_file_that_cannot_be_read(jobs: int, suite: Path, tmp_path: Path) -> None:
     shutil.copytree(suite, tmp_path / "suite")
@@ -64,6 +65,7 @@ def kill_once(place: str) -> str:
     return mark.name
 
 
+@pytest.mark.long
 def test_a_killed_process_is_tried_again_alone(tmp_path: Path) -> None:
     def lost(place: str) -> str:
         return f"lost {Path(place).name}"
@@ -85,6 +87,7 @@ def die(given: Assignment) -> TaskRows:
     return work.failed(given, "not asked")
 
 
+@pytest.mark.long
 def test_a_task_that_kills_dasks_workers(caplog: pytest.LogCaptureFixture) -> None:
     pytest.importorskip("distributed", reason="needs the extra 'dask'")  # which has its defaults
     import dask
@@ -97,6 +100,7 @@ def test_a_task_that_kills_dasks_workers(caplog: pytest.LogCaptureFixture) -> No
     assert not [record for record in dasks if record.levelname in ("WARNING", "ERROR")]
 
 
+@pytest.mark.long
 def test_a_scheduler_that_is_gone_is_one_line(tmp_path: Path) -> None:
     pytest.importorskip("distributed", reason="needs the extra 'dask'")  # which has its defaults
     import dask

@@ -18,6 +18,7 @@ def run(suite: Path) -> Reproduction:
     return reproduce(suite, modes=["individual", "serendipity", "communication"], discounts=["0.6", "0.9"])
 
 
+@pytest.mark.long
 def test_the_page_needs_nothing_else(run: Reproduction) -> None:
     pytest.importorskip("matplotlib", reason="needs the extra 'plot'")
     page = html_report(run, tables(run))

@@ -41,10 +41,12 @@ def test_rows_are_the_answers_in_order(run: Reproduction) -> None:
     assert found == expected
 
 
+@pytest.mark.long
 def test_processes_give_the_same_rows(suite: Path, run: Reproduction) -> None:
     assert without_times(reproduce(suite, modes=MODES, discounts=DISCOUNTS, jobs=2)) == without_times(run)
 
 
+@pytest.mark.long
 def test_a_dask_cluster_gives_the_same_rows(suite: Path, run: Reproduction) -> None:
     again = reproduce(suite, modes=MODES, discounts=DISCOUNTS, jobs=1, dask="local")
     assert without_times(again) == without_times(run)

@@ -73,6 +73,7 @@ def test_what_was_come_across_is_a_plan(task: Task) -> None:
         assert found is None or assert_leads_to_goal(packed, state, found) == 0  # a goal
 
 
+@pytest.mark.long
 def test_an_interrupted_search_keeps_its_plan(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("search.classical.planner.SLICE", 0)
     packed = packed_of(CORRIDOR)

@@ -122,6 +122,7 @@ def test_an_interrupted_search_goes_on(task: Task, seed: int) -> None:
     assert found == cost if cost < limit else found >= limit
 
 
+@pytest.mark.long
 def test_bounds_of_states_that_wait_lose_none() -> None:
     for seed in range(40):
         packed = packed_of(family_task("blocks", seed, 5))
@@ -193,6 +194,7 @@ def forgetful(tmp_path_factory: pytest.TempPathFactory) -> CDLL:
 LITTLE = ("-DLONGEST=256", "-DMOST_LANDMARKS=2048", "-DMOST_SETS=65536")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("seed", "blocks"), [(4, 8), (2, 9), (4, 10)])
 def test_landmarks_that_were_forgotten_are_not_used(forgetful: CDLL, seed: int, blocks: int) -> None:
     packed = packed_of(family_task("blocks", seed, blocks))

@@ -191,6 +191,7 @@ def test_a_unit_includes_what_it_stands_on(unit: Path) -> None:
     assert not done.returncode, done.stderr
 
 
+@pytest.mark.long
 @needs_compiler
 def test_the_source_compiles_without_a_warning(binary: Path) -> None:
     compile_kernel([*(compiler() or []), "-Werror"], binary)

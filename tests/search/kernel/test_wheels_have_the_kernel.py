@@ -38,6 +38,7 @@ def kernels(wheel: Path) -> set[str]:
     return {name for name in names if name.startswith("search/kernel/") and not name.endswith(".py")}
 
 
+@pytest.mark.long
 @pytest.mark.skipif(compiler() is None, reason="there is no C compiler here")
 def test_a_wheel_for_this_platform(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     wheel = build(tmp_path, monkeypatch)

@@ -72,6 +72,7 @@ def _claims_no_more(answer: Result, optimum: Result) -> None:
         assert answer.lower_bound <= optimum.objective + 1e-9
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", NAMES)
 def test_one_alone(name: str, optima: dict[tuple[int, int], Result]) -> None:
     for (i, j), optimum in optima.items():
@@ -86,6 +87,7 @@ def test_one_alone(name: str, optima: dict[tuple[int, int], Result]) -> None:
             assert serendipity.check(TASKS[i], answer).verdict != "refuted"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", NAMES)
 def test_all_but_one(name: str, optima: dict[tuple[int, int], Result]) -> None:
     for (i, j), optimum in optima.items():

@@ -42,6 +42,7 @@ def test_epochs_in_which_nothing_can_begin_cost_nothing() -> None:
     assert len({answer.statistics["expanded"] for answer in answers}) == 1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("seed", "most"), [(1, 1_000), (2, 1_000)])
 def test_a_day_of_a_thousand_epochs(seed: int, most: int) -> None:
     alone = serendipity.plan(day(seed), mode="individual")

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -31,11 +32,13 @@ def expected(call: Call) -> tuple[object, ...]:
     return (found.status, *figures, found.window, found.opportunity)
 
 
+@pytest.mark.long
 @given(calls_in_time())
 def test_answers_are_those_of_brute_force(call: Call) -> None:
     assert answered(call) == expected(call)
 
 
+@pytest.mark.long
 @given(
     calls_in_time(modes=("serendipity", "communication")),
     st.sampled_from(["robust", "optimistic", "expected"]),

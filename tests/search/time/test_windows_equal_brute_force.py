@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+import pytest
 from hypothesis import given
 
 import serendipity
@@ -28,6 +29,7 @@ def _expected(call: Call) -> dict[Window, tuple[Fraction, Fraction]] | None:
     return best_by_window(call.task, call.options, plan)
 
 
+@pytest.mark.long
 @given(calls_in_time(modes=("serendipity",)))
 def test_every_window_is_as_good_as_brute_force_finds_it(call: Call) -> None:
     asked = {name: getattr(call.options, name) for name in InterruptionOptions.__annotations__}

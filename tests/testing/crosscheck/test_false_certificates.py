@@ -32,6 +32,7 @@ def _verdicts(judge: FalseCertificates) -> Counter[str]:
     return verdicts
 
 
+@pytest.mark.long
 def test_none_is_proved() -> None:
     verdicts = _verdicts(_presented(0, 8))
     assert verdicts["refuted"] > 200

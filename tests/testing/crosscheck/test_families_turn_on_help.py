@@ -17,6 +17,7 @@ def calls() -> list[PlanCall]:
     return [call for call in map(random_call, range(600)) if call.task.name in FAMILIES]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("family", FAMILIES)
 def test_help_often_pays(calls: list[PlanCall], family: str) -> None:
     of_family = [call for call in calls if call.task.name == family]

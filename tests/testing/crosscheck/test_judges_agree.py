@@ -23,6 +23,7 @@ SEARCH = JUDGES["search"]
 seeds = st.integers(0, 10**9)
 
 
+@pytest.mark.long
 @given(seeds)
 @example(108)  # at a limit, the human alone: of their cheapest plans not the canonical one
 @example(720386)  # on the way, an opportunity before it is known what the human gains alone
@@ -32,6 +33,7 @@ def test_search_and_automata_agree(seed: int) -> None:
     assert found is None, str(found)
 
 
+@pytest.mark.long
 @settings(max_examples=20)
 @given(seeds)
 def test_all_judges_agree(seed: int) -> None:
@@ -47,6 +49,7 @@ def _blind(call: PlanCall, deadline: Deadline) -> Result:
     return replace(answer, opportunity=False, cost=answer.human_cost, saving=0.0)
 
 
+@pytest.mark.long
 def test_a_blind_judge_is_found_out_and_the_case_shrunk(tmp_path: Path) -> None:
     judges = {"search": SEARCH, "blind": _blind}
     call = PlanCall(case_4(), {"mode": "communication", "discount": "0.9", "interference": "strict"})

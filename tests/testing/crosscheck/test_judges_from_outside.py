@@ -111,6 +111,7 @@ def greedy(task: Task, discount: Fraction) -> list[str] | None:
 HERE = "tests.testing.crosscheck.test_judges_from_outside"
 
 
+@pytest.mark.long
 def test_a_function_is_asked_and_found_out(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ["crosscheck", "--judges", "search", "--seed", "3", "--time-limit", "60"]
     assert main([*words, "--count", "5", "--judge", f"{HERE}:best"]) == 0

@@ -43,6 +43,7 @@ def test_case_3_has_two_optimal_plans_of_7_steps() -> None:
     assert {len(plan) for plan in plans} == {7}
 
 
+@pytest.mark.long
 def test_case_4_canonical_plan_goes_by_r() -> None:
     task = case_4()
     assert len(list(human_plans(task))) == 2

@@ -111,6 +111,7 @@ def test_who_may_be_joined_is_idle_where_that_is_declined(lifter: str, cost: str
     assert (found.cost, found.baseline, found.opportunity) == (Fraction(cost), Fraction("5.5"), True)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("other", "cost"), [("wander", "5.5"), ("amble", "4.5")])
 def test_robots_are_idle_while_a_window_may_be_over(other: str, cost: str) -> None:
     """For x they mend in epoch 1, and the human runs, as they do for y anyway: now x's window is over.
@@ -148,6 +149,7 @@ def test_the_human_alone_is_no_opportunity(discount: int, cost: str) -> None:
     assert (found.cost, found.opportunity) == (Fraction(cost), discount == 1)
 
 
+@pytest.mark.long
 @given(calls(modes=("serendipity",), ties=False))
 def test_one_scenario_is_section_3(call: Call) -> None:
     task, options = call.task, call.options.but(max_cost=None)

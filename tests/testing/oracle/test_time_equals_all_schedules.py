@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import combinations
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -90,6 +91,7 @@ def windows(task: Task, schedule: Schedule, plan: HumanPlan, epochs: int) -> Ite
                 yield start, end
 
 
+@pytest.mark.long
 @settings(max_examples=30, deadline=None)
 @given(tiny_tasks(), st.sampled_from(["0", "1"]), st.booleans())
 def test_the_joint_optimum_is_that_of_the_cheapest_schedule(task: Task, waiting: str, strict: bool) -> None:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from itertools import islice
 
+import pytest
 from hypothesis import given, settings
 
 from serendipity.model import Condition, Options, PlanError, Task, TimedFact, Timeline, UsageError
@@ -33,6 +34,7 @@ def test_a_script_that_nobody_cares_for_changes_nothing(call: Call) -> None:
     assert answered(replace(call, task=noisy)) == answered(call)
 
 
+@pytest.mark.long
 @settings(max_examples=40, deadline=None)
 @given(calls_in_time())
 def test_renaming_keeps_the_cost(call: Call) -> None:

@@ -80,6 +80,7 @@ def test_samples_are_about_the_same_plans(name: str) -> None:
         assert _said(sample(name), entry) is None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("mode", ["serendipity", "communication", "composite", "individual"])
 def test_random_calls_have_the_same_optima(mode: str) -> None:
     @settings(max_examples=10)
@@ -101,6 +102,7 @@ def test_random_calls_have_the_same_optima(mode: str) -> None:
     law()
 
 
+@pytest.mark.long
 @settings(max_examples=10)
 @given(calls(modes=("communication", "composite"), ties=False))
 def test_joint_plans_cost_what_brute_force_says(call: Call) -> None:

@@ -104,6 +104,7 @@ def test_no_help_is_denied(name: str, interference: str) -> None:
     assert closed(task, options) is not None
 
 
+@pytest.mark.long
 def test_robots_who_do_not_meet_are_looked_at_to_the_end() -> None:
     options = Options(mode="serendipity", discount=Fraction(9, 10))
     drawn = [without_joint_actions(family_task("logistics", seed, 2)) for seed in range(12)]

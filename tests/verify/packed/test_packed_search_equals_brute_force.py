@@ -171,6 +171,7 @@ def test_several_starts_share_a_search() -> None:
     assert little().sizes
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("name", "seed", "size"), FAMILY)
 def test_the_human_alone_packed_and_not(name: str, seed: int, size: int) -> None:
     task = family_task(name, seed, size)
@@ -203,6 +204,7 @@ def test_what_an_optimal_plan_teaches_is_what_a_search_finds(name: str, seed: in
         assert learned.optimum(state) == IndividualOptimum(task).optimum(state)
 
 
+@pytest.mark.long
 def test_whole_answers_with_better_bounds() -> None:
     """Programs decide nothing here, and better bounds are made as soon as there are two states."""
     decided = 0

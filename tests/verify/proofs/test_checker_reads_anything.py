@@ -65,6 +65,7 @@ def test_any_json(value: Any) -> None:
     _survives(value)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("packed", [False, True], ids=["json", "gzip"])
 def test_any_bytes(packed: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     content = json.dumps(sample("branched").proof).encode()

@@ -24,6 +24,7 @@ def proved(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Task, Result
     return file, task, answer
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("once", [False, True])
 @pytest.mark.parametrize("reason", ["time-limit", "memory-limit", "cancelled"])
 def test_whenever_it_comes(proved: tuple[Path, Task, Result], reason: str, once: bool) -> None:

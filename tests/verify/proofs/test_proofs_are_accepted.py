@@ -118,6 +118,7 @@ def test_a_bound_and_no_epochs_at_all(tmp_path: Path) -> None:
     assert _proof(done, serendipity.plan(done), tmp_path / "done.json")["programs"][0]["columns"] == []
 
 
+@pytest.mark.long
 def test_equal_proofs_are_equal_files(tmp_path: Path) -> None:
     """Whatever the hash seed is: programs are made again by other processes."""
     script = "import sys, serendipity as s; t = s.example('room7'); s.verify(t, s.plan(t), proof=sys.argv[1])"

@@ -70,6 +70,7 @@ def _allows(program: Proof, values: list[int]) -> bool:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", SAMPLES)
 def test_opb_states_the_programs_rows(name: str) -> None:
     """Of its solution, of values near it, and of any."""
@@ -111,6 +112,7 @@ def test_veripb_rejects_doctored_proofs(name: str, tmp_path: Path) -> None:
     assert not _told_by_veripb(DOCTORED[name].files(), tmp_path)
 
 
+@pytest.mark.long
 @settings(max_examples=15)
 @given(calls(ties=False))
 def test_every_proof_of_a_call_can_be_written(call: Call) -> None:

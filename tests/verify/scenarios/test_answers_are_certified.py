@@ -27,6 +27,7 @@ def _verdicts(certificate: Certificate) -> dict[str, tuple[str, str]]:
     return {claim.claim: (claim.verdict, claim.reason) for claim in certificate.claims}
 
 
+@pytest.mark.long
 @given(rivals(), FIXED_OPTIONS, st.data())
 @settings(max_examples=50)
 def test_every_answer_is_proved(

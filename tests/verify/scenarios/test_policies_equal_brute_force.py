@@ -3,6 +3,7 @@
 from dataclasses import replace
 from fractions import Fraction
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -46,6 +47,7 @@ def _scenarios(draw: st.DrawFn) -> tuple[Task, list[PossibleGoal]]:
     return task, found
 
 
+@pytest.mark.long
 @given(_scenarios(), _OPTIONS, st.integers(0, 1))
 @settings(max_examples=60)
 def test_the_least_value_is_that_of_brute_force(

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -24,6 +25,7 @@ def answered(call: Call) -> Result:
     return times.answered(call)
 
 
+@pytest.mark.long
 @given(calls_in_time(), st.sampled_from(["auto", "program", "exhaustive"]))
 def test_answers_are_proved(call: Call, method: str) -> None:
     result = answered(call)
@@ -64,6 +66,7 @@ def test_of_plans_of_one_length_those_of_the_fewest_actions_are_optimal() -> Non
     assert "the human's canonical optimal plan" in certificate.claims[0].reason
 
 
+@pytest.mark.long
 @given(calls_in_time())
 def test_proofs_are_accepted(tmp_path_factory: object, call: Call) -> None:
     result = answered(call)
@@ -75,6 +78,7 @@ def test_proofs_are_accepted(tmp_path_factory: object, call: Call) -> None:
     assert not file.exists() or serendipity.check_proof(file, call.task, result).verdict == "accepted"
 
 
+@pytest.mark.long
 @given(calls_in_time(modes=("serendipity",)), st.sampled_from(["program", "exhaustive"]))
 def test_doing_nothing_is_refuted_where_brute_force_helps(call: Call, method: str) -> None:
     result = answered(call)

@@ -31,6 +31,7 @@ def is_refuted(call: Call) -> bool:
     return serendipity.verify(call.task, found).verdict == "refuted"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", BUGS)
 def test_a_planner_that_forgets_what_is_due_is_refuted(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     method, bug, seed = BUGS[name]

@@ -2,6 +2,7 @@
 
 import json
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -18,6 +19,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.calls.call import ExaminedCall
 
 
+@pytest.mark.long
 @given(calls_in_time())
 @settings(max_examples=25)
 def test_the_least_value_is_that_of_brute_force(drawn: tuple[Task, list[Candidate], Options] | None) -> None:
@@ -44,6 +46,7 @@ def test_answers_about_a_library_are_proved(drawn: tuple[Task, list[Candidate], 
         _prove(task, options, plans=library(task, scenarios))
 
 
+@pytest.mark.long
 @given(tasks_in_time(), st.sampled_from(["fixed", "watched"]), st.booleans(), st.data())
 @settings(max_examples=25)
 def test_answers_about_goals_and_ties_are_proved(

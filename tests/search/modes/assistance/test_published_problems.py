@@ -29,6 +29,7 @@ def proved(task: Task, ties: str) -> Costs:
     return result.bounds.lower
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("domain", "problem"), PROBLEMS)
 def test_values_stand_in_order(spa: Path, domain: str, problem: int) -> None:
     task = load(spa / domain, problem)

@@ -44,6 +44,7 @@ def tables(request: pytest.FixtureRequest) -> Iterator[None]:
         yield
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("tables")
 @pytest.mark.parametrize("ties", ["optimistic", "fixed", "robust"])
 @given(task=games(), no_block=st.booleans())

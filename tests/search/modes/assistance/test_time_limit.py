@@ -47,6 +47,7 @@ def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: i
         assert answer.bounds.upper is None or full.bounds.upper <= answer.bounds.upper
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("ties", TIES)
 @pytest.mark.parametrize("case", [case_5, case_6])
 def test_doing_nothing_is_an_answer_as_soon_as_his_own_plan_is_known(case, ties: str) -> None:

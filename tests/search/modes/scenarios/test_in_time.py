@@ -88,6 +88,7 @@ def library(task: Task, candidates: list[Candidate]) -> list[dict[str, object]]:
     ]
 
 
+@pytest.mark.long
 @given(calls_in_time())
 @settings(max_examples=60)
 def test_search_equals_brute_force(call: tuple[Task, list[Candidate], Options] | None) -> None:

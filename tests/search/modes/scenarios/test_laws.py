@@ -33,6 +33,7 @@ def figures(task: Task, options: Options, candidates: list[Candidate]) -> tuple[
     return answer.objective, answer.cost, answer.baseline, answer.opportunity
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("risk", CHOICES["risk"])
 @given(_SCENARIOS, _OPTIONS)
 @settings(max_examples=40)
@@ -44,6 +45,7 @@ def test_watching_is_no_worse_than_commitment(risk: Risk, asked: Given, options:
     assert watching.baseline == fixed.baseline
 
 
+@pytest.mark.long
 @given(_SCENARIOS, _OPTIONS)
 @settings(max_examples=60)
 def test_knowing_is_no_worse_than_watching(asked: Given, options: Options) -> None:
@@ -57,6 +59,7 @@ def test_knowing_is_no_worse_than_watching(asked: Given, options: Options) -> No
     assert solved(task, known.but(risk="regret"), candidates).cost >= 0
 
 
+@pytest.mark.long
 @given(_SCENARIOS, _OPTIONS)
 @settings(max_examples=60)
 def test_parts_of_a_scenario_are_one(asked: Given, options: Options) -> None:

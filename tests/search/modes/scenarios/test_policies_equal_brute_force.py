@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -25,6 +26,7 @@ def solved(task: Task, options: Options, candidates: list[Candidate]) -> Answer:
     return answer
 
 
+@pytest.mark.long
 @given(scenarios(), st.data())
 @settings(max_examples=40)
 def test_search_equals_brute_force(given_: tuple[Task, list[Candidate]], data: st.DataObject) -> None:

@@ -32,6 +32,7 @@ def _certified(task: Task, **options: object) -> tuple[Result, Certificate]:
     return result, serendipity.verify(task, result)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("human_model", MODELS)
 def test_every_answer_is_proved(human_model: str) -> None:
     @given(reactions(human_model))
@@ -47,6 +48,7 @@ def test_every_answer_is_proved(human_model: str) -> None:
     law()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("human_model", MODELS)
 def test_what_is_played_is_what_brute_force_finds(human_model: str) -> None:
     @given(reactions(human_model))

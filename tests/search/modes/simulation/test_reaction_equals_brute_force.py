@@ -12,6 +12,7 @@ from tests.search.modes.simulation.strategies import Reaction, reactions
 MODELS = ["observant", "local"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("human_model", MODELS)
 def test_reaction_equals_brute_force(human_model: str) -> None:
     @given(reactions(human_model))

@@ -74,6 +74,7 @@ def test_no_bound_is_above_the_optimum() -> None:
     assert exact > asked * 3 / 4
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("most", [1, 4])
 def test_bounds_where_robots_have_too_many_states(monkeypatch: pytest.MonkeyPatch, most: int) -> None:
     """Then what they have for themselves is forgotten, or nothing is said of later windows."""

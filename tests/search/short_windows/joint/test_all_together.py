@@ -70,6 +70,7 @@ def _looked_at(
     return context, incumbent, progress
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("most", [(300_000,), (3, 12, 300_000)])
 @pytest.mark.parametrize("draw", [_of_family, _drawn])
 def test_the_best_window_of_one_epoch_is_found(draw: object, most: tuple[int, ...]) -> None:
