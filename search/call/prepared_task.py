@@ -147,17 +147,17 @@ class PreparedTask:
         return other
 
     def with_goals(
-        self, goals: Sequence[Condition], facts: frozenset[int], deadline: Deadline
+        self, goals: Sequence[tuple[Condition, Condition]], facts: frozenset[int], deadline: Deadline
     ) -> list["PreparedTask"]:
         """The task with each of several goals, all over one packing, so that states and actions are the same.
 
         Args:
-            goals: goals of the human's.
+            goals: of the human's, each with one of the robots'.
             facts: ids of facts to pack besides what the goals ask for.
         """
-        asked = facts.union(*((*goal.positive, *goal.negative) for goal in goals))
+        asked = facts.union(*((*one.positive, *one.negative) for pair in goals for one in pair))
         packed = self.including(asked, deadline).packed
-        found = [self._made_for(goal) for goal in goals]
+        found = [self._made_for(goal, theirs) for goal, theirs in goals]
         for other in found:
             other.plain.known = other.with_human_facts.known = (TaskTables(packed.for_goal(other.task)),)
         return found

@@ -126,10 +126,10 @@ class PackedTask:
         return moved
 
     def for_goal(self, task: Task) -> "PackedTask":
-        """The same packing for a task that differs in the human's goal, over packed facts, only."""
+        """The same packing for a task that differs in its goals, over packed facts, only."""
         other = copy(self)
         other.task = task
-        other.goal = other.condition(task.goal)
+        other.goal, other.robot_goal = other.condition(task.goal), other.condition(task.robot_goal)
         return other
 
     def _sort_by_actor(self, deadline: Deadline) -> None:

@@ -311,9 +311,11 @@ def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
         own = None if options.preservation == "kernel" else _own_facts(packed)
         return PlanSuffix(packed, plan, context.weights.team, due, context.goals, own, context.deadline)
     lasts = isinstance(context.alone, StridingPlanner) and not context.alone_to_both and not packed.awake
-    # Beside a script robots' goals may be reached, or lost, once the human is done: Lasting asks for them.
-    theirs = packed.condition(Condition()) if packed.clock_bit and not lasts else packed.robot_goal
-    replan = Replan(context.alone, context.alone_to_both, theirs, packed.at_rest, context.keys)
+    theirs, both = packed.robot_goal, context.alone_to_both
+    if packed.clock_bit and not lasts:
+        # Beside a script robots' goals may come true, or be lost, once the human is done: Lasting asks.
+        theirs, both = packed.condition(Condition()), None
+    replan = Replan(context.alone, both, theirs, packed.at_rest, context.keys)
     if lasts or (not packed.clock_bit and not (packed.in_time and (packed.awake or replan.both))):
         return replan
     return Lasting(replan, context.goals, due, packed)

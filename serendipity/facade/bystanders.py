@@ -207,6 +207,7 @@ def _beside(task: Task, agent: int, goal: Condition, how: dict[str, Any]) -> Tas
         task,
         goal=task.goal.without(_naming(task, goal, agent)),
         robot_goal=task.robot_goal.without(goal),
+        own_goals=tuple(sorted({**dict(task.own_goals), agent: goal}.items())),
         known_variables=task.variables,
     )
     return left.with_script(Script(people={name: found.human_entries}))

@@ -26,6 +26,7 @@ class Request:
         given: ``pi_H`` where the caller gave it; None predicts it.
         predicts: False: the human is known to have no plan alone, where none is given.
         optimum: what a given plan costs that is not to be improved on; None for what an optimal one costs.
+        original: the task as it was given, where that of the call is in single epochs.
         visible: what a human of ``human_model="local"`` sees; None for the default.
         limits: of the whole call.
         deadline: of the search: the same without the time that is kept for the end.
@@ -41,6 +42,7 @@ class Request:
     question: RememberedQuestion | None = None
     predicts: bool = True
     optimum: Fraction | None = None
+    original: Task | None = None
 
     @property
     def task(self) -> Task:

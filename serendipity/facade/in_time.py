@@ -8,9 +8,10 @@ from itertools import islice
 from typing import Final
 
 from search import PreparedTask, canonical_human_plan, optimal_plans_in_time
-from search.modes.scenarios import Candidate, solve_scenarios
+from search.modes.scenarios import Candidate
 from serendipity.facade import ties
 from serendipity.facade.call import Request, Solver
+from serendipity.facade.nobody_pays import over_scenarios
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.task.actions import Condition
@@ -117,7 +118,8 @@ class ScenariosInTime:
             aimed = task.with_goal(one.goal)
             if broken := outlasts(aimed, one.plan, horizon, strict=options.strict):
                 raise UsageError(f"plan '{one.name}' does not last until epoch {horizon}: {broken}")
-        for answer in solve_scenarios(PreparedTask(units.task), options, inner, self._call.deadline):
+        asked = replace(self._call, prepared=PreparedTask(units.task), original=task)
+        for answer in over_scenarios(asked, inner):
             goals = tuple(_served(units, one, options.discount) for one in answer.goals or ())
             yield _told(units, answer)._replace(goals=goals)
 
@@ -166,7 +168,7 @@ def in_units(call: Request, units: UnitSteps) -> Request:
     options, epochs = call.options.but(head_start=0, ties="fixed"), call.options.head_start
     if given is not None:  # it may come too late, or be in a bystander's way
         call.task.replay_alone(units.begun(units.after_waiting(given, epochs)), strict=options.strict)
-    inner = replace(call, prepared=prepared, given=given, options=options, question=None)
+    inner = replace(call, prepared=prepared, given=given, options=options, question=None, original=call.task)
     if not epochs:
         return inner
     state = units.waited(epochs, strict=options.strict)

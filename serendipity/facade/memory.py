@@ -20,6 +20,7 @@ from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.numbers import total
 from serendipity.model.task.actions import GroundAction, apply
 from serendipity.model.task.course import BrokenPlanError
+from serendipity.model.task.gate import is_bound
 from serendipity.model.task.passing import epoch_later
 from serendipity.model.task.plans import PlanEntry
 
@@ -333,6 +334,8 @@ def _stays(task: Task, options: Options, warm: WarmStart) -> bool:
     that the human goes on with the plan that they had, is looked at where that is known.
     """
     if options.max_cost is not None or options.human_model != "omniscient" or options.keep_prefix:
+        return False
+    if is_bound(task, options):
         return False
     if not options.windowed:
         return options.mode != "communication" or not options.communication_weight

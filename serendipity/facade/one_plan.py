@@ -9,6 +9,7 @@ from serendipity.facade.call import Request
 from serendipity.facade.simulation import realised
 from serendipity.model import HumanPlan
 from serendipity.model.answers.answer import Answer, Improvement
+from serendipity.model.task.gate import is_bound
 
 _VERDICT_SHARE: Final = 0.02
 """The share of time that verdicts on humans who replan add to the limit, or take of the rest on the way."""
@@ -47,7 +48,15 @@ def with_verdicts(call: Request, answer: Answer, *, last: bool = True) -> Answer
 
 
 def _planned(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:
-    """Answers beside a human of the model that is asked for."""
+    """Answers beside a human of the model that is asked for, by the rule that nobody pays, where it holds."""
+    if is_bound(call.original or call.task, call.options):
+        from serendipity.facade import nobody_pays
+
+        return nobody_pays.answers(call, human_plan, _without_rule)
+    return _without_rule(call, human_plan)
+
+
+def _without_rule(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:
     asked: dict[str, Any] = {"human_plan": human_plan, "deadline": call.deadline, "warm": call.warm}
     if call.options.human_model == "omniscient":
         return solve(call.prepared, call.options, predicts=call.predicts, optimum=call.optimum, **asked)

@@ -22,7 +22,7 @@ from serendipity.model.arguments import FUNCTION, expect_or_none
 from serendipity.model.keywords import listing
 from serendipity.model.numbers import Number
 from serendipity.model.resources.collection import no_collection
-from serendipity.model.task.gate import needs_time, refuse_time
+from serendipity.model.task.gate import needs_time, refuse_time, require_metered
 from serendipity.model.task.plans import PlanEntry, checked_entries
 
 if TYPE_CHECKING:
@@ -206,6 +206,7 @@ def _begun(
     solver = _solver(chosen)
     read = _unsure(chosen, given, said)
     call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
+    require_metered(call.task, chosen)
     unsure = None if read is None else read(call.task)
     if memory is not None:
         about = unsure if unsure is not None and any(unsure[:2]) else None

@@ -56,6 +56,7 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
             **{name: count for name, count in counted.items() if count is not None},
             "kernel": state_at_hand(),
             **({"strategies": [_tried(row) for row in answer.tried]} if answer.tried else {}),
+            **_rule(answer),
         },
         policy=answer.policy,
         ties=None
@@ -135,6 +136,14 @@ def _agent_costs(task: Task, discount: Fraction, answer: Answer, waiting: Fracti
             for agent, cost in shares(task, actions_of(task, goal.steps or ()), discount).items():
                 costs[agent] += goal.probability * cost
     return {task.agents[agent]: figure(cost) for agent, cost in costs.items()}
+
+
+def _rule(answer: Answer) -> dict[str, Any]:
+    """Whether the rule that nobody pays makes a difference, and what it costs."""
+    binds = {"rule_binds": True} if answer.is_bound else {}
+    if answer.without_rule is None or answer.cost is None:
+        return binds
+    return {"rule_binds": answer.is_bound, "rule_price": float(answer.cost - answer.without_rule)}
 
 
 def _tried(row: Tried) -> dict[str, Any]:

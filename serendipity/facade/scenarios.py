@@ -7,16 +7,16 @@ their current plan for a goal is the canonical optimal plan from ``I`` that embe
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
 from itertools import islice
 from typing import Final, NamedTuple
 
 from search import canonical_human_plan, first_answer, optimal_human_plans
 from search.modes.goals import Explainer, Likelihood
-from search.modes.scenarios import Candidate, solve_scenarios
+from search.modes.scenarios import Candidate
 from serendipity.facade import ties
 from serendipity.facade.call import Request
 from serendipity.facade.in_time import ScenariosInTime, answers_in_time
+from serendipity.facade.nobody_pays import over_scenarios
 from serendipity.facade.results import named_plan
 from serendipity.model import Condition, Deadline, HumanPlan, Options, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
@@ -325,8 +325,7 @@ def _expected(
     """Several scenarios are left."""
     own = [_unsaid(call.task, candidate, recognition) for candidate in considered]
     timed = call.task.needs_time or any(isinstance(one.plan, TimedPlan) for one in considered)
-    plain = partial(solve_scenarios, call.prepared, call.options, deadline=call.deadline)
-    for answer in (in_time.answers if timed else plain)(considered):
+    for answer in in_time.answers(considered) if timed else over_scenarios(call, considered):
         served = zip(answer.goals or (), own, strict=True)
         goals = tuple(replace(one, goal=goal) for one, goal in served)
         yield answer._replace(recognition=recognition, goals=goals)

@@ -59,6 +59,8 @@ class AnswerOptions(InterruptionOptions, total=False):
     no_block: bool | None
     policy: PolicyRule
     risk: Risk
+    nobody_pays: bool | None
+    leave_free: str | None
 
 
 class PlanOptions(AnswerOptions, total=False):

@@ -34,13 +34,27 @@ MAX_EPOCH: Final = 1_000_000
 MAX_TIES: Final = 1_000_000_000
 """The most that ``max_ties`` may be: nobody waits for so many plans."""
 
-_FLAGS: Final = {"keep_prefix": (True, False), "no_block": (True, False, None)}
+_FLAGS: Final = {
+    "keep_prefix": (True, False),
+    "no_block": (True, False, None),
+    "nobody_pays": (True, False, None),
+}
 _LIMITS: Final = {"time_limit": "seconds", "memory_limit": "MiB"}
 
-_LATER: Final = ("memory_limit", "strategies", "waiting_cost", "head_start", "policy", "risk")
+_LATER: Final = (
+    *("memory_limit", "strategies", "waiting_cost", "head_start", "policy", "risk"),
+    *("nobody_pays", "leave_free"),
+)
 """Options that results of the first versions do without."""
 
-_SELDOM: Final = {"waiting_cost": 0, "head_start": 0, "policy": "watching", "risk": "mean"}
+_SELDOM: Final = {
+    "waiting_cost": 0,
+    "head_start": 0,
+    "policy": "watching",
+    "risk": "mean",
+    "nobody_pays": None,
+    "leave_free": None,
+}
 """Options that are written down only where they are not the default, which this is."""
 
 
@@ -69,6 +83,8 @@ class Options:
         head_start: epochs of waiting before the human's plan (semantics 10.2).
         policy: whether robots act on what they see the human do, or commit themselves (semantics 11).
         risk: what is minimised over scenarios (semantics 11).
+        nobody_pays: whether help may cost nobody anything (semantics 12); None: beside bystanders.
+        leave_free: patterns, by commas, of the facts that help may leave changed (semantics 12); None: all.
         no_block: whether robots may leave the human without a plan; None for the default
             of the mode (forbidden under a human model, allowed in assistance).
         time_limit: seconds, or None.
@@ -99,6 +115,8 @@ class Options:
     head_start: int = 0
     policy: PolicyRule = "watching"
     risk: Risk = "mean"
+    nobody_pays: bool | None = None
+    leave_free: str | None = None
     time_limit: float | None = None
     memory_limit: float | None = None
     strategies: str | None = None
@@ -143,11 +161,23 @@ class Options:
             raise UsageError(
                 f"human_model: '{self.human_model}' is for serendipity mode only, not for {self.mode}"
             )
-
+        self._check_rule()
         if self.mode != "serendipity":
             for name, value in {"ties": "watched", "policy": "fixed"}.items():
                 if getattr(self, name) == value:
                     raise UsageError(f"{name}: '{value}' is for serendipity mode only, not for {self.mode}")
+
+    def _check_rule(self) -> None:
+        patterns = self.leave_free
+        if patterns is not None and not isinstance(patterns, str):
+            raise UsageError(f"leave_free: expected patterns apart by commas, got {patterns!r:.50}")
+        for name in ("nobody_pays", "leave_free"):
+            if getattr(self, name) in (None, False):
+                continue
+            if self.mode == "assistance" or self.human_model != "omniscient":
+                raise UsageError(f"{name}: is not known of mode 'assistance', nor of humans who replan")
+            if self.horizon == INFINITE:
+                raise UsageError(f"{name}: needs a horizon, by which it is to hold")
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from serendipity.model import Claim, Deadline, Result, Task
-from serendipity.model.task.gate import needs_time
+from serendipity.model.task.gate import is_bound, needs_time
 from verify.base import wording
 from verify.base.obligations import complete
 from verify.limits import limits
@@ -23,23 +23,36 @@ def check_by_rules(task: Task, result: Result, deadline: Deadline) -> tuple[Clai
 
 def _claims(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
     if not needs_time(task, options=result.options) and not result.in_time:
-        return _examined(task, result, deadline)
+        return _examined(task, result, deadline, task)
     from verify.calls.single_epochs import examined_in_time
 
-    return examined_in_time(task, result, deadline, lambda unit, said: tuple(_examined(unit, said, deadline)))
+    def examine(unit: Task, said: Result) -> tuple[Claim, ...]:
+        return tuple(_examined(unit, said, deadline, task))
+
+    return examined_in_time(task, result, deadline, examine)
 
 
-def _examined(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
+def _examined(task: Task, result: Result, deadline: Deadline, original: Task) -> Iterable[Claim]:
+    def alone(own: Task, said: Result) -> Iterable[Claim]:
+        if not is_bound(original, said.options):
+            return _for_plan(own, said, deadline)
+        from verify.rules.nobody_pays import under_the_rule  # where there is such a rule
+
+        def examine(bound: Task, said: Result) -> Iterable[Claim]:
+            return _for_plan(bound, said, deadline)
+
+        return under_the_rule(own, said, original, deadline, examine)
+
     if result.says("goals"):
         from verify.scenarios.check import claims_over_scenarios  # few results have them
 
-        return claims_over_scenarios(task, result, deadline, lambda own, said: _for_plan(own, said, deadline))
+        return claims_over_scenarios(task, result, original, deadline, alone)
     if result.mode == "assistance":
         from verify.policy import check_policy
 
         # a walk through the policy's states, as far as it gets within a moment (semantics 7)
         return check_policy(task, result, deadline.within(limits().rules_seconds), replay_only=True)
-    return _for_plan(task, result, deadline)
+    return alone(task, result)
 
 
 def _for_plan(task: Task, result: Result, deadline: Deadline) -> Iterator[Claim]:

@@ -41,6 +41,7 @@ from verify.proofs.book import ProofReader, ProofWriter
 from verify.rules import Checker, RuleReport
 from verify.rules.claims import rule_claim
 from verify.rules.header import require_same_task
+from verify.rules.nobody_pays import under_the_rule
 from verify.rules.replay import replay, replay_human
 from verify.scenarios.check import claims_over_scenarios
 from verify.scenarios.proof import ScenariosProof
@@ -105,8 +106,8 @@ def _certify(task: Task, result: Result, effort: Effort) -> Certificate:
         return Certificate(claims, perf_counter() - started)
     version = solver_version(effort.solver)
     timed = needs_time(task, options=result.options) or result.in_time
-    examine = _in_time if timed else _examined
-    claims, calls = complete(result, examine(task, result, effort)), len(effort.calls)
+    found = _in_time(task, result, effort) if timed else _examined(task, result, effort, task)
+    claims, calls = complete(result, found), len(effort.calls)
     return Certificate(claims, perf_counter() - started, version, effort.encoding, effort.size, calls)
 
 
@@ -120,20 +121,28 @@ def _in_time(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
         raise UsageError("encoding: the paper's equations know no time; expected automata")
 
     def examine(unit: Task, said: Result) -> tuple[Claim, ...]:
-        return _examined(unit, said, effort)
+        return _examined(unit, said, effort, task)
 
     return examined_in_time(task, result, effort.deadline, examine)
 
 
-def _examined(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
+def _examined(task: Task, result: Result, effort: Effort, original: Task) -> tuple[Claim, ...]:
     """Semantics 3, or 11: where one scenario is left, the answer is one of section 3."""
+
+    def alone(own: Task, said: Result) -> tuple[Claim, ...]:
+        def examine(bound: Task, said: Result) -> tuple[Claim, ...]:
+            return _Certifier.examined(bound, said, effort)
+
+        return under_the_rule(own, said, original, effort.deadline, examine)
+
     if not result.says("goals"):
-        return _Certifier.examined(task, result, effort)
+        return alone(task, result)
     return claims_over_scenarios(
         task,
         result,
+        original,
         effort.deadline,
-        lambda own, said: _Certifier.examined(own, said, effort),
+        alone,
         lambda lines: ScenariosProof(result, lines, effort).claims(),
     )
 

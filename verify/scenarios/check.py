@@ -6,16 +6,20 @@ from fractions import Fraction
 from itertools import islice
 from time import perf_counter
 
-from serendipity.model import Claim, Condition, Deadline, Result, Task
+from serendipity.model import Claim, Condition, Deadline, PlanError, Result, Task
 from serendipity.model.answers.certificate import ClaimVerdict
 from serendipity.model.answers.fields import MalformedError
 from serendipity.model.answers.result_parts import GoalAnswer
+from serendipity.model.task.gate import is_bound
+from serendipity.model.task.metered import Metered
 from verify.base import wording
 from verify.base.beside_script import alone_of
 from verify.base.obligations import BY_RULES, needed
 from verify.base.undecided import UNDECIDED, why
 from verify.rules.case import Case
 from verify.rules.header import mode_and_human, reason, status_and_fields
+from verify.rules.nobody_pays import broken, rule_of
+from verify.rules.replay import replay_human
 from verify.scenarios.beliefs import considered_plans, faults
 from verify.scenarios.reading import condition, listed, recognised
 from verify.scenarios.timelines import (
@@ -51,6 +55,7 @@ class Scenario:
 def claims_over_scenarios(
     task: Task,
     result: Result,
+    original: Task,
     deadline: Deadline,
     certain: Callable[[Task, Result], Iterable[Claim]],
     proved: Callable[[Sequence[Timeline]], Iterable[Claim]] | None = None,
@@ -60,6 +65,7 @@ def claims_over_scenarios(
     Args:
         task: the task that was asked; where there are candidate goals its own plays no part.
         result: the answer, perhaps of another form than such answers have.
+        original: the task as it was given, where this one is in single epochs.
         deadline: what is not examined by then stays undecided.
         certain: makes the claims of an answer of section 3.
         proved: makes those that rules can't make of an answer that breaks none; None: nobody does.
@@ -87,9 +93,57 @@ def claims_over_scenarios(
         ties = "fixed" if result.options.ties == "watched" else result.options.ties
         known = replace(result, goals=None, recognition=None, options=result.options.but(ties=ties))
         return tuple(certain(task.with_goal(chosen[0].goal), known))
-    lines = timelines(task, result, [scenario.goal for scenario in chosen], served, deadline)
+    try:
+        pairs = list(zip(chosen, served, strict=True))
+        asked, goals, fault = _bound(task, result, original, pairs, deadline)
+    except PlanError as error:
+        fault = str(error)
+    except UNDECIDED as error:
+        return tuple(Claim(name, "undecided", why(error)) for name in needed(result))
+    if fault is not None:
+        return (Claim("replay", "refuted", fault, seconds=perf_counter() - started),)
+    lines = timelines(asked, result, goals, served, deadline)
     claims = tuple(_claims_by_rules(result, lines, origin))
     return *claims, *_beyond_rules(result, lines, claims, proved)
+
+
+def _bound(
+    task: Task,
+    result: Result,
+    original: Task,
+    pairs: Sequence[tuple[Scenario, GoalAnswer]],
+    deadline: Deadline,
+) -> tuple[Task, list[tuple[Condition, Condition]], str | None]:
+    """The task, in each scenario the goal and what has to be kept, and what breaks the rule of semantics 12.
+
+    As with one scenario they are those without the rule where the answer does not say that it binds.
+    """
+    plain = [(one.goal, Condition()) for one, _ in pairs]
+    if not is_bound(original, result.options):
+        return task, plain, None
+    rules = []
+    for one, entry in pairs:
+        own = task.with_goal(one.goal)
+        plan = replay_human(own, one.plan, deadline)
+        rules.append(rule_of(own, result.options, plan, int(result.horizon or 0), original))
+        fault = broken(own, replace(result, plan=entry.plan), rules[-1], deadline)
+        if fault is not None:
+            return task, plain, f"scenario '{one.name}': {fault}"
+    mosts = [rule.most for rule in rules if rule.most is not None]
+    if not result.statistics.get("rule_binds"):
+        return task, plain, None
+    each = zip(pairs, rules, strict=True)
+    if not mosts:
+        return task, [(one.goal, rule.facts) for (one, _), rule in each], None
+    metered = Metered(task, max(mosts), deadline)
+    return (
+        metered.task,
+        [
+            (metered.goal(one.goal, most), rule.facts)
+            for ((one, _), rule), most in zip(each, mosts, strict=True)
+        ],
+        None,
+    )
 
 
 def _beyond_rules(

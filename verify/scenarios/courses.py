@@ -159,7 +159,11 @@ class Course:
         self._counts = self._most is not None or call.options.preservation == "state"
         of, task = moves.bits.of, call.task
         self._at_rest = of(task.at_rest)
-        self._goal = BitCondition(of(task.goal.positive) | self._at_rest, of(task.goal.negative))
+        theirs = task.robot_goal
+        self._goal = BitCondition(
+            of((*task.goal.positive, *theirs.positive)) | self._at_rest,
+            of((*task.goal.negative, *theirs.negative)),
+        )
         question = call.question.but(rule=FREE)
         part = relevant_part(question)
         assert part is not None, "only goals that the human reaches are considered"

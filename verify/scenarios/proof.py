@@ -138,7 +138,7 @@ def _idle(call: ExaminedCall) -> Figures:
 def _figures(call: ExaminedCall, best: PricedPlan | None) -> Figures:
     """Of a plan, or of leaving the human alone, which counts as an epoch, whatever their plan's length."""
     assert call.baseline is not None, "only goals with a plan are considered"
-    units = (
-        (call.baseline + call.prices.epoch, call.baseline) if best is None else (best.objective, best.cost)
-    )
+    units = call.baseline + call.prices.epoch, call.baseline
+    if best is not None:  # doing nothing is an answer beside whatever has to be kept
+        units = min(units, (best.objective, best.cost))
     return call.prices.cost(units[0]), call.prices.cost(units[1])

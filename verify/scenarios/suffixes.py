@@ -5,6 +5,7 @@ from fractions import Fraction
 from functools import cache
 
 from serendipity.model import Deadline, HumanPlan, Options, Task
+from verify.base.due import onward
 from verify.base.execution import State, after, applicable, facts_of_his, states_of_pi_h
 from verify.base.optimal_plans import OptimalPlans
 
@@ -55,6 +56,21 @@ class PlannedSuffix:
 
 def suffix_of(task: Task, options: Options, plan: HumanPlan, plans: OptimalPlans) -> tuple[Suffix, State]:
     """The rule that is in force in a scenario, whose plan is ``plan``, and all facts that matter to it."""
+    suffix, facts = _by_rule_3(task, options, plan, plans)
+    if not task.robot_goal:
+        return suffix, facts
+
+    def keeping(state: State, start: int, left: int) -> HumanPlan | None:
+        rest = suffix(state, start, left)
+        end: State | None = state
+        for k in range(left if rest is not None else 0):
+            end = None if end is None else onward(task, end, (rest or ())[k : k + 1], strict=options.strict)
+        return rest if end is not None and task.robot_goal.holds(end) else None
+
+    return keeping, frozenset(range(len(task.facts)))
+
+
+def _by_rule_3(task: Task, options: Options, plan: HumanPlan, plans: OptimalPlans) -> tuple[Suffix, State]:
     literal, every = options.preservation == "state", frozenset(range(len(task.facts)))
     if literal or options.suffix == "subplan":
         return PlannedSuffix(task, plan, plans.deadline, literal=literal), every

@@ -26,7 +26,7 @@ Figures = tuple[Fraction, Fraction]
 _BY_CLAIM: Final = {
     "replay": (
         *("human-plan", "epoch-range", "unknown-action", "wrong-agents"),
-        *("precondition", "agent-busy-twice", "conflict", "at-rest", "human-goal"),
+        *("precondition", "agent-busy-twice", "conflict", "at-rest", "human-goal", "robots-goal"),
     ),
     "cost": ("step-cost", "cost"),
     "window": (
@@ -58,20 +58,24 @@ class Timeline:
 
 
 def timelines(
-    task: Task, result: Result, goals: Sequence[Condition], served: Sequence[GoalAnswer], deadline: Deadline
+    task: Task,
+    result: Result,
+    goals: Sequence[tuple[Condition, Condition]],
+    served: Sequence[GoalAnswer],
+    deadline: Deadline,
 ) -> list[Timeline]:
     """The timelines of an answer, with weights that add up to 1.
 
     Args:
         task: the task.
         result: the answer over scenarios.
-        goals: what the human wants in each of them.
+        goals: what the human wants in each of them, and what robots have to keep.
         served: what the answer says of each of them, in the same order.
         deadline: polled.
     """
     weights = [weight(entry.probability) for entry in served]
     total = sum(weights, Fraction(0))
-    tasks = {goal: task.with_goal(goal, Condition()) for goal in goals}
+    tasks = {pair: task.with_goal(*pair) for pair in goals}
     alone = {goal: alone_of(own, deadline, result.options) for goal, own in tasks.items()}
     found = []
     for goal, entry, share in zip(goals, served, weights, strict=True):

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from search.call.context import SearchContext
@@ -34,12 +34,14 @@ class Candidate:
         plan: their plan.
         weight: the probability, more than 0.
         name: for people.
+        kept: what else has to hold in the end: robots see to it.
     """
 
     goal: Condition
     plan: HumanPlan
     weight: Fraction
     name: str = ""
+    kept: Condition = field(default_factory=Condition)
 
 
 def solve_scenarios(
@@ -54,7 +56,7 @@ def solve_scenarios(
     scenarios are told apart, and ``goals`` what happens in each.
 
     Args:
-        prepared: the task; its own goal plays no part, and robots have none.
+        prepared: the task; its own goals play no part.
         options: mode ``serendipity``; ``horizon`` None means the length of the longest plan.
         candidates: at least one; weights add up to 1.
         deadline: deadline and cancellation.
@@ -140,11 +142,11 @@ class _ScenarioCall:
         )
         if options.preservation == "state":
             asked |= human_facts(task)
-        goals = [candidate.goal for candidate in self._candidates]
+        goals = [(candidate.goal, candidate.kept) for candidate in self._candidates]
         packed = self._prepared.with_goals(goals, asked, self._deadline)
         return [
             Scenario(
-                self._prepared.with_goal(candidate.goal),
+                self._prepared.with_goal(candidate.goal, candidate.kept),
                 SearchContext(own, options, self._deadline),
                 candidate.plan,
                 self._horizon,

@@ -139,7 +139,11 @@ class Certain:
             return Remainder(alone, alone)
         all_are_free = self._packed.at_rest.holds(state) and self._due.human(state) is None  # but bystanders
         if self._ordinary and all_are_free:
-            return self._by_strategies(state, epoch, deadline)
+            helped, alone = self._by_strategies(state, epoch, deadline), self.alone(state, epoch)
+            if alone >= helped.worth:
+                return helped
+            left = plan_steps(self._scenario.plan[epoch:], epoch + 1)  # which no strategy counts beside G_R
+            return Remainder(min(helped.least, alone), alone, left)
         return self._in_space(state, epoch, 0, deadline)
 
     def _mended(self, state: int, epoch: int, deadline: Deadline) -> Remainder:

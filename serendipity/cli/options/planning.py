@@ -32,6 +32,7 @@ _TEXTS: Final[Mapping[str, tuple[str, str]]] = {
     "head_start": ("Epochs of waiting before the human's plan (semantics 10.2).", "N"),
     "policy": ("Over several goals or plans: whether robots watch, or commit themselves.", ""),
     "risk": ("What is minimised over several goals or plans.", ""),
+    "leave_free": ("Only facts that fit may be left changed, as in 'at robot *, dirty *'.", "PATTERNS"),
     "strategies": (
         "Search with these strategies only, or with all but some; -v tells what came of each.",
         "NAME,-NAME",
@@ -59,6 +60,13 @@ _OTHERS: Final[Mapping[str, Any]] = {
     "keep_prefix": Annotated[
         bool | None, option("--keep-prefix", "In communication mode: windows, as in the paper's second (7b).")
     ],
+    "nobody_pays": Annotated[
+        bool | None,
+        option(
+            "--nobody-pays/--somebody-pays",
+            "Whether help may cost no person anything. [default: where there are bystanders]",
+        ),
+    ],
     "no_block": Annotated[
         bool | None, option("--no-block/--allow-block", "Whether robots may leave the human without a plan.")
     ],
@@ -67,7 +75,7 @@ _OTHERS: Final[Mapping[str, Any]] = {
 _ALL: Final = (
     *("mode", "discount", "horizon", "human_plan", "window_weight", "max_window", "suffix", "preservation"),
     *("interference", "max_cost", "communication_weight", "keep_prefix", "human_model", "ties", "max_ties"),
-    *("no_block", "waiting_cost", "head_start", "policy", "risk", "strategies"),
+    *("no_block", "waiting_cost", "head_start", "policy", "risk", "nobody_pays", "leave_free", "strategies"),
 )
 """In the order of help."""
 
@@ -75,7 +83,10 @@ WINDOWS: Final = tuple(name for name in _ALL if name in (*InterruptionOptions.__
 """What makes a difference to windows."""
 EXPLAINED: Final = (*_ALL[: _ALL.index("keep_prefix")], "waiting_cost", "head_start")
 """What can be explained."""
-_UNKNOWN: Final = ("human_model", "no_block", "waiting_cost", "head_start", "policy", "risk", "strategies")
+_UNKNOWN: Final = (
+    *("human_model", "no_block", "waiting_cost", "head_start", "policy", "risk"),
+    *("nobody_pays", "leave_free", "strategies"),
+)
 PROGRAMS: Final = tuple(name for name in _ALL if name not in _UNKNOWN)
 """What integer programs know."""
 

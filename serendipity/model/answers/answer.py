@@ -106,6 +106,8 @@ class Answer(NamedTuple):
         policy: of mode ``assistance``, or None.
         gap: how it got better; None where that is not told.
         tried: the strategies that were tried, in their order; empty in modes that have but one.
+        without_rule: cost of the best answer without the rule that nobody pays; None where that is not known.
+        is_bound: whether it was looked for under that rule, since the best answer without it breaks it.
     """
 
     status: Status
@@ -132,6 +134,8 @@ class Answer(NamedTuple):
     policy: Policy | None = None
     gap: tuple[Improvement, ...] | None = None
     tried: tuple[Tried, ...] = ()
+    without_rule: Fraction | None = None
+    is_bound: bool = False
 
 
 def saved(baseline: Fraction | None, cost: Fraction | None, *, opportunity: bool) -> Fraction | None:

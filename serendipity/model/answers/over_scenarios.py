@@ -28,6 +28,13 @@ def goal_of(result: "Result", entry: GoalAnswer) -> tuple[str, ...] | None:
     return entry.goal or known.get(entry.name) or known.get(entry.name.rpartition(" ")[0])
 
 
+def rule_told(result: "Result") -> Iterator[str]:
+    """What the rule of semantics 12 costs, if it costs anything."""
+    price = result.figure("rule_price")
+    if price:
+        yield f"the rule that nobody pays, or finds anything changed, costs {plain(price)}"
+
+
 def over_scenarios(result: "Result") -> Iterator[Line | Grid]:
     """The robots' plan, and what happens for each goal that is considered."""
     if result.status == "unknown":
@@ -49,6 +56,7 @@ def over_scenarios(result: "Result") -> Iterator[Line | Grid]:
     else:
         saving = f"{plain(result.saving)} less than {plain((result.cost or 0) + (result.saving or 0))}"
         yield Line(f"{what} {plain(result.cost)}, {saving} ({proof})")
+    yield from map(Line, rule_told(result))
     yield Line()
     header = ("", "probability", "cost", "window", "goal" if result.recognition else "plan")
     rows = [

@@ -9,7 +9,7 @@ from typing import Any, Final
 from serendipity._version import __version__
 from serendipity.model.answers.answer import PolicyBounds, Status
 from serendipity.model.answers.fields import MalformedError, finite, form
-from serendipity.model.answers.over_scenarios import over_scenarios
+from serendipity.model.answers.over_scenarios import over_scenarios, rule_told
 from serendipity.model.answers.policy import Policy
 from serendipity.model.answers.recognition import Recognition
 from serendipity.model.answers.result_form import FORMS, fields_of, object_of
@@ -207,6 +207,7 @@ def headlines(result: Result) -> Iterator[str]:
         yield _costs(result.human_cost, result.cost, result.saving if result.opportunity else None)
     elif result.cost is not None:
         yield f"cost {plain(result.cost)}"
+    yield from rule_told(result)
 
 
 def _costs(before: float, after: float, saving: float | None) -> str:

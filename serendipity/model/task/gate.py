@@ -1,6 +1,6 @@
-"""The refusal of time where nothing knows it yet: every such call comes by here."""
+"""What a call asks for: time, refused where nothing knows it yet, and help that costs nobody anything."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from serendipity.model.errors import UsageError
 from serendipity.model.options import Options
@@ -38,3 +38,41 @@ def refuse_time(
     what = needs_time(task, options=options, plan=plan)
     if what is not None:
         raise UsageError(f"time: {what}, which is not known here yet")
+
+
+def nobody_pays(task: "Task", options: Options) -> bool:
+    """Whether help may cost no person anything (semantics 12): by default where there are bystanders.
+
+    Args:
+        task: as it was given, not in single epochs.
+    """
+    asked = options.nobody_pays
+    if asked is None:
+        asked = bool(task.script.people) and options.human_model == "omniscient"
+    return asked and options.mode not in ("individual", "assistance")
+
+
+def is_bound(task: "Task", options: Options) -> bool:
+    """Whether help has to leave anything as it would be without it."""
+    leaves = options.leave_free is not None and options.mode not in ("individual", "assistance")
+    return leaves or nobody_pays(task, options)
+
+
+_METERED: Final[dict[str, object]] = {"suffix": "replan", "preservation": "kernel", "waiting_cost": 0}
+"""Options that have one value where what the human pays is metered: a plan's actions change with it."""
+
+
+def require_metered(task: "Task", options: Options, *, scenarios: int = 1) -> None:
+    """Check that what the human pays can be limited, where that may make a difference (semantics 12).
+
+    Raises:
+        UsageError: it can't.
+    """
+    if not nobody_pays(task, options) or (not task.robot_goal and scenarios == 1):
+        return
+    for name, value in _METERED.items():
+        if getattr(options, name) != value:
+            raise UsageError(
+                "nobody_pays: with robots' goals of their own, or several goals or plans, it goes with "
+                f"{name} {value} only; nobody_pays=False (--somebody-pays) leaves it out"
+            )

@@ -209,6 +209,8 @@ def with_predicted(task: Task, goals: Mapping[str, Condition]) -> Task:
             raise UsageError(f"script: {person} has no plan alone")
         names = (theirs.actions[i].name for i in plan)
         entries = tuple(zip(theirs.starts_of(plan), names, strict=True))
+        known = {**dict(task.own_goals), theirs.human: goal}
+        task = replace(task, own_goals=tuple(sorted(known.items())), known_variables=task.variables)
         task = task.with_script(Script(people={person: entries}))
     return task
 

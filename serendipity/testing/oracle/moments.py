@@ -112,8 +112,12 @@ class World:
             now = self.alone(now, epoch)
         return now
 
+    def number(self, action: GroundAction) -> int:
+        """The number of an action of a bystander."""
+        return self._numbers[id(action)]
+
     def parts(self, action: int) -> tuple[GroundAction, ...]:
-        """What an action of the task asks and does, epoch by epoch."""
+        """What an action asks and does, epoch by epoch."""
         return self._parts[action]
 
     def busy(self, moment: Moment, agent: int) -> bool:

@@ -12,6 +12,7 @@ from serendipity.testing.oracle.alone import Alone
 from serendipity.testing.oracle.epochs import holds
 from serendipity.testing.oracle.labels import NOTHING, Label, Layer, Moves, advance, front, plus
 from serendipity.testing.oracle.moments import Moment
+from serendipity.testing.oracle.nobody_pays import Rule, counts_everybody
 from serendipity.testing.oracle.suffixes import Suffixes
 
 
@@ -56,6 +57,23 @@ class Plans:
         self._steps: dict[object, list[tuple[Moment, Label]]] = {}
         self._priced = cache(self.price)
         self._require_plan()
+        self._rule: Rule | None = None
+        self._most: int | None = None
+        self._set_rule()
+
+    def _set_rule(self) -> None:
+        """Semantics 12, where it is in force."""
+        options, last = self.options, self.horizon
+        nobody_pays = options.mode != "individual" and counts_everybody(self.task, options)
+        plain = options.suffix == "replan" and options.preservation == "kernel" and not options.waiting_cost
+        if nobody_pays and self.robots_goal and not plain:
+            raise UsageError("nobody_pays: not with these options")
+        if options.mode == "individual" or not isinstance(last, int):
+            return
+        if nobody_pays or options.leave_free is not None:
+            self._rule = Rule(self.world, options, self.human_plan, last)
+        if nobody_pays and self.human_plan is not None:
+            self._most = self.units(self.cost_of_plan())
 
     def windows(self) -> Iterator[WindowPlan]:
         """All windows and all plans that fit them (semantics 3.1)."""
@@ -109,20 +127,25 @@ class Plans:
         action = self.task.actions[i]
         if self.task.human not in action.participants:
             cost = self.units(action.cost * (1 - self.options.discount))
-            return (cost, cost, 1)
+            return (cost, cost, 1, 0)
         off_plan = self.options.mode == "communication" and not self._planned(i)
         talk = self.options.communication_weight * action.cost if off_plan else Fraction(0)
-        return (self.units(action.cost + talk), self.units(action.cost), 1)
+        paid = self.units(action.cost)
+        return (self.units(action.cost + talk), paid, 1, 0 if self._most is None else paid)
 
     def waiting(self, epochs: int) -> Label:
         """Objective, cost and count of some epochs of waiting."""
         paid = self.units(self.options.waiting_cost * epochs)
-        return (paid, paid, 0)
+        return (paid, paid, 0, 0 if self._most is None else paid)
 
     def lasts(self, moment: Moment, epoch: int, last: int) -> bool:
         """Whether all goals hold after epoch ``last`` if everybody is idle until then."""
         end = self.world.idled(moment, epoch, last)
         return end is not None and self._done(end) and holds(self.task.robot_goal, end.state)
+
+    def pays(self, label: Label) -> bool:
+        """Whether the human pays no more than they may."""
+        return self._most is None or label[3] <= self._most
 
     def units(self, amount: Fraction) -> int:
         """An amount in the smallest unit of cost."""
@@ -153,12 +176,13 @@ class Plans:
     def _goal_labels(self, layer: Layer[Moment]) -> Iterator[Label]:
         for moment, labels in layer.items():
             if self._done(moment):
-                yield from labels
+                yield from filter(self.pays, labels)
 
     def _done(self, moment: Moment) -> bool:
         goal = self.task.robot_goal
         reached = holds(self.task.goal, moment.state) and (not self.robots_goal or holds(goal, moment.state))
-        return reached and self.world.plan_is_over(moment)
+        over = reached and self.world.plan_is_over(moment)
+        return over and (self._rule is None or self._rule.keeps(moment))
 
     def _closed(self, layer: Layer[Moment], window: Window, suffixes: Suffixes) -> Iterator[WindowPlan]:
         """The plans of a window that are at a moment when it closes: robots have ended what they began."""
@@ -169,6 +193,8 @@ class Plans:
             for rest in suffixes.of(moment, window.start, window.end - 1):
                 for label in labels:
                     total = plus(label, rest)
+                    if not self.pays(total):
+                        continue
                     yield WindowPlan(total, total[0] + weight, window)
 
     # -- one epoch

@@ -17,6 +17,7 @@ from typing import NamedTuple, Protocol
 from serendipity.model import Condition, HumanPlan, Options, Task, UsageError
 from serendipity.testing.oracle.epochs import holds
 from serendipity.testing.oracle.moments import Moment, World
+from serendipity.testing.oracle.nobody_pays import Rule, counts_everybody
 from serendipity.testing.oracle.plans import smallest_unit
 from serendipity.testing.oracle.suffixes import CanonicalSuffix
 
@@ -119,6 +120,8 @@ class _Situation(NamedTuple):
     """The first epoch of the window that they are in."""
     rest: Rest | None = None
     """What they begin after the window, by epochs."""
+    paid: Fraction = Fraction(0)
+    """What the human has paid, where that is limited."""
 
 
 _Group = tuple[_Situation, ...]
@@ -157,6 +160,10 @@ class _Policies:
         self.own = [i for i, a in enumerate(task.actions) if robots and task.human not in a.participants]
         human = [i for i, a in enumerate(task.actions) if task.human in a.participants]
         self.parts: list[int | None] = [None, *(i for i in human if robots or not task.actions[i].joint)]
+        self.rules: list[Rule] = []
+        self.limited = counts_everybody(task, options)
+        if self.limited or options.leave_free is not None:
+            self.rules = [Rule(self.world, options, one.plan, horizon) for one in scenarios]
         self.front, self.part, self.ways = cache(self._front), cache(self._part), cache(self._ways)
 
     def vectors(self) -> Iterator[tuple[Worth, ...]]:
@@ -247,18 +254,25 @@ class _Policies:
             costs = (self.task.team_cost(self.task.actions[i], self.options.discount) for i in begun)
             cost = int(sum(costs, Fraction(0)) * self.unit)
             seen = None if his is None else self.task.actions[his].name
-            yield _Way(seen, (cost, cost), _Situation(now.scenario, moment, since, rest))
+            paid = now.paid
+            if self.limited and his is not None:
+                paid += self.task.actions[his].cost
+                if paid > self.task.cost_of(self.scenarios[now.scenario].plan):
+                    return
+            yield _Way(seen, (cost, cost), _Situation(now.scenario, moment, since, rest, paid))
 
     def _closed(self, epoch: int, inside: _Way) -> Iterator[_Way]:
         """The same epoch, as the last one of the window, by when robots have ended what they began."""
-        scenario, moment, since, _ = inside.now
+        scenario, moment, since, _, paid = inside.now
         assert since is not None
         rest = None if self.world.others_busy(moment) else self.suffixes[scenario].plan(moment, since, epoch)
         if rest is not None:
-            yield inside._replace(now=_Situation(scenario, moment, None, rest))
+            yield inside._replace(now=_Situation(scenario, moment, None, rest, paid))
 
     def _end(self, now: _Situation) -> Units | None:
         """What comes on top after ``T``; None where it can't end like this."""
+        if self.rules and not self.rules[now.scenario].keeps(now.moment):
+            return None
         if now.rest is not None:
             return (0, 0)
         ends = self.world.plan_is_over(now.moment) and now.since is None

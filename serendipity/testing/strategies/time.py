@@ -73,19 +73,39 @@ def scripted_tasks(draw: st.DrawFn, *, of: st.SearchStrategy[Task] | None = None
 
 @st.composite
 def bystander_tasks(draw: st.DrawFn) -> Task:
-    """Tasks in which the last of the robots is a bystander, with one to three actions at their times."""
-    several = strips_tasks(facts=(3, 4), robots=(2, 2))
+    """Tasks in which one or two of the robots are bystanders: one to three actions, and maybe a goal."""
+    several = strips_tasks(facts=(3, 4), robots=(2, 3))
     built = draw(st.one_of(several, timed_tasks(of=several)))
-    agent = len(built.agents) - 1
+    people = draw(
+        st.lists(st.sampled_from(built.robots), min_size=1, max_size=len(built.robots) - 1, unique=True)
+    )
+    goals = {agent: draw(_literals(built)) for agent in people if draw(st.booleans())}
+    built = replace(built, own_goals=tuple(sorted(goals.items())), known_variables=built.variables)
+    plans = {built.agents[agent]: draw(_deeds(built, agent)) for agent in people}
+    return built.with_script(Script(people=plans))
+
+
+@st.composite
+def _deeds(draw: st.DrawFn, built: Task, agent: int) -> list[tuple[int, str]]:
+    """Actions of an agent's own at their times."""
     own = [action for action in built.actions if action.participants == (agent,)]
     assume(own)
-    chosen = draw(st.lists(st.sampled_from(own), min_size=1, max_size=3))
     epoch, plan = 1, list[tuple[int, str]]()
-    for action in chosen:
+    for action in draw(st.lists(st.sampled_from(own), min_size=1, max_size=3)):
         epoch += draw(st.integers(0, 2))
         plan.append((epoch, action.name))
         epoch += action.duration
-    return built.with_script(Script(people={built.agents[agent]: plan}))
+    return plan
+
+
+@st.composite
+def _literals(draw: st.DrawFn, built: Task) -> Condition:
+    """One or two literals of a task."""
+    facts = draw(st.lists(st.integers(0, len(built.facts) - 1), min_size=1, max_size=2, unique=True))
+    true = {fact: draw(st.booleans()) for fact in sorted(facts)}
+    return Condition(
+        tuple(fact for fact in true if true[fact]), tuple(fact for fact in true if not true[fact])
+    )
 
 
 def tasks_in_time() -> st.SearchStrategy[Task]:

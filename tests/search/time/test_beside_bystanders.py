@@ -24,6 +24,20 @@ def test_robots_goals_that_a_bystander_undoes_later_are_not_reached() -> None:
     assert answer.status == best(undone, Options(horizon=2)).status == "infeasible"
 
 
+def test_robots_goals_that_the_human_reaches_unless_a_bystander_does() -> None:
+    """Help spares the human what would reach the robots' goal, too; the bystander sees to that later."""
+    built = task(
+        **AGENTS,
+        init="dirty",
+        goal="done",
+        robot_goal="!dirty",
+        actions={"do h": "-> done !dirty @ 2", "help r": "-> done @ 1", "sweep q": "-> !dirty [3]"},
+    ).with_script(Script(people={"q": [(1, "sweep q")]}))
+    answer = serendipity.plan(built, horizon=3)
+    assert (answer.cost, answer.opportunity) == (1, True)
+    assert serendipity.verify(built, answer).verdict == "proved"
+
+
 def test_robots_goals_that_a_bystander_reaches_once_the_human_is_done() -> None:
     built = task(**AGENTS, init="k", goal="f", actions={"a h": "-> f @ 3", "b r": "k -> f !k", "c q": "-> g"})
     later = replace(built, robot_goal=Condition((built.facts.index("g"),)))

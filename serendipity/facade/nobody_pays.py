@@ -1,0 +1,353 @@
+"""Help that costs nobody anything, and leaves nothing behind (semantics 12).
+
+The call is answered without the rule first: where the best answer keeps it, that is the answer.  Else it is
+answered with what has to be kept as goals of the robots, and with a meter on what the human pays.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from fnmatch import fnmatchcase
+from fractions import Fraction
+from typing import Any, Final, NamedTuple
+
+from search import PreparedTask
+from search.modes.scenarios import Candidate, solve_scenarios
+from serendipity.facade.call import Request
+from serendipity.model import Condition, HumanPlan, Options, Step, Task, UsageError
+from serendipity.model.answers.answer import Answer, ServedGoal
+from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model.numbers import total
+from serendipity.model.options import INFINITE
+from serendipity.model.task.actions import GroundAction, apply
+from serendipity.model.task.course import BrokenPlanError, PlayedPlan
+from serendipity.model.task.gate import is_bound, nobody_pays, require_metered
+from serendipity.model.task.horizon import common_horizon
+from serendipity.model.task.metered import Metered
+from serendipity.model.task.unit_steps import CLOCK
+
+_SHARE: Final = 0.5
+"""The share of the time for the call without the rule."""
+
+Solve = Callable[[Request, HumanPlan | None], Iterator[Answer]]
+"""Answers a call beside a plan of the human's, or the predicted one, without the rule."""
+
+_Literals = set[tuple[int, bool]]
+
+
+class Kept(NamedTuple):
+    """What has to be as it would be without help.
+
+    Attributes:
+        facts: of the last state.
+        most: that the human may pay; None: anything.
+    """
+
+    facts: Condition
+    most: Fraction | None
+
+
+def answers(call: Request, plan: HumanPlan | None, solve: Solve) -> Iterator[Answer]:
+    """Answers that keep the rule, as they get better.
+
+    Args:
+        call: the call, in single epochs where it needs time.
+        plan: the human's, or None to predict it.
+        solve: answers it without the rule.
+
+    Raises:
+        UsageError: the rule is asked for, and there is no horizon.
+    """
+
+    def keeps(answer: Answer) -> bool:
+        if answer.horizon == INFINITE:
+            _refuse_infinite(call.options)
+            return True
+        return _is_kept(call.task, _kept_by(call, answer), answer)
+
+    def keeping(free: Answer) -> Iterator[Answer]:
+        return _keeping(call, free, solve)
+
+    return _answers(call, solve(_soon(call), plan), keeps, keeping)
+
+
+def over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[Answer]:
+    """Answers over scenarios as they get better; where the rule is in force they keep it in each of these.
+
+    Args:
+        call: the call, in single epochs where it needs time.
+        candidates: the scenarios.
+
+    Raises:
+        UsageError: the horizon is too short, or options that the rule does not go with.
+    """
+    original = call.original or call.task
+    if not is_bound(original, call.options):
+        return _solved(call, candidates)
+    require_metered(original, call.options, scenarios=len(candidates))
+    last = common_horizon(call.options, [one.plan for one in candidates])
+    rules = [
+        kept(call.task.with_goal(one.goal), call.options, one.plan, last, original) for one in candidates
+    ]
+
+    def keeps(answer: Answer) -> bool:
+        served = zip(answer.goals or (), rules, strict=True)
+        return all(_is_kept(call.task, rule, one, last) for one, rule in served)
+
+    def keeping(free: Answer) -> Iterator[Answer]:
+        del free
+        return _keeping_over_scenarios(call, candidates, rules)
+
+    if call.options.risk == "regret":  # what it compares with keeps the rule, too
+        return (answer._replace(is_bound=True) for answer in keeping(Answer("unknown")))
+    return _answers(call, _solved(_soon(call), candidates), keeps, keeping)
+
+
+def _solved(call: Request, candidates: Sequence[Candidate]) -> Iterator[Answer]:
+    return solve_scenarios(call.prepared, call.options, candidates, call.deadline)
+
+
+def _soon(call: Request) -> Request:
+    return replace(call, deadline=call.deadline.part(_SHARE))
+
+
+def _answers(
+    call: Request,
+    found: Iterable[Answer],
+    keeps: Callable[[Answer], bool],
+    keeping: Callable[[Answer], Iterator[Answer]],
+) -> Iterator[Answer]:
+    """The answers without the rule that keep it; and where the last one does not, those with it.
+
+    Args:
+        call: the call.
+        found: answers without the rule.
+        keeps: whether one keeps it.
+        keeping: answers with it, given the last one without.
+    """
+    free, best = Answer("unknown"), None
+    for free in found:
+        if free.cost is not None and keeps(free):
+            best = _on_the_way(call.options, free)
+            yield best
+    if free.cost is None:
+        yield free
+        return
+    least = free.objective if free.status == "optimal" else None
+    if best is not None and least is not None and best.objective == least and keeps(free):
+        yield free._replace(without_rule=free.cost)
+        return
+    try:
+        for answer in keeping(free):
+            is_worse = answer.cost is None or (best is not None and _order(best) < _order(answer))
+            if best is not None and is_worse and answer.status not in ("optimal", "infeasible"):
+                answer = best
+            yield answer._replace(without_rule=None if least is None else free.cost, is_bound=True)
+    except LIMITS as limit:
+        yield best or Answer("unknown", human_plan=free.human_plan, reason=limit_reason(limit))
+
+
+def _refuse_infinite(options: Options) -> None:
+    if options.nobody_pays or options.leave_free is not None:
+        raise UsageError("horizon: expected a number of epochs, by which nobody may have paid")
+
+
+def _on_the_way(options: Options, answer: Answer) -> Answer:
+    """An answer that may not be the best, with a bound for those without a window, too."""
+    least = answer.lower_bound or Fraction(0)
+    if options.windowed:
+        least = max(Fraction(0), least - options.window_weight)
+    return answer._replace(status="feasible", lower_bound=least)
+
+
+def _keeping(call: Request, free: Answer, solve: Solve) -> Iterator[Answer]:
+    """Answers to the call with the rule, given the last one without it.
+
+    Raises:
+        LimitReachedError: there was no time to put it together.
+    """
+    plan, rule = free.human_plan, _kept_by(call, free)
+    task = with_goals(call.task, rule.facts)
+    optimum = call.optimum if call.given is not None or plan is None else call.task.cost_of(plan)
+    asked = replace(call, optimum=optimum, predicts=plan is not None, question=None)
+    if not call.task.robot_goal or rule.most is None or plan is None:
+        return solve(replace(asked, prepared=PreparedTask(task)), plan)
+    metered = Metered(task, rule.most, call.deadline)
+    found = solve(replace(asked, prepared=PreparedTask(metered.task)), metered.plan(plan))
+    return (_told(metered, answer) for answer in found)
+
+
+def _keeping_over_scenarios(
+    call: Request, candidates: Sequence[Candidate], rules: Sequence["Kept"]
+) -> Iterator[Answer]:
+    """The same over scenarios."""
+    bound = [replace(one, kept=rule.facts) for one, rule in zip(candidates, rules, strict=True)]
+    mosts = [rule.most for rule in rules if rule.most is not None]
+    if not mosts:
+        return _solved(call, bound)
+    metered = Metered(call.task, max(mosts), call.deadline)
+    bound = [
+        replace(one, goal=metered.goal(one.goal, most), plan=metered.plan(one.plan))
+        for one, most in zip(bound, mosts, strict=True)
+    ]
+    found = _solved(replace(call, prepared=PreparedTask(metered.task)), bound)
+    return (_told(metered, answer) for answer in found)
+
+
+def _told(metered: Metered, answer: Answer) -> Answer:
+    """An answer about a metered task as one about the task itself."""
+
+    def back(answer: ServedGoal | Answer) -> dict[str, Any]:
+        plan, steps = answer.human_plan, answer.steps
+        return {
+            "human_plan": None if plan is None else metered.back(plan),
+            "steps": None if steps is None else metered.steps(steps),
+        }
+
+    goals = None if answer.goals is None else tuple(replace(one, **back(one)) for one in answer.goals)
+    return answer._replace(**back(answer), goals=goals)
+
+
+def _order(answer: Answer) -> tuple[bool, Fraction, Fraction]:
+    return not answer.opportunity, answer.objective or Fraction(0), answer.cost or Fraction(0)
+
+
+# -- what has to be kept
+
+
+def _is_kept(task: Task, rule: Kept, answer: Answer | ServedGoal, last: int | None = None) -> bool:
+    """Whether what happens in an answer, or in one of its scenarios, keeps the rule; ``last`` is ``T``."""
+    steps = answer.steps or ()
+    if last is None:
+        assert isinstance(answer, Answer)
+        last = int(answer.horizon or 0)
+    if rule.most is not None and paid(task, steps) > rule.most:
+        return False
+    return rule.facts.holds(_played(task, steps, last))
+
+
+def paid(task: Task, steps: Iterable[Step]) -> Fraction:
+    """What the human pays in a plan."""
+    actions = (task.actions[step.action] for step in steps)
+    return total(action.cost for action in actions if task.human in action.participants)
+
+
+def _kept_by(call: Request, answer: Answer) -> Kept:
+    last = int(answer.horizon or 0)
+    return kept(call.task, call.options, answer.human_plan, last, call.original or call.task)
+
+
+def kept(task: Task, options: Options, plan: HumanPlan | None, last: int, original: Task) -> Kept:
+    """What a plan of the human's and ``T`` ask of everybody else (semantics 12).
+
+    Args:
+        task: in single epochs.
+        plan: of the human, or None without one.
+        last: ``T``.
+        original: the task as it was given.
+    """
+    if plan is None and _is_broken(original, last, strict=options.strict):
+        return Kept(Condition(), None)
+    chosen = (action for i, action in enumerate(task.actions) if i not in task.of_bystanders)
+    changed = {fact for action in chosen for fact in (*action.add, *action.delete)}
+    state = _played(task, [Step(epoch, action) for epoch, action in enumerate(plan or (), start=1)], last)
+    literals: _Literals = set()
+    everybody = nobody_pays(original, options)
+    if everybody:
+        literals |= _undisturbed(task, state)
+    if options.leave_free is not None:
+        patterns = [pattern.strip() for pattern in options.leave_free.split(",")]
+        facts = (f for f in changed if f < len(original.facts))
+        bound = (f for f in facts if not any(fnmatchcase(task.facts[f], one) for one in patterns))
+        literals |= {(fact, fact in state) for fact in bound}
+    most = task.cost_of(plan) if everybody and plan is not None else None
+    return Kept(_condition((fact, true) for fact, true in literals if fact in changed), most)
+
+
+def _is_broken(task: Task, last: int, *, strict: bool) -> bool:
+    """Whether bystanders are disturbed by ``T`` where nobody else does anything."""
+    course = PlayedPlan(task.facts, task.init, task.script, strict=strict)
+    try:
+        while course.epoch < last:
+            if not course.rest(last):
+                course.begin([])
+    except BrokenPlanError:
+        return True
+    return False
+
+
+def _condition(literals: Iterable[tuple[int, bool]]) -> Condition:
+    told = sorted(literals)
+    return Condition(tuple(f for f, true in told if true), tuple(f for f, true in told if not true))
+
+
+def with_goals(task: Task, facts: Condition) -> Task:
+    """The task with more goals of the robots'."""
+    own = task.robot_goal
+    positive, negative = {*own.positive, *facts.positive}, {*own.negative, *facts.negative}
+    return task.with_goal(task.goal, Condition(tuple(sorted(positive)), tuple(sorted(negative))))
+
+
+def _due(task: Task, state: frozenset[int]) -> list[GroundAction]:
+    """What goes on in a state whatever is chosen: of each action the variant that can, or the first."""
+    found = []
+    for fact in sorted(state.intersection(task.due_for)):
+        for variants in task.due_for[fact]:
+            actions = [task.actions[i] for i in variants]
+            found.append(next((one for one in actions if one.applicable(state)), actions[0]))
+    return found
+
+
+def _after(task: Task, state: frozenset[int], actions: Iterable[GroundAction]) -> frozenset[int]:
+    """The state after an epoch; the script comes last."""
+    clock = task.agents.index(CLOCK) if CLOCK in task.agents else -1
+    each = list(actions)
+    state = apply(state, *(one for one in each if clock not in one.participants))
+    return apply(state, *(one for one in each if clock in one.participants))
+
+
+def _played(task: Task, steps: Iterable[Step], last: int) -> frozenset[int]:
+    """The state after an epoch if these things are done, and what goes on by itself."""
+    begun: dict[int, list[GroundAction]] = {}
+    for step in steps:
+        begun.setdefault(step.epoch, []).append(task.actions[step.action])
+    state = task.init
+    for epoch in range(1, last + 1) if task.due else sorted(begun):
+        actions = {id(one): one for one in (*begun.get(epoch, ()), *_due(task, state))}
+        state = _after(task, state, actions.values())
+    return state
+
+
+def _undisturbed(task: Task, state: frozenset[int]) -> _Literals:
+    """What the bystanders ask of a state for the rest of their plans and their goals (a triangle table).
+
+    Those whom it does not serve ask for nothing.
+    """
+    people, goals = task.script.people, dict(task.own_goals)
+    asked: dict[int, _Literals] = {agent: set() for agent in people}
+    disturbed: set[int] = set()
+    touched: set[int] = set()
+
+    def ask(condition: Condition) -> _Literals | None:
+        """The literals of a condition that nothing has changed since; None where it does not hold."""
+        literals = {(fact, True) for fact in condition.positive} | {
+            (fact, False) for fact in condition.negative
+        }
+        return {one for one in literals if one[0] not in touched} if condition.holds(state) else None
+
+    ends = {agent: ask(goals.get(agent, Condition())) for agent in people}
+    while due := _due(task, state):
+        own = [(agent, one) for one in due for agent in one.participants if agent in people]
+        for agent, action in own:
+            needed = ask(action.precondition)
+            if needed is None:
+                disturbed.add(agent)
+            asked[agent] |= needed or set()
+        state = _after(task, state, due)
+        touched.update(fact for one in due for fact in (*one.add, *one.delete))
+        for agent, _ in own:
+            ends[agent] = ask(goals.get(agent, Condition()))
+    found: _Literals = set()
+    for agent, needed in ends.items():
+        if needed is not None and agent not in disturbed:
+            found |= asked[agent] | needed
+    return found
