@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from serendipity.explanation import Explanation, PolicyExplanation, explain, explain_policy
     from serendipity.facade.bystanders import with_bystanders
     from serendipity.facade.certify import check, verify
+    from serendipity.facade.front import Front, FrontPoint, front
     from serendipity.facade.interruptibility import Interruption, InterruptionReport, Removal, interruptions
     from serendipity.facade.loading import load, load_agents, load_pddl
     from serendipity.facade.planning import plan, plan_anytime
@@ -80,6 +81,8 @@ __all__ = [
     "Execution",
     "Explanation",
     "Finding",
+    "Front",
+    "FrontPoint",
     "GapEntry",
     "GoalAnswer",
     "GoalPosterior",
@@ -132,6 +135,7 @@ __all__ = [
     "execute",
     "explain",
     "explain_policy",
+    "front",
     "generate_usar",
     "interruptions",
     "load",
@@ -153,6 +157,7 @@ _HOMES = {
     "explanation": "Explanation PolicyExplanation explain explain_policy",
     "facade.bystanders": "with_bystanders",
     "facade.certify": "check verify",
+    "facade.front": "Front FrontPoint front",
     "facade.interruptibility": "Interruption InterruptionReport Removal interruptions",
     "facade.loading": "load load_agents load_pddl",
     "facade.planning": "plan plan_anytime",

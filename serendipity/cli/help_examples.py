@@ -30,6 +30,7 @@ EXAMPLES: Final = (
     "serendipity explain --example room2 --discount 0.6",
     "serendipity explain --example room7 help.json",
     "serendipity interruptions --example room2 --discount 0.6 --heat-map windows.svg",
+    "serendipity front --example room2 --discount 0.9 --picture front.svg",
     "serendipity generate usar --preset room2 -o suite/test1",
     "serendipity recognise --example room2 --goals goals.txt",
     "serendipity reproduce suite --modes serendipity,communication --discounts 0,0.6 --report suite.html",

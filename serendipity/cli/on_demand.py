@@ -21,6 +21,7 @@ from serendipity.model import UsageError
 
 NAMES: Final = (
     *("plan", "check-task", "verify", "check-proof", "simulate", "execute", "explain", "interruptions"),
+    "front",
     *("recognise", "learn", "reproduce", "show", "solve", "crosscheck", "bench"),
     *("examples", "generate", "play", "serve"),
 )

@@ -13,13 +13,14 @@ from typing import Any, Final, NamedTuple
 from search import PreparedTask
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade.call import Request
-from serendipity.model import Condition, HumanPlan, Options, Step, Task, UsageError
+from serendipity.model import Condition, Deadline, HumanPlan, Options, Step, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.numbers import total
 from serendipity.model.options import INFINITE
 from serendipity.model.task.actions import GroundAction, apply
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
+from serendipity.model.task.disturbance import Weighed, disturbance_from
 from serendipity.model.task.gate import is_bound, nobody_pays, require_metered
 from serendipity.model.task.horizon import common_horizon
 from serendipity.model.task.metered import Metered
@@ -62,12 +63,15 @@ def answers(call: Request, plan: HumanPlan | None, solve: Solve) -> Iterator[Ans
         if answer.horizon == INFINITE:
             _refuse_infinite(call.options)
             return True
-        return _is_kept(call.task, _kept_by(call, answer), answer)
+        return _is_kept(call.task, _kept_by(call, answer), answer) and _is_calm(call, answer)
 
     def keeping(free: Answer) -> Iterator[Answer]:
         return _keeping(call, free, solve)
 
-    return _answers(call, solve(_soon(call), plan), keeps, keeping)
+    found = _answers(call, solve(_soon(call), plan), keeps, keeping)
+    if call.options.disturbance is None and call.options.max_disturbance is None:
+        return found
+    return (one if one.cost is None else one._replace(disturbed=disturbance_of(call, one)) for one in found)
 
 
 def over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[Answer]:
@@ -147,7 +151,7 @@ def _answers(
 
 
 def _refuse_infinite(options: Options) -> None:
-    if options.nobody_pays or options.leave_free is not None:
+    if options.nobody_pays or options.leave_free is not None or options.max_disturbance is not None:
         raise UsageError("horizon: expected a number of epochs, by which nobody may have paid")
 
 
@@ -169,11 +173,36 @@ def _keeping(call: Request, free: Answer, solve: Solve) -> Iterator[Answer]:
     task = with_goals(call.task, rule.facts)
     optimum = call.optimum if call.given is not None or plan is None else call.task.cost_of(plan)
     asked = replace(call, optimum=optimum, predicts=plan is not None, question=None)
-    if not call.task.robot_goal or rule.most is None or plan is None:
-        return solve(replace(asked, prepared=PreparedTask(task)), plan)
-    metered = Metered(task, rule.most, call.deadline)
-    found = solve(replace(asked, prepared=PreparedTask(metered.task)), metered.plan(plan))
-    return (_told(metered, answer) for answer in found)
+    layers: list[Metered | Calm] = []
+    if call.task.robot_goal and rule.most is not None:
+        layers.append(Metered(task, rule.most, call.deadline))
+    if call.options.max_disturbance is not None:
+        metered = layers[-1].task if layers else task
+        layers.append(Calm(metered, call.original or call.task, call.options, call.deadline))
+    given = plan
+    for layer in layers:
+        given = None if given is None else layer.plan(given)
+    found = solve(replace(asked, prepared=PreparedTask(layers[-1].task if layers else task)), given)
+    return (_told(layers, answer) for answer in found)
+
+
+class Calm:
+    """A task in which help disturbs the human no more than it may (semantics 13)."""
+
+    def __init__(self, task: Task, original: Task, options: Options, deadline: Deadline) -> None:
+        self._weighed = Weighed(task, disturbance_from(options.disturbance), original)
+        most, weights = options.max_disturbance or Fraction(0), self._weighed.weights
+        self._metered = Metered(self._weighed.task, most, deadline, weights, "disturbed")
+        self.task = self._metered.task
+
+    def plan(self, plan: HumanPlan) -> HumanPlan:
+        """The human's plan, by ids of this task; it disturbs nobody."""
+        ids = {number: new for new, number in enumerate(self._weighed.original)}
+        return self._metered.plan(tuple(ids[number] for number in plan))
+
+    def back(self, plan: Sequence[int]) -> tuple[int, ...]:
+        """A plan by ids of the task that was given."""
+        return tuple(self._weighed.original[number] for number in self._metered.back(plan))
 
 
 def _keeping_over_scenarios(
@@ -190,17 +219,25 @@ def _keeping_over_scenarios(
         for one, most in zip(bound, mosts, strict=True)
     ]
     found = _solved(replace(call, prepared=PreparedTask(metered.task)), bound)
-    return (_told(metered, answer) for answer in found)
+    return (_told([metered], answer) for answer in found)
 
 
-def _told(metered: Metered, answer: Answer) -> Answer:
-    """An answer about a metered task as one about the task itself."""
+def _told(layers: Sequence[Metered | Calm], answer: Answer) -> Answer:
+    """An answer about a task with some layers on it as one about the task itself."""
+
+    def original(ids: Sequence[int]) -> tuple[int, ...]:
+        for layer in reversed(layers):
+            ids = layer.back(ids)
+        return tuple(ids)
 
     def back(answer: ServedGoal | Answer) -> dict[str, Any]:
-        plan, steps = answer.human_plan, answer.steps
+        plan, steps = answer.human_plan, answer.steps or ()
+        actions = original([step.action for step in steps])
         return {
-            "human_plan": None if plan is None else metered.back(plan),
-            "steps": None if steps is None else metered.steps(steps),
+            "human_plan": None if plan is None else original(plan),
+            "steps": None
+            if answer.steps is None
+            else tuple(Step(step.epoch, action) for step, action in zip(steps, actions, strict=True)),
         }
 
     goals = None if answer.goals is None else tuple(replace(one, **back(one)) for one in answer.goals)
@@ -212,6 +249,32 @@ def _order(answer: Answer) -> tuple[bool, Fraction, Fraction]:
 
 
 # -- what has to be kept
+
+
+def _is_calm(call: Request, answer: Answer) -> bool:
+    """Whether an answer disturbs the human no more than it may."""
+    most = call.options.max_disturbance
+    return most is None or disturbance_of(call, answer) <= most
+
+
+def disturbance_of(call: Request, answer: Answer) -> Fraction:
+    """How much an answer disturbs the human."""
+    task = call.task
+    weighed = Weighed(task, disturbance_from(call.options.disturbance), call.original or task)
+    variants: dict[int, list[int]] = {}
+    for new, number in enumerate(weighed.original):
+        variants.setdefault(number, []).append(new)
+    ids = {id(action): number for number, action in enumerate(task.actions)}
+    found = Fraction(0)
+    steps = answer.steps or ()
+    last = max((step.epoch for step in steps), default=0)
+    for state, actions in _epochs(task, steps, last):
+        for action in actions:
+            for new in variants[ids[id(action)]]:
+                if weighed.task.actions[new].applicable(state):
+                    found += weighed.weights[new]
+                    break
+    return found
 
 
 def _is_kept(task: Task, rule: Kept, answer: Answer | ServedGoal, last: int | None = None) -> bool:
@@ -307,14 +370,24 @@ def _after(task: Task, state: frozenset[int], actions: Iterable[GroundAction]) -
 
 def _played(task: Task, steps: Iterable[Step], last: int) -> frozenset[int]:
     """The state after an epoch if these things are done, and what goes on by itself."""
+    state = task.init
+    for before, actions in _epochs(task, steps, last):
+        state = _after(task, before, actions)
+    return state
+
+
+def _epochs(
+    task: Task, steps: Iterable[Step], last: int
+) -> Iterator[tuple[frozenset[int], list[GroundAction]]]:
+    """Epochs up to one, as far as anything happens in them: the state before, and what does."""
     begun: dict[int, list[GroundAction]] = {}
     for step in steps:
         begun.setdefault(step.epoch, []).append(task.actions[step.action])
     state = task.init
     for epoch in range(1, last + 1) if task.due else sorted(begun):
         actions = {id(one): one for one in (*begun.get(epoch, ()), *_due(task, state))}
+        yield state, list(actions.values())
         state = _after(task, state, actions.values())
-    return state
 
 
 def _undisturbed(task: Task, state: frozenset[int]) -> _Literals:

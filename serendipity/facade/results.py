@@ -140,10 +140,12 @@ def _agent_costs(task: Task, discount: Fraction, answer: Answer, waiting: Fracti
 
 def _rule(answer: Answer) -> dict[str, Any]:
     """Whether the rule that nobody pays makes a difference, and what it costs."""
-    binds = {"rule_binds": True} if answer.is_bound else {}
+    binds: dict[str, Any] = {"rule_binds": True} if answer.is_bound else {}
+    if answer.disturbed is not None:
+        binds["disturbance"] = float(answer.disturbed)
     if answer.without_rule is None or answer.cost is None:
         return binds
-    return {"rule_binds": answer.is_bound, "rule_price": float(answer.cost - answer.without_rule)}
+    return {**binds, "rule_binds": answer.is_bound, "rule_price": float(answer.cost - answer.without_rule)}
 
 
 def _tried(row: Tried) -> dict[str, Any]:

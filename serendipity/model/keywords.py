@@ -61,6 +61,8 @@ class AnswerOptions(InterruptionOptions, total=False):
     risk: Risk
     nobody_pays: bool | None
     leave_free: str | None
+    disturbance: str | None
+    max_disturbance: Number | None
 
 
 class PlanOptions(AnswerOptions, total=False):

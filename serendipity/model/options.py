@@ -43,7 +43,7 @@ _LIMITS: Final = {"time_limit": "seconds", "memory_limit": "MiB"}
 
 _LATER: Final = (
     *("memory_limit", "strategies", "waiting_cost", "head_start", "policy", "risk"),
-    *("nobody_pays", "leave_free"),
+    *("nobody_pays", "leave_free", "disturbance", "max_disturbance"),
 )
 """Options that results of the first versions do without."""
 
@@ -54,6 +54,8 @@ _SELDOM: Final = {
     "risk": "mean",
     "nobody_pays": None,
     "leave_free": None,
+    "disturbance": None,
+    "max_disturbance": None,
 }
 """Options that are written down only where they are not the default, which this is."""
 
@@ -85,6 +87,8 @@ class Options:
         risk: what is minimised over scenarios (semantics 11).
         nobody_pays: whether help may cost nobody anything (semantics 12); None: beside bystanders.
         leave_free: patterns, by commas, of the facts that help may leave changed (semantics 12); None: all.
+        disturbance: weights of what disturbs the human, ``"ask=1,meet=1,sight=1"`` (semantics 13).
+        max_disturbance: the most that help may disturb the human, or None.
         no_block: whether robots may leave the human without a plan; None for the default
             of the mode (forbidden under a human model, allowed in assistance).
         time_limit: seconds, or None.
@@ -117,6 +121,8 @@ class Options:
     risk: Risk = "mean"
     nobody_pays: bool | None = None
     leave_free: str | None = None
+    disturbance: str | None = None
+    max_disturbance: Fraction | None = None
     time_limit: float | None = None
     memory_limit: float | None = None
     strategies: str | None = None
@@ -171,8 +177,11 @@ class Options:
         patterns = self.leave_free
         if patterns is not None and not isinstance(patterns, str):
             raise UsageError(f"leave_free: expected patterns apart by commas, got {patterns!r:.50}")
-        for name in ("nobody_pays", "leave_free"):
-            if getattr(self, name) in (None, False):
+        if self.max_disturbance is not None:
+            most = exact(self.max_disturbance, "max_disturbance")
+            self._set("max_disturbance", _not_negative(most, "max_disturbance"))
+        for name in ("nobody_pays", "leave_free", "max_disturbance"):
+            if getattr(self, name) is None or getattr(self, name) is False:
                 continue
             if self.mode == "assistance" or self.human_model != "omniscient":
                 raise UsageError(f"{name}: is not known of mode 'assistance', nor of humans who replan")

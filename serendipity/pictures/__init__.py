@@ -4,19 +4,21 @@
 draws it.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from fractions import Fraction
 
 from serendipity.model import UsageError
 from serendipity.pictures.formats.page import page
 from serendipity.pictures.formats.png import png
 from serendipity.pictures.formats.svg import svg
 from serendipity.pictures.picture.drawing import Picture
+from serendipity.pictures.picture.front import front_picture
 from serendipity.pictures.picture.heat_map import Savings, heat_map
 from serendipity.pictures.picture.timeline_picture import still
 from serendipity.pictures.scene.building import build_scene, other_scenes
 from serendipity.pictures.scene.scene import Scene
 
-__all__ = ["Scene", "build_scene", "check_epoch", "draw", "draw_windows", "other_scenes"]
+__all__ = ["Scene", "build_scene", "check_epoch", "draw", "draw_front", "draw_windows", "other_scenes"]
 
 
 def draw(
@@ -56,6 +58,15 @@ def draw_windows(maps: Mapping[str, Savings], starts: int, horizon: int, suffix:
         UsageError: there is no such form, or PNG lacks the extra ``plot``.
     """
     return _written(heat_map(maps, starts, horizon), suffix, ".svg or .png")
+
+
+def draw_front(points: Sequence[tuple[Fraction, Fraction]], suffix: str) -> str | bytes:
+    """A front of disturbance and saving, ``.svg`` or ``.png``; see :func:`.picture.front.front_picture`.
+
+    Raises:
+        UsageError: there is no such form, or PNG lacks the extra ``plot``.
+    """
+    return _written(front_picture(points), suffix, ".svg or .png")
 
 
 def _written(picture: Picture, suffix: str, known: str) -> str | bytes:

@@ -131,7 +131,7 @@ def _examined(task: Task, result: Result, effort: Effort, original: Task) -> tup
 
     def alone(own: Task, said: Result) -> tuple[Claim, ...]:
         def examine(bound: Task, said: Result) -> tuple[Claim, ...]:
-            return _Certifier.examined(bound, said, effort)
+            return _Certifier(bound, said, effort, own).claims()
 
         return under_the_rule(own, said, original, effort.deadline, examine)
 
@@ -148,18 +148,16 @@ def _examined(task: Task, result: Result, effort: Effort, original: Task) -> tup
 
 
 class _Certifier:
-    def __init__(self, task: Task, result: Result, effort: Effort) -> None:
+    """The claims of one result; ``without_rule`` is the task as humans who replan know it."""
+
+    def __init__(self, task: Task, result: Result, effort: Effort, without_rule: Task) -> None:
         self.task = task
+        self._without_rule = without_rule
         self.result = result
         self.effort = effort
         self.alone = alone_of(task, effort.deadline, result.options)
         self.plans = OptimalPlans(task, self.alone)
         self.checker = Checker(task, self.alone)
-
-    @classmethod
-    def examined(cls, task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
-        """The claims of a result."""
-        return cls(task, result, effort).claims()
 
     def claims(self) -> tuple[Claim, ...]:
         """All claims, in order; what rules refute is not handed to a solver.
@@ -197,7 +195,10 @@ class _Certifier:
             return
         with suppress(PlanError, *UNDECIDED):  # then nothing is learned
             self._learn_pi_h()
-        claim = realised_claim(self.task, self.result, self.plans)
+        task, plans = self._without_rule, self.plans
+        if task is not self.task:
+            plans = OptimalPlans(task, alone_of(task, self.effort.deadline, self.result.options))
+        claim = realised_claim(task, self.result, plans)
         if claim is not None:
             yield claim
 

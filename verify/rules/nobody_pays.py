@@ -10,8 +10,10 @@ from typing import NamedTuple
 
 from serendipity.model import Claim, Condition, Deadline, HumanPlan, Options, PlanError, Result, Task
 from serendipity.model.task.actions import GroundAction
+from serendipity.model.task.disturbance import Weighed, disturbance_from
 from serendipity.model.task.gate import is_bound, nobody_pays
 from serendipity.model.task.metered import Metered
+from serendipity.model.task.visibility import surroundings
 from verify.base import wording
 from verify.base.due import onward
 from verify.base.execution import State, after, is_calm, is_last, met
@@ -63,7 +65,7 @@ def under_the_rule(
     except PlanError:
         return tuple(examine(task, result))  # which says so
     rule = rule_of(task, result.options, plan, result.horizon, original)
-    fault = broken(task, result, rule, deadline)
+    fault = broken(task, result, rule, deadline) or disturbs(task, result, original, deadline)
     if fault is not None:
         return (Claim("replay", "refuted", fault),)
     if not result.statistics.get("rule_binds"):
@@ -71,6 +73,10 @@ def under_the_rule(
     bound = with_goals(task, rule.facts)
     if rule.most is not None and task.robot_goal:
         bound = Metered(bound, rule.most, deadline).task
+    most = result.options.max_disturbance
+    if most is not None:
+        weighed = Weighed(bound, disturbance_from(result.options.disturbance), original)
+        bound = Metered(weighed.task, most, deadline, weighed.weights, "disturbed").task
     return tuple(examine(bound, result))
 
 
@@ -88,6 +94,31 @@ def broken(task: Task, result: Result, rule: Rule, deadline: Deadline) -> str | 
         wrong += [fact for fact in rule.facts.negative if fact in found.last]
         return wording.LEFT_CHANGED.format(", ".join(task.facts[fact] for fact in wrong))
     return None
+
+
+def disturbs(task: Task, result: Result, original: Task, deadline: Deadline) -> str | None:
+    """Whether a plan disturbs the human more than it may, in words (semantics 13)."""
+    found = replay(task, result.plan or (), deadline, strict=result.options.strict)
+    most, kinds = result.options.max_disturbance, disturbance_from(result.options.disturbance)
+    if most is None or result.plan is None or found.fault is not None:
+        return None
+    seen, amount, started = surroundings(original), Fraction(0), {i for _, i in task.due}
+    for epoch, chosen in found.sets.items():
+        before = found.state_after(epoch - 1)
+        here = {at for fact, (who, at) in seen.located.items() if fact in before and who == result.human}
+        for i in chosen:
+            action, begins = task.actions[i], i not in started
+            doers = {task.agents[agent] for agent in action.participants}
+            if result.human in doers:
+                amount += kinds.ask if begins and len(doers) > 1 else 0
+            elif task.script.people.isdisjoint(action.participants):
+                changes = [fact for fact in (*action.add, *action.delete) if fact < len(original.facts)]
+                named = [seen.located.get(f) for f in ((*action.pre, *action.add) if begins else action.add)]
+                amount += kinds.sight * any(here & seen.parts[fact] for fact in changes)
+                amount += kinds.meet * any(
+                    at is not None and at[0] in doers and at[1] in here for at in named
+                )
+    return None if amount <= most else wording.DISTURBS.format(float(amount), float(most))
 
 
 def rule_of(task: Task, options: Options, plan: HumanPlan | None, last: int, original: Task) -> Rule:

@@ -33,6 +33,8 @@ _TEXTS: Final[Mapping[str, tuple[str, str]]] = {
     "policy": ("Over several goals or plans: whether robots watch, or commit themselves.", ""),
     "risk": ("What is minimised over several goals or plans.", ""),
     "leave_free": ("Only facts that fit may be left changed, as in 'at robot *, dirty *'.", "PATTERNS"),
+    "disturbance": ("Weights of what disturbs the human (semantics 13).", "ask=W,meet=W,sight=W"),
+    "max_disturbance": ("The most that help may disturb the human.", "D"),
     "strategies": (
         "Search with these strategies only, or with all but some; -v tells what came of each.",
         "NAME,-NAME",
@@ -75,7 +77,8 @@ _OTHERS: Final[Mapping[str, Any]] = {
 _ALL: Final = (
     *("mode", "discount", "horizon", "human_plan", "window_weight", "max_window", "suffix", "preservation"),
     *("interference", "max_cost", "communication_weight", "keep_prefix", "human_model", "ties", "max_ties"),
-    *("no_block", "waiting_cost", "head_start", "policy", "risk", "nobody_pays", "leave_free", "strategies"),
+    *("no_block", "waiting_cost", "head_start", "policy", "risk", "nobody_pays", "leave_free"),
+    *("disturbance", "max_disturbance", "strategies"),
 )
 """In the order of help."""
 
@@ -83,9 +86,13 @@ WINDOWS: Final = tuple(name for name in _ALL if name in (*InterruptionOptions.__
 """What makes a difference to windows."""
 EXPLAINED: Final = (*_ALL[: _ALL.index("keep_prefix")], "waiting_cost", "head_start")
 """What can be explained."""
+FRONT: Final = tuple(
+    name for name in _ALL if name not in ("max_disturbance", "ties", "max_ties", "policy", "risk")
+)
+"""What a front of saving against disturbance is asked with."""
 _UNKNOWN: Final = (
     *("human_model", "no_block", "waiting_cost", "head_start", "policy", "risk"),
-    *("nobody_pays", "leave_free", "strategies"),
+    *("nobody_pays", "leave_free", "disturbance", "max_disturbance", "strategies"),
 )
 PROGRAMS: Final = tuple(name for name in _ALL if name not in _UNKNOWN)
 """What integer programs know."""

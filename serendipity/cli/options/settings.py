@@ -14,7 +14,7 @@ from serendipity.model import INFINITE, InputError, Options, UsageError
 
 COMMANDS: Final = (
     *("plan", "check-task", "verify", "check-proof", "simulate", "execute", "explain"),
-    *("interruptions", "recognise", "learn", "show", "solve", "play"),
+    *("interruptions", "front", "recognise", "learn", "show", "solve", "play"),
 )
 """Commands about one task: those that settings are for."""
 

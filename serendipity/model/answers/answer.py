@@ -108,6 +108,7 @@ class Answer(NamedTuple):
         tried: the strategies that were tried, in their order; empty in modes that have but one.
         without_rule: cost of the best answer without the rule that nobody pays; None where that is not known.
         is_bound: whether it was looked for under that rule, since the best answer without it breaks it.
+        disturbed: how much it disturbs the human (semantics 13); None where that was not asked.
     """
 
     status: Status
@@ -136,6 +137,7 @@ class Answer(NamedTuple):
     tried: tuple[Tried, ...] = ()
     without_rule: Fraction | None = None
     is_bound: bool = False
+    disturbed: Fraction | None = None
 
 
 def saved(baseline: Fraction | None, cost: Fraction | None, *, opportunity: bool) -> Fraction | None:

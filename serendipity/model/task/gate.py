@@ -54,8 +54,10 @@ def nobody_pays(task: "Task", options: Options) -> bool:
 
 def is_bound(task: "Task", options: Options) -> bool:
     """Whether help has to leave anything as it would be without it."""
-    leaves = options.leave_free is not None and options.mode not in ("individual", "assistance")
-    return leaves or nobody_pays(task, options)
+    limited = any(
+        getattr(options, name) is not None for name in ("leave_free", "disturbance", "max_disturbance")
+    )
+    return (limited and options.mode not in ("individual", "assistance")) or nobody_pays(task, options)
 
 
 _METERED: Final[dict[str, object]] = {"suffix": "replan", "preservation": "kernel", "waiting_cost": 0}
@@ -68,6 +70,8 @@ def require_metered(task: "Task", options: Options, *, scenarios: int = 1) -> No
     Raises:
         UsageError: it can't.
     """
+    if options.max_disturbance is not None and scenarios > 1:
+        raise UsageError("max_disturbance: is for one goal and plan only")
     if not nobody_pays(task, options) or (not task.robot_goal and scenarios == 1):
         return
     for name, value in _METERED.items():

@@ -1,4 +1,4 @@
-"""A task in which the human pays no more than so much (semantics 12).
+"""A task in which what actions add up to is limited: what the human pays, for one (semantics 12, 13).
 
 Search and verifier both look at such tasks.  That they count right is held by the verifier's rule, which adds
 up what the human pays in a plan, and by the brute force of the tests, which knows of no such task.
@@ -20,14 +20,16 @@ _BYTES: Final = 500
 
 
 class Metered:
-    """The task, with facts that say how much the human has paid.
+    """The task, with facts that say how much has been paid.
 
-    An action of theirs that costs anything becomes one for each amount paid before: variants of one name.
+    An action that costs anything becomes one for each amount paid before: variants of one name.
 
     Args:
         task: in single epochs.
-        most: that they may pay.
+        most: that may be paid.
         deadline: polled.
+        prices: of its actions; None: what the human pays for them.
+        name: of what is paid, for the facts.
 
     Attributes:
         task: the new one.
@@ -36,36 +38,45 @@ class Metered:
         LimitReachedError: the deadline came, or all this does not fit into memory.
     """
 
-    def __init__(self, task: Task, most: Fraction, deadline: Deadline) -> None:
-        priced = [a.cost for a in task.actions if task.human in a.participants and a.cost]
+    def __init__(
+        self,
+        task: Task,
+        most: Fraction,
+        deadline: Deadline,
+        prices: Sequence[Fraction] | None = None,
+        name: str = "paid",
+    ) -> None:
+        if prices is None:
+            prices = [a.cost if task.human in a.participants else Fraction(0) for a in task.actions]
+        self._prices = prices
+        priced = [price for price in prices if price]
         amounts = _sums(set(priced), most, deadline)
         deadline.require(_BYTES * len(priced) * len(amounts))
         self._facts = facts = {amount: len(task.facts) + number for number, amount in enumerate(amounts)}
-        self._costs = [action.cost for action in task.actions]
         self._original: list[int] = []
         self._ids: dict[int, dict[Fraction, int]] = {}
         actions: list[GroundAction] = []
         for number, action in enumerate(deadline.each(task.actions)):
             ids = self._ids[number] = {}
-            for before, variant in self._variants(task, action):
+            for before, variant in self._variants(action, prices[number]):
                 ids[before] = len(actions)
                 actions.append(variant)
                 self._original.append(number)
         self.task = replace(
             task,
-            facts=(*task.facts, *(f"~paid {amount}" for amount in amounts)),
+            facts=(*task.facts, *(f"~{name} {amount}" for amount in amounts)),
             init=task.init | {facts[Fraction(0)]},
             actions=tuple(actions),
             due=tuple((fact, new) for fact, number in task.due for new in self._ids[number].values()),
             known_variables=(*task.variables, Variable(tuple(facts.values()))),
         )
 
-    def _variants(self, task: Task, action: GroundAction) -> Iterator[tuple[Fraction, GroundAction]]:
-        if task.human not in action.participants or not action.cost:
+    def _variants(self, action: GroundAction, price: Fraction) -> Iterator[tuple[Fraction, GroundAction]]:
+        if not price:
             yield Fraction(0), action
             return
         for before, fact in self._facts.items():
-            after = self._facts.get(before + action.cost)
+            after = self._facts.get(before + price)
             if after is not None:
                 pre, add = (*action.pre, fact), (*action.add, after)
                 yield before, replace(action, pre=pre, add=add, delete=(*action.delete, fact))
@@ -74,9 +85,9 @@ class Metered:
         """The human's plan, an action an epoch, by ids of this task."""
         found, amount = [], Fraction(0)
         for number in plan:
-            cost = self._costs[number]
-            found.append(self._ids[number][amount if cost else Fraction(0)])
-            amount += cost
+            price = self._prices[number]
+            found.append(self._ids[number][amount if price else Fraction(0)])
+            amount += price
         return tuple(found)
 
     def goal(self, goal: Condition, most: Fraction) -> Condition:

@@ -83,7 +83,7 @@ class Solver:
             return None
         if not self.plans.robots_goal:
             cost = self.plans.units(self.plans.cost_of_plan())
-            return (cost, cost, len(plan), 0)
+            return (cost, cost, len(plan), 0, 0)
         return min(self.plans.beside_plan(), key=lambda label: label[1:], default=None)
 
     def _helps(self, found: WindowPlan, baseline: Label | None) -> bool:
@@ -157,7 +157,7 @@ class Solver:
             assert idle is not None
             known = replace(known, saving=Fraction(0), saving_alone=self.plans.cost(baseline[1] - idle))
         if found is not None and (helps or not self.options.windowed):
-            _, spent, actions, _ = found.label
+            _, spent, actions, *_ = found.label
             saving = None if baseline is None else self.plans.cost(baseline[1] - spent if helps else 0)
             return replace(
                 known,

@@ -20,6 +20,7 @@ def best_by_window(task: Task, options: Options, human_plan: HumanPlan) -> dict[
         keep_prefix=False,
         nobody_pays=False,
         leave_free=None,
+        max_disturbance=None,
     )
     plans = _BothCosts(task, asked, human_plan)
     found: dict[Window, list[Label]] = {}
@@ -28,7 +29,7 @@ def best_by_window(task: Task, options: Options, human_plan: HumanPlan) -> dict[
         last = int(plans.horizon or 0)
         for start in range(1, plans.length + 1):
             for end in range(start + 1, last + 2):
-                found[Window(start, end)] = [(cost, cost, 0, 0)]
+                found[Window(start, end)] = [(cost, cost, 0, 0, 0)]
     for candidate in plans.windows():
         assert candidate.window is not None
         found.setdefault(candidate.window, []).append(candidate.label)
@@ -48,5 +49,5 @@ class _BothCosts(Plans):
         """See :class:`Plans`."""
         action = self.task.actions[i]
         if self.task.human in action.participants:
-            return (self.units(action.cost), self.units(action.cost), 1, 0)
-        return (0, self.units(action.cost * (1 - self.options.discount)), 1, 0)
+            return (self.units(action.cost), self.units(action.cost), 1, 0, 0)
+        return (0, self.units(action.cost * (1 - self.options.discount)), 1, 0, 0)

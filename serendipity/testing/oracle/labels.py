@@ -3,10 +3,10 @@
 from collections.abc import Callable, Hashable, Iterable
 from typing import TypeVar
 
-Label = tuple[int, int, int, int]
-"""Objective without K, cost, number of actions, and what the human pays where that is limited, else 0.
+Label = tuple[int, int, int, int, int]
+"""Objective without K, cost, number of actions, what the human pays, and how much they are disturbed.
 
-All but the number are in the call's smallest unit of cost.
+The last two are 0 where they are not limited; all but the number are in the call's smallest unit of cost.
 """
 
 Front = tuple[Label, ...]
@@ -18,22 +18,22 @@ S = TypeVar("S", bound=Hashable)
 Layer = dict[S, Front]
 Moves = Callable[[S], Iterable[tuple[S, Label]]]
 
-NOTHING: Label = (0, 0, 0, 0)
+NOTHING: Label = (0, 0, 0, 0, 0)
 
 
 def plus(a: Label, b: Label) -> Label:
     """The label of two parts one after the other."""
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3])
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4])
 
 
 def front(labels: Iterable[Label]) -> Front:
-    """Drop labels with an equal or smaller one in objective, cost *and* what the human pays.
+    """Drop labels with an equal or smaller one in objective, cost *and* what the human pays and is disturbed.
 
-    These have to be kept beside the objective because ``max_cost`` and ``nobody_pays`` bound them alone.
+    These have to be kept beside the objective because they are bounded alone.
     """
     kept: list[Label] = []
     for label in sorted(set(labels)):
-        if not any(known[1] <= label[1] and known[3] <= label[3] for known in kept):
+        if not any(all(known[k] <= label[k] for k in (1, 3, 4)) for known in kept):
             kept.append(label)
     return tuple(kept)
 

@@ -9,6 +9,7 @@ from math import lcm
 from serendipity.model import HumanPlan, Options, PlanError, Task, UsageError, Window
 from serendipity.model.keywords import Horizon
 from serendipity.testing.oracle.alone import Alone
+from serendipity.testing.oracle.disturbing import Disturbing
 from serendipity.testing.oracle.epochs import holds
 from serendipity.testing.oracle.labels import NOTHING, Label, Layer, Moves, advance, front, plus
 from serendipity.testing.oracle.moments import Moment
@@ -58,6 +59,7 @@ class Plans:
         self._priced = cache(self.price)
         self._require_plan()
         self._rule: Rule | None = None
+        self._disturbing = Disturbing(self.world, options)
         self._most: int | None = None
         self._set_rule()
 
@@ -127,16 +129,16 @@ class Plans:
         action = self.task.actions[i]
         if self.task.human not in action.participants:
             cost = self.units(action.cost * (1 - self.options.discount))
-            return (cost, cost, 1, 0)
+            return (cost, cost, 1, 0, 0)
         off_plan = self.options.mode == "communication" and not self._planned(i)
         talk = self.options.communication_weight * action.cost if off_plan else Fraction(0)
         paid = self.units(action.cost)
-        return (self.units(action.cost + talk), paid, 1, 0 if self._most is None else paid)
+        return (self.units(action.cost + talk), paid, 1, 0 if self._most is None else paid, 0)
 
     def waiting(self, epochs: int) -> Label:
         """Objective, cost and count of some epochs of waiting."""
         paid = self.units(self.options.waiting_cost * epochs)
-        return (paid, paid, 0, 0 if self._most is None else paid)
+        return (paid, paid, 0, 0 if self._most is None else paid, 0)
 
     def lasts(self, moment: Moment, epoch: int, last: int) -> bool:
         """Whether all goals hold after epoch ``last`` if everybody is idle until then."""
@@ -144,8 +146,10 @@ class Plans:
         return end is not None and self._done(end) and holds(self.task.robot_goal, end.state)
 
     def pays(self, label: Label) -> bool:
-        """Whether the human pays no more than they may."""
-        return self._most is None or label[3] <= self._most
+        """Whether the human pays no more than they may, and is disturbed no more."""
+        most = self.options.max_disturbance
+        calm = most is None or label[4] <= self._disturbing.scale * most
+        return calm and (self._most is None or label[3] <= self._most)
 
     def units(self, amount: Fraction) -> int:
         """An amount in the smallest unit of cost."""
@@ -221,6 +225,8 @@ class Plans:
             if (his and moment.retired) or (phase != "free" and not self._prefix_allows(phase, his, fixed)):
                 continue
             step = NOTHING
+            if self.options.max_disturbance is not None:
+                step = (0, 0, 0, 0, self._disturbing.by(moment, chosen))
             for i in chosen:
                 step = plus(step, self._priced(i))
             waits = not his and not self.world.busy(moment, self.task.human)

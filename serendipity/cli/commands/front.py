@@ -1,0 +1,54 @@
+"""``serendipity front``: what less of a saving leaves a person more in peace."""
+
+from pathlib import Path
+from typing import Annotated, Final
+
+import serendipity
+from serendipity.cli.choices import option
+from serendipity.cli.exit_codes import ExitCode
+from serendipity.cli.files.plans import timed_plan
+from serendipity.cli.options import limits, naming, planning
+from serendipity.cli.process.interrupts import cancelling
+from serendipity.cli.streams import output, progress
+from serendipity.cli.text.render import shown
+from serendipity.model import UsageError
+from serendipity.model.numbers import plain
+
+_PICTURES: Final = (".svg", ".png")
+
+
+def front(
+    *,
+    task: naming.TaskName,
+    options: Annotated[planning.Planning, planning.FRONT],
+    picture: Annotated[Path | None, option("--picture FILE", "Also draw it (.svg, .png).")] = None,
+    certify: Annotated[bool, option("--verify", "Prove each point, as `verify` does.")] = False,
+    limited: limits.Limits,
+    to: Annotated[output.Destination, output.ROWS_TOO],
+) -> int:
+    """Find the exact front of saving against disturbance, from the most help to none."""
+    form = to.prepare(output.DATA)
+    output.check_output(picture, "--picture")
+    if picture is not None and picture.suffix not in _PICTURES:
+        raise UsageError(f"--picture: expected a file that ends in {', '.join(_PICTURES)}, got {picture}")
+    deadline = limited.begin("serendipity.facade.front", *limits.PLANNING)
+    loaded = task.load(deadline)
+    given = None if options.human_plan is None else timed_plan(options.human_plan, loaded)
+    with progress.working("planning") as on_news, cancelling() as cancelled:
+        asked = options.given | {"human_plan": given, "deadline": deadline, "cancelled": cancelled}
+
+        def on_point(point: serendipity.FrontPoint) -> None:
+            on_news(f"disturbance {plain(point.disturbance)}", saving=float(point.saving))
+
+        found = serendipity.front(loaded, verify=certify, on_point=on_point, **asked)
+    answers = [output.Answer(shown(found, form), to.output_file)]
+    if picture is not None:
+        from serendipity.facade.front import drawn
+
+        answers.append(output.Answer(drawn(found, picture.suffix), picture, "--picture"))
+    output.write_answers(answers)
+    if any(point.certificate and point.certificate.verdict == "refuted" for point in found.points):
+        return ExitCode.REFUTED
+    if not found.points:
+        return ExitCode.INFEASIBLE if found.complete else ExitCode.UNDECIDED
+    return ExitCode.ANSWERED

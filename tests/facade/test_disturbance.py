@@ -1,0 +1,111 @@
+"""Help that leaves a person in peace (semantics 13): as brute force has it, and proved; and the front."""
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import serendipity
+from serendipity import Condition, GroundAction, Options, Task, Timing, UsageError
+from serendipity.facade.front import drawn
+from serendipity.testing.oracle import best
+
+_PLACED = tuple(f"{what} p{i}" for what in ("at h", "at r", "lit") for i in range(3))
+_FACTS = (*_PLACED, "done")
+_IDS = {name: i for i, name in enumerate(_FACTS)}
+
+
+def action(
+    name: str, who: tuple[int, ...], pre: str, add: str, delete: str = "", cost: int = 1
+) -> GroundAction:
+    def ids(text: str) -> tuple[int, ...]:
+        return tuple(sorted(_IDS[fact.strip()] for fact in text.split(",") if fact.strip()))
+
+    return GroundAction(name, who, ids(pre), (), ids(add), ids(delete), Fraction(cost))
+
+
+@st.composite
+def rooms(draw: st.DrawFn) -> Task:
+    """Three rooms in a row, in which both walk; work is quick where a robot has lit a lamp, or helps."""
+    found, slow = [], draw(st.booleans())
+    for agent, name in enumerate("hr"):
+        for p, q in ((0, 1), (1, 2), (1, 0), (2, 1)):
+            walk = f"move {name} p{p} p{q}"
+            found.append(action(walk, (agent,), f"at {name} p{p}", f"at {name} p{q}", f"at {name} p{p}"))
+            if slow and draw(st.booleans()):
+                left = Timing(2, start_delete=found[-1].delete)
+                found[-1] = GroundAction(walk, (agent,), found[-1].pre, (), found[-1].add, (), timing=left)
+    for p in range(3):
+        where = f"at r p{p}" if draw(st.booleans()) else ""
+        found.append(action(f"light r p{p}", (1,), where, f"lit p{p}", cost=draw(st.integers(0, 1))))
+    goal, lamp, desk = (draw(st.integers(0, 2)) for _ in range(3))
+    found.append(action(f"work h p{goal}", (0,), f"at h p{goal}", "done", cost=5))
+    found.append(action(f"work-lit h p{goal}", (0,), f"at h p{goal}, lit p{lamp}", "done"))
+    found.append(action(f"give h r p{desk}", (0, 1), f"at h p{desk}, at r p{desk}", "done"))
+    start = frozenset({_IDS[f"at h p{draw(st.integers(0, 2))}"], _IDS[f"at r p{draw(st.integers(0, 2))}"]})
+    actions = tuple(sorted(found, key=lambda each: each.key))
+    return Task("rooms", ("h", "r"), 0, _FACTS, start, Condition((_IDS["done"],)), actions)
+
+
+_OPTIONS = st.builds(
+    Options,
+    mode=st.sampled_from(["serendipity", "serendipity", "communication", "composite"]),
+    discount=st.sampled_from(["0.5", "0.9", "1"]),
+    window_weight=st.sampled_from(["0", "0.25", "1000"]),
+    suffix=st.sampled_from(["replan", "subplan"]),
+    disturbance=st.sampled_from([None, "ask=2", "sight=1", "meet=1, ask=0.5"]),
+    max_disturbance=st.sampled_from([0, "0.5", 1, 3]),
+    leave_free=st.sampled_from([None, None, "at *"]),
+)
+
+
+@pytest.mark.long
+@given(rooms(), _OPTIONS)
+@settings(max_examples=60)
+def test_answers_are_those_of_brute_force(task: Task, options: Options) -> None:
+    expected = best(task, options)
+    answer = serendipity.plan(task, **{name: getattr(options, name) for name in options.to_dict()})
+    figures = (answer.status, answer.cost, answer.objective, answer.opportunity)
+    assert expected.cost is not None and expected.objective is not None
+    found = (expected.status, float(expected.cost), float(expected.objective), expected.opportunity)
+    assert figures == found
+    assert (answer.figure("disturbance") or 0) <= float(options.max_disturbance or 0)
+    assert serendipity.verify(task, answer).verdict == "proved"
+
+
+def test_a_plan_that_disturbs_more_than_it_may_is_refuted() -> None:
+    task = serendipity.example("room2")
+    answer = serendipity.plan(task, discount="0.9", max_disturbance=1)
+    assert answer.figure("disturbance") == 1
+    told = replace(answer, options=answer.options.but(max_disturbance=0))
+    for certificate in (serendipity.verify(task, told), serendipity.check(task, told)):
+        assert "help disturbs the human by 1, and may by 0" in str(certificate)
+
+
+@pytest.mark.parametrize("name", ["room2", "flights", "parcels"])
+def test_each_point_of_a_front_is_proved_and_none_dominated(name: str) -> None:
+    task, options = serendipity.example(name), {"discount": "0.9", "window_weight": 0}
+    front = serendipity.front(task, discount="0.9", verify=True)
+    assert front.complete
+    assert all(point.certificate and point.certificate.verdict == "proved" for point in front.points)
+    assert all(a.disturbance < b.disturbance and a.saving < b.saving for a, b in pairwise(front.points))
+    assert front.points[-1].result.cost == serendipity.plan(task, **options).cost
+    assert front.points[0].result.cost == serendipity.plan(task, max_disturbance=0, **options).cost
+    assert drawn(front, ".svg").count("<circle") == len(front.points)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"max_disturbance": -1}, "max_disturbance: expected a number of at least 0, got -1"),
+        ({"max_disturbance": 1, "mode": "assistance"}, "max_disturbance: is not known of mode 'assistance'"),
+        ({"disturbance": "ask=x"}, "disturbance: ask: "),
+    ],
+)
+def test_what_is_no_disturbance_is_refused(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(UsageError, match=message):
+        serendipity.plan(serendipity.example("room2"), **options)
