@@ -21,6 +21,7 @@ EXAMPLES: Final = (
     "serendipity show --example room7 help.json --epoch 6 -o help.svg",
     "serendipity solve --example room7 --discount 0.6 --mode communication --solver highs",
     "serendipity crosscheck --count 5 --judges search,automata",
+    "serendipity league --season spring --cases 2 --helper idle --helper ours-policy --families buildings",
     "serendipity bench --rooms 12 --seeds 2 --contenders search,automata --repeat 1 -o timings.csv",
     "serendipity generate usar --rooms 30 --medkits 3 --seed 6 -o building",
     "serendipity check-task building",

@@ -22,7 +22,7 @@ from serendipity.model import UsageError
 NAMES: Final = (
     *("plan", "check-task", "verify", "check-proof", "simulate", "execute", "explain", "interruptions"),
     "front",
-    *("recognise", "learn", "reproduce", "show", "solve", "crosscheck", "bench"),
+    *("recognise", "learn", "reproduce", "show", "solve", "crosscheck", "league", "bench"),
     *("examples", "generate", "play", "serve"),
 )
 """As ``--help`` lists them: each a function in a module, both of its name, or a group ``app`` there."""

@@ -72,6 +72,7 @@ class Replanner:
         human_model: ``observant`` or ``local``.
         dice: draws which of their optimal plans they follow; None: the canonical one.
         prepared: the task made ready, whose tables they go on with; None: it is made ready.
+        plan: what they have in mind at first, by action ids.
     """
 
     def __init__(
@@ -80,20 +81,21 @@ class Replanner:
         human_model: str = "observant",
         dice: Random | None = None,
         prepared: PreparedTask | None = None,
+        plan: HumanPlan = (),
     ) -> None:
         self._dice = dice
         self._human_model = human_model
         self._joint = [i for i, a in enumerate(task.actions) if a.joint and task.human in a.participants]
-        self._begin(prepared or PreparedTask(task))
+        self._begin(prepared or PreparedTask(task), plan)
 
-    def _begin(self, prepared: PreparedTask) -> None:
-        """Begin anew, with nothing in mind, from a state that they know."""
+    def _begin(self, prepared: PreparedTask, plan: HumanPlan = ()) -> None:
+        """Begin anew from a state that they know, with a plan in mind, or with nothing."""
         self._task = prepared.task
         self._human = Human(
             prepared, Options(), Deadline(), human_model=self._human_model, actions=self._joint
         )
         self._expected = self._human.packed.pack(self._task.init)
-        self._intention = self._human.intentions.of(())
+        self._intention = self._human.intentions.of(plan)
 
     def _packed(self, state: frozenset[int]) -> int:
         """A state, packed; where it does not fit what they know of, they begin anew in it."""
@@ -138,6 +140,14 @@ class Replanner:
         keep, put = (-1, 0) if action is None else self._human.packed.effect(action)
         self._expected = belief & keep | put
 
+    def goes_along(self, state: frozenset[int], name: str | None) -> None:
+        """Say that they did as they were told, by a name, which may be what they meant to do anyway."""
+        own = self._intention.op
+        same = own is not None and self._task.actions[own.action].name == name
+        self.does(state, own.action if own is not None and same else None)
+        if same:
+            self._intention = self._intention.rest
+
     def _is_stuck(self, state: frozenset[int]) -> bool:
         """Whether they have no plan alone from a state that fits what they last saw."""
         return self._human.stuck(self._human.packed.pack(state))
@@ -148,19 +158,20 @@ class Omniscient:
 
     Args:
         task: where they begin; its goal is theirs.
+        plan: what they have in mind at first, by action ids.
     """
 
     plan: HumanPlan | None = None
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: Task, plan: HumanPlan = ()) -> None:
         self._task = task
-        self._otherwise = Replanner(task)
+        self._otherwise = Replanner(task, plan=plan)
 
     def choose(self, moment: Moment) -> str | None:
         """See :class:`Person`."""
         if not moment.planned:
             return self._otherwise.choose(moment)
-        self._otherwise.does(moment.state, None)
+        self._otherwise.goes_along(moment.state, moment.wish)
         return moment.wish
 
 

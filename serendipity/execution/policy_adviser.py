@@ -55,6 +55,7 @@ class PolicyAdviser:
             interference=options.interference,
             mode=options.mode,
             human_model=options.human_model,
+            window_weight=options.window_weight,
         )
         self._pledges: dict[int, Pledge] = {}
 

@@ -161,7 +161,13 @@ class SessionAdviser:
         self._actions = actions
         self._told = told
         common = {"discount": options.discount, "interference": options.interference}
-        self._beside = RestrictedSessions(task, **common, mode=options.mode, human_model=options.human_model)
+        self._beside = RestrictedSessions(
+            task,
+            **common,
+            mode=options.mode,
+            human_model=options.human_model,
+            window_weight=options.window_weight,
+        )
         free = task.with_goal(task.goal, Condition())  # robots' own goals can wait
         self._joint = RestrictedSessions(free, **common, mode="composite", horizon=INFINITE)
         self._pledges: dict[frozenset[int], Pledge] = {}

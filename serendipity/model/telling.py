@@ -93,6 +93,31 @@ def _html(part: Line | Grid) -> str:
     return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
 
 
+_STYLE: Final = """
+:root { color-scheme: light dark; }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; }
+table { border-collapse: collapse; margin: 1rem 0; }
+.wide { overflow-x: auto; }
+th, td { padding: .25rem .75rem; border-bottom: 1px solid #8886; white-space: nowrap; }
+svg { width: 100%; min-width: 36rem; max-width: 44rem; height: auto; }
+"""
+
+
+def as_page(title: str, body: str) -> str:
+    """A page of HTML that needs nothing else."""
+    return (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<title>{markup(title)}</title><style>{_STYLE}</style></head>\n<body>\n"
+        f"<h1>{markup(title)}</h1>\n{body}\n</body></html>\n"
+    )
+
+
+def wide(part: str) -> str:
+    """A part of a page that scrolls by itself, so that it fits narrow screens."""
+    return f'<div class="wide">{part}</div>'
+
+
 class Told(ABC):
     """An object whose ``repr`` is one line, and which prints as the command line does."""
 

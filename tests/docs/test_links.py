@@ -65,7 +65,8 @@ def test_all_public_names_are_in_the_reference() -> None:
     pages = [path.read_text(encoding="utf-8") for path in (ROOT / "docs/reference").glob("*.md")]
     listed = re.findall(r"^::: (.*)$", "\n".join(pages), re.MULTILINE)
     assert len(listed) == len(set(listed))
-    for module in ("serendipity.aio", "serendipity.execution", "serendipity.robot", "serendipity.testing"):
+    public = ("aio", "execution", "robot", "testing", "testing.league")
+    for module in (f"serendipity.{name}" for name in public):
         assert {f"{module}.{name}" for name in import_module(module).__all__} <= {*listed}
     elsewhere = {name.rpartition(".")[2] for name in listed if name.startswith("serendipity.execution.")}
     assert {f"serendipity.{n}" for n in {*serendipity.__all__} - elsewhere - {"__version__"}} <= {*listed}

@@ -3,7 +3,7 @@
 import pytest
 
 import serendipity
-from serendipity.execution import Execution, Omniscient, Replanner
+from serendipity.execution import Execution, Moment, Omniscient, Replanner
 from serendipity.model import Condition, Task, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.builders import usar
@@ -184,3 +184,27 @@ def test_what_is_impossible_is_tried_in_vain(room2: Task) -> None:
         run.step("fly")
     with pytest.raises(UsageError, match="no action 'move robot room4 hall4' that commx can do alone"):
         run.step("move robot room4 hall4")
+
+
+def test_who_has_a_plan_in_mind_keeps_it_and_goes_on_with_the_rest() -> None:
+    """Of two ways that cost the same they take the one that they meant to, told so or not."""
+    ways = build(
+        agents="h r",
+        init="a",
+        goal="c",
+        actions={
+            "left1 h": "a -> b1 !a",
+            "left2 h": "b1 -> c",
+            "right1 h": "a -> b2 !a",
+            "right2 h": "b2 -> c",
+        },
+    )
+    plan = tuple(
+        next(i for i, a in enumerate(ways.actions) if a.name == name) for name in ("right1 h", "right2 h")
+    )
+    for told in (False, True):
+        person, run = Omniscient(ways, plan), Execution(ways)
+        first = person.choose(Moment(run.state, (), told, "right1 h"))
+        run.step(first)
+        assert (first, person.choose(Moment(run.state, (), False, None))) == ("right1 h", "right2 h")
+        assert Replanner(ways, plan=plan).plan == plan

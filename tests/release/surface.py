@@ -24,6 +24,7 @@ MODULES = (
     "serendipity.robot",
     "serendipity.up",
     "serendipity.testing",
+    "serendipity.testing.league",
 )
 
 PARTS = {"serendipity.Deadline": {"check", "elapsed", "left", "reached", "within"}}

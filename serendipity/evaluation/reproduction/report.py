@@ -11,17 +11,9 @@ from serendipity.evaluation.reproduction.run import Reproduction
 from serendipity.evaluation.reproduction.tables import Entry, Tables
 from serendipity.model.errors import UsageError
 from serendipity.model.printable import markup
-from serendipity.model.telling import Grid, as_html
+from serendipity.model.telling import Grid, as_html, as_page, wide
 
 _TITLE: Final = "Planning for serendipity: a reproduction"
-_STYLE: Final = """
-:root { color-scheme: light dark; }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; }
-table { border-collapse: collapse; margin: 1rem 0; }
-.wide { overflow-x: auto; }
-th, td { padding: .25rem .75rem; border-bottom: 1px solid #8886; white-space: nowrap; }
-svg { width: 100%; min-width: 36rem; max-width: 44rem; height: auto; }
-"""
 _MOST_BINS: Final = 16
 _WIDTHS: Final = tuple(Fraction(10) ** power * factor for power in range(-6, 12) for factor in (1, 2, 5))
 _LEAST_SECONDS: Final = 1e-6
@@ -29,23 +21,14 @@ _LEAST_SECONDS: Final = 1e-6
 
 def html_report(run: Reproduction, tables: Tables) -> str:
     """The page; its charts need matplotlib, and scroll by themselves, so that it fits narrow screens."""
-    parts = "\n".join(f"<h2>{title}</h2>\n{_wide(as_html([grid]))}" for title, grid in titled(tables))
+    parts = "\n".join(f"<h2>{title}</h2>\n{wide(as_html([grid]))}" for title, grid in titled(tables))
     try:
-        charts = "\n".join(map(_wide, _charts(run, tables.costs)))
+        charts = "\n".join(map(wide, _charts(run, tables.costs)))
     except UsageError as error:
         charts = f"<p>{markup(str(error))}</p>"
     tests = len({row.test for row in run.rows})
-    return (
-        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>{_TITLE}</title><style>{_STYLE}</style></head>\n<body>\n<h1>{_TITLE}</h1>\n"
-        f"<p>{tests} tasks, modes {markup(', '.join(run.modes))}.</p>\n{parts}\n"
-        f"<h2>Charts</h2>\n{charts}\n</body></html>\n"
-    )
-
-
-def _wide(part: str) -> str:
-    return f'<div class="wide">{part}</div>'
+    intro = f"<p>{tests} tasks, modes {markup(', '.join(run.modes))}.</p>"
+    return as_page(_TITLE, f"{intro}\n{parts}\n<h2>Charts</h2>\n{charts}")
 
 
 def titled(tables: Tables) -> Iterator[tuple[str, Grid]]:

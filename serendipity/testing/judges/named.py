@@ -1,11 +1,12 @@
 """Judges by what a user calls them: ``package.module:function``, ``up:ENGINE``, a command."""
 
 import sys
+from collections.abc import Callable
 from contextlib import chdir
 from importlib import import_module
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Final
+from typing import Any, Final, cast
 
 from serendipity.model import Deadline, UsageError
 from serendipity.model.numbers import exact
@@ -26,7 +27,7 @@ def by_name(name: str) -> OutsideJudge:
     module, _, what = name.partition(":")
     if not module or not what:
         raise UsageError(f"judge: expected 'package.module:function' or 'up:ENGINE', got '{name}'")
-    return _engine(name, what) if module == _ENGINES else _function(name, module, what)
+    return _engine(name, what) if module == _ENGINES else by_function(function_named(name, "judge"), name)
 
 
 def by_command(command: str) -> OutsideJudge:
@@ -38,18 +39,28 @@ def by_command(command: str) -> OutsideJudge:
     return OutsideJudge(command, Command(command))
 
 
-def _function(name: str, module: str, what: str) -> OutsideJudge:
+def function_named(name: str, role: str) -> Callable[..., Any]:
+    """A function by ``package.module:function``; modules of the working directory are found, too.
+
+    Args:
+        role: what it is for, in errors.
+
+    Raises:
+        UsageError: there is none of that name.
+    """
+    module, _, what = name.partition(":")
+    if not module or not what:
+        raise UsageError(f"{role}: expected 'package.module:function', got '{name}'")
     folder = str(Path.cwd())
     if folder not in sys.path:
         sys.path.append(folder)
     try:
         function = getattr(import_module(module), what)
     except (ImportError, AttributeError) as error:
-        raise UsageError(f"judge '{name}': {error}") from None
+        raise UsageError(f"{role} '{name}': {error}") from None
     if not callable(function):
-        raise UsageError(f"judge '{name}': expected a function, got {type(function).__name__}")
-
-    return by_function(function, name)
+        raise UsageError(f"{role} '{name}': expected a function, got {type(function).__name__}")
+    return cast(Callable[..., Any], function)
 
 
 def _engine(name: str, engine: str) -> OutsideJudge:
