@@ -188,7 +188,7 @@ def test_answers_without_time_are_those_of_brute_force(call: Call) -> None:
 
 @pytest.mark.long
 @given(scenarios(), st.data())
-@settings(max_examples=20)
+@settings(max_examples=12)
 def test_nobody_pays_in_any_scenario(asked: tuple[Task, list[Any]], data: st.DataObject) -> None:
     task, candidates = asked
     options = data.draw(options_over(candidates)).but(suffix="replan", preservation="kernel")

@@ -26,7 +26,7 @@ def front(
     limited: limits.Limits,
     to: Annotated[output.Destination, output.ROWS_TOO],
 ) -> int:
-    """Find the exact front of saving against disturbance, from the most help to none."""
+    """Say what each saving costs of being left in peace. The exact front, from the most help to none."""
     form = to.prepare(output.DATA)
     output.check_output(picture, "--picture")
     if picture is not None and picture.suffix not in _PICTURES:
