@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from serendipity.model import Task, UsageError
 from serendipity.model.arguments import TEXT, WHOLE, expect
@@ -12,6 +12,9 @@ from serendipity.testing.league.helpers import SHIPPED, by_function, helper_name
 from serendipity.testing.league.play import played
 from serendipity.testing.league.protocol import Helper
 from serendipity.testing.league.scores import League, Score, Standing, score
+
+if TYPE_CHECKING:
+    from serendipity.testing.league.environment import CaseEnv
 
 __all__ = [
     "SHIPPED",
