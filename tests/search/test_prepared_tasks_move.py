@@ -43,12 +43,14 @@ def test_with_another_goal(task: Task) -> None:
 
 @given(tasks())
 def test_several_goals_over_one_packing(task: Task) -> None:
-    goals = [task.goal, *(Condition((fact,)) for fact in range(min(2, len(task.facts))))]
+    wanted = [task.goal, *(Condition((fact,)) for fact in range(min(2, len(task.facts))))]
+    theirs = [task.robot_goal, Condition((), (len(task.facts) - 1,)), Condition()]
+    goals = list(zip(wanted, theirs, strict=False))
     found = PreparedTask(task).with_goals(goals, frozenset(), Deadline())
     assert len({id(own.plain(Deadline()).packed.own) for own in found}) == 1
-    for goal, own in zip(goals, found, strict=True):
-        assert own.task == task.with_goal(goal)
-        alone = answer(PreparedTask(task.with_goal(goal)))
+    for pair, own in zip(goals, found, strict=True):
+        assert own.task == task.with_goal(*pair)
+        alone = answer(PreparedTask(task.with_goal(*pair)))
         assert (answer(own).status, answer(own).cost) == (alone.status, alone.cost)
 
 
