@@ -33,7 +33,11 @@ def front(labels: Iterable[Label]) -> Front:
     """
     kept: list[Label] = []
     for label in sorted(set(labels)):
-        if not any(all(known[k] <= label[k] for k in (1, 3, 4)) for known in kept):
+        _, cost, _, paid, disturbed = label
+        for known in kept:  # a loop: this is asked for millions of labels
+            if known[1] <= cost and known[3] <= paid and known[4] <= disturbed:
+                break
+        else:
             kept.append(label)
     return tuple(kept)
 
