@@ -174,9 +174,14 @@ class Options:
                     raise UsageError(f"{name}: '{value}' is for serendipity mode only, not for {self.mode}")
 
     def _check_rule(self) -> None:
-        patterns = self.leave_free
-        if patterns is not None and not isinstance(patterns, str):
-            raise UsageError(f"leave_free: expected patterns apart by commas, got {patterns!r:.50}")
+        texts = {
+            "leave_free": "patterns apart by commas",
+            "disturbance": "weights such as ask=1,meet=1,sight=1",
+        }
+        for name, expected in texts.items():
+            given = getattr(self, name)
+            if given is not None and not isinstance(given, str):
+                raise UsageError(f"{name}: expected {expected}, got {given!r:.50}")
         if self.max_disturbance is not None:
             most = exact(self.max_disturbance, "max_disturbance")
             self._set("max_disturbance", _not_negative(most, "max_disturbance"))
