@@ -23,7 +23,7 @@ pytest_plugins = ["pytester"]
 
 _CALM = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
 settings.register_profile("quick", derandomize=True, max_examples=25, database=None, **_CALM)
-settings.register_profile("ci", derandomize=True, max_examples=100, database=None, **_CALM)
+settings.register_profile("ci", derandomize=True, max_examples=50, database=None, **_CALM)
 settings.register_profile("dev", max_examples=50, **_CALM)
 settings.register_profile("fuzz", max_examples=1000, print_blob=True, **_CALM)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))

@@ -11,7 +11,7 @@ from search import PreparedTask, canonical_human_plan, optimal_plans_in_time
 from search.modes.scenarios import Candidate
 from serendipity.facade import ties
 from serendipity.facade.call import Request, Solver
-from serendipity.facade.nobody_pays import over_scenarios
+from serendipity.facade.rules import over_scenarios
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
 from serendipity.model.task.actions import Condition

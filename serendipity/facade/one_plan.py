@@ -50,9 +50,9 @@ def with_verdicts(call: Request, answer: Answer, *, last: bool = True) -> Answer
 def _planned(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:
     """Answers beside a human of the model that is asked for, by the rule that nobody pays, where it holds."""
     if is_bound(call.original or call.task, call.options):
-        from serendipity.facade import nobody_pays
+        from serendipity.facade import rules
 
-        return nobody_pays.answers(call, human_plan, _without_rule)
+        return rules.answers(call, human_plan, _without_rule)
     return _without_rule(call, human_plan)
 
 

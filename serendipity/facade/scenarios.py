@@ -16,8 +16,8 @@ from search.modes.scenarios import Candidate
 from serendipity.facade import ties
 from serendipity.facade.call import Request
 from serendipity.facade.in_time import ScenariosInTime, answers_in_time
-from serendipity.facade.nobody_pays import over_scenarios
 from serendipity.facade.results import named_plan
+from serendipity.facade.rules import over_scenarios
 from serendipity.model import Condition, Deadline, HumanPlan, Options, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.answers.recognition import Recognition

@@ -63,6 +63,7 @@ class AnswerOptions(InterruptionOptions, total=False):
     leave_free: str | None
     disturbance: str | None
     max_disturbance: Number | None
+    noticed: bool
 
 
 class PlanOptions(AnswerOptions, total=False):

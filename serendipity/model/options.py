@@ -38,12 +38,13 @@ _FLAGS: Final = {
     "keep_prefix": (True, False),
     "no_block": (True, False, None),
     "nobody_pays": (True, False, None),
+    "noticed": (True, False),
 }
 _LIMITS: Final = {"time_limit": "seconds", "memory_limit": "MiB"}
 
 _LATER: Final = (
     *("memory_limit", "strategies", "waiting_cost", "head_start", "policy", "risk"),
-    *("nobody_pays", "leave_free", "disturbance", "max_disturbance"),
+    *("nobody_pays", "leave_free", "disturbance", "max_disturbance", "noticed"),
 )
 """Options that results of the first versions do without."""
 
@@ -56,6 +57,7 @@ _SELDOM: Final = {
     "leave_free": None,
     "disturbance": None,
     "max_disturbance": None,
+    "noticed": False,
 }
 """Options that are written down only where they are not the default, which this is."""
 
@@ -89,6 +91,7 @@ class Options:
         leave_free: patterns, by commas, of the facts that help may leave changed (semantics 12); None: all.
         disturbance: weights of what disturbs the human, ``"ask=1,meet=1,sight=1"`` (semantics 13).
         max_disturbance: the most that help may disturb the human, or None.
+        noticed: whether the human has to see what they leave their plan for (semantics 14).
         no_block: whether robots may leave the human without a plan; None for the default
             of the mode (forbidden under a human model, allowed in assistance).
         time_limit: seconds, or None.
@@ -123,6 +126,7 @@ class Options:
     leave_free: str | None = None
     disturbance: str | None = None
     max_disturbance: Fraction | None = None
+    noticed: bool = False
     time_limit: float | None = None
     memory_limit: float | None = None
     strategies: str | None = None
@@ -192,6 +196,17 @@ class Options:
                 raise UsageError(f"{name}: is not known of mode 'assistance', nor of humans who replan")
             if self.horizon == INFINITE:
                 raise UsageError(f"{name}: needs a horizon, by which it is to hold")
+        if self.strict and (self.max_disturbance is not None or self.noticed):
+            limit = "noticed" if self.noticed else "max_disturbance"
+            raise UsageError(f"{limit}: does not go with interference strict")
+        if self.noticed:
+            self._check_noticed()
+
+    def _check_noticed(self) -> None:
+        needed = {"mode": "serendipity", "human_model": "omniscient", "suffix": "replan"}
+        for name, value in {**needed, "preservation": "kernel"}.items():
+            if getattr(self, name) != value:
+                raise UsageError(f"noticed: goes with {name} {value} only")
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)

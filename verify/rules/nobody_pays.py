@@ -13,11 +13,13 @@ from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.disturbance import Weighed, disturbance_from
 from serendipity.model.task.gate import is_bound, nobody_pays
 from serendipity.model.task.metered import Metered
+from serendipity.model.task.noticed import Noticed
 from serendipity.model.task.visibility import surroundings
 from verify.base import wording
 from verify.base.due import onward
 from verify.base.execution import State, after, is_calm, is_last, met
 from verify.base.obligations import is_tied, needed
+from verify.rules.noticed import unnoticed
 from verify.rules.replay import replay, replay_human
 
 Literals = dict[int, bool]
@@ -65,12 +67,18 @@ def under_the_rule(
     except PlanError:
         return tuple(examine(task, result))  # which says so
     rule = rule_of(task, result.options, plan, result.horizon, original)
-    fault = broken(task, result, rule, deadline) or disturbs(task, result, original, deadline)
+    fault = (
+        broken(task, result, rule, deadline)
+        or disturbs(task, result, original, deadline)
+        or unnoticed(task, result, plan, original, deadline)
+    )
     if fault is not None:
         return (Claim("replay", "refuted", fault),)
     if not result.statistics.get("rule_binds"):
         return tuple(examine(task, result))
     bound = with_goals(task, rule.facts)
+    if result.options.noticed and plan is not None:
+        bound = Noticed(bound, plan, original).task
     if rule.most is not None and task.robot_goal:
         bound = Metered(bound, rule.most, deadline).task
     most = result.options.max_disturbance

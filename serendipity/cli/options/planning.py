@@ -69,6 +69,10 @@ _OTHERS: Final[Mapping[str, Any]] = {
             "Whether help may cost no person anything. [default: where there are bystanders]",
         ),
     ],
+    "noticed": Annotated[
+        bool | None,
+        option("--noticed", "The human leaves their plan only for what they have seen (semantics 14)."),
+    ],
     "no_block": Annotated[
         bool | None, option("--no-block/--allow-block", "Whether robots may leave the human without a plan.")
     ],
@@ -78,7 +82,7 @@ _ALL: Final = (
     *("mode", "discount", "horizon", "human_plan", "window_weight", "max_window", "suffix", "preservation"),
     *("interference", "max_cost", "communication_weight", "keep_prefix", "human_model", "ties", "max_ties"),
     *("no_block", "waiting_cost", "head_start", "policy", "risk", "nobody_pays", "leave_free"),
-    *("disturbance", "max_disturbance", "strategies"),
+    *("disturbance", "max_disturbance", "noticed", "strategies"),
 )
 """In the order of help."""
 
@@ -92,7 +96,7 @@ FRONT: Final = tuple(
 """What a front of saving against disturbance is asked with."""
 _UNKNOWN: Final = (
     *("human_model", "no_block", "waiting_cost", "head_start", "policy", "risk"),
-    *("nobody_pays", "leave_free", "disturbance", "max_disturbance", "strategies"),
+    *("nobody_pays", "leave_free", "disturbance", "max_disturbance", "noticed", "strategies"),
 )
 PROGRAMS: Final = tuple(name for name in _ALL if name not in _UNKNOWN)
 """What integer programs know."""

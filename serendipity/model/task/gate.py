@@ -57,6 +57,7 @@ def is_bound(task: "Task", options: Options) -> bool:
     limited = any(
         getattr(options, name) is not None for name in ("leave_free", "disturbance", "max_disturbance")
     )
+    limited = limited or options.noticed
     return (limited and options.mode not in ("individual", "assistance")) or nobody_pays(task, options)
 
 
@@ -65,13 +66,16 @@ _METERED: Final[dict[str, object]] = {"suffix": "replan", "preservation": "kerne
 
 
 def require_metered(task: "Task", options: Options, *, scenarios: int = 1) -> None:
-    """Check that what the human pays can be limited, where that may make a difference (semantics 12).
+    """Check that help can be bound as it is asked for (semantics 12 to 14).
 
     Raises:
         UsageError: it can't.
     """
-    if options.max_disturbance is not None and scenarios > 1:
-        raise UsageError("max_disturbance: is for one goal and plan only")
+    if scenarios > 1 and (options.max_disturbance is not None or options.noticed):
+        limit = "noticed" if options.noticed else "max_disturbance"
+        raise UsageError(f"{limit}: is for one goal and plan only")
+    if options.noticed and needs_time(task, options=options):
+        raise UsageError(f"noticed: {needs_time(task, options=options)}, which is not known here yet")
     if not nobody_pays(task, options) or (not task.robot_goal and scenarios == 1):
         return
     for name, value in _METERED.items():

@@ -8,8 +8,8 @@ from functools import cache
 from typing import NamedTuple
 
 from serendipity.model import Condition, HumanPlan, Script, Task, TimedPlan, UsageError
-from serendipity.testing.oracle.epochs import State, holds
 from serendipity.testing.oracle.moments import Moment, World
+from serendipity.testing.oracle.noticing import Notices
 
 Worth = tuple[Fraction, int, int]
 """Cost, number of epochs, number of actions."""
@@ -33,14 +33,22 @@ class Alone:
         task: the task.
         waiting_cost: of an epoch of waiting before an action.
         strict: whether interference is strict.
+        notices: what they notice, where that counts.
     """
 
-    def __init__(self, task: Task, waiting_cost: Fraction = Fraction(0), *, strict: bool = False) -> None:
+    def __init__(
+        self,
+        task: Task,
+        waiting_cost: Fraction = Fraction(0),
+        *,
+        strict: bool = False,
+        notices: Notices | None = None,
+    ) -> None:
         self.task = task
-        self.world = World(task, strict=strict)
+        self.world = World(task, strict=strict, notices=notices)
         self.waiting_cost = waiting_cost
         self.worth, self.acting = cache(self._worth), cache(self._least)
-        self._settled: dict[State, Worth | None] = {}
+        self._settled: dict[Moment, Worth | None] = {}
 
     def _worth(self, moment: Moment, epoch: int = 0) -> Worth | None:
         """The least (cost, epochs, actions) of a plan of theirs; None if there is none."""
@@ -52,7 +60,7 @@ class Alone:
         passed = 0
         now: Moment | None = moment
         while now is not None:
-            if holds(self.task.goal, now.state):
+            if self.world.reached(now):
                 return (Fraction(0), passed, 0)
             if epoch + passed >= self.world.settled:
                 return None
@@ -62,12 +70,12 @@ class Alone:
 
     def _least(self, moment: Moment, epoch: int) -> Worth | None:
         """The same with an action at least; None where the goal holds: they have nothing to do."""
-        if holds(self.task.goal, moment.state):
+        if self.world.reached(moment):
             return None
         if epoch >= self.world.settled:
-            if moment.state not in self._settled:
-                self._solve(moment.state)
-            return self._settled[moment.state]
+            if moment not in self._settled:
+                self._solve(moment)
+            return self._settled[moment]
         found = [_plus(way.price, self._rest(way)) for way in self.ways(moment, epoch)]
         return min((worth for worth in found if worth is not None), default=None)
 
@@ -126,32 +134,32 @@ class Alone:
         """After waiting there has to be an action: else it was the end of the plan."""
         return (self.acting if way.action is None else self.worth)(way.moment, way.epoch)
 
-    def _solve(self, start: State) -> None:
+    def _solve(self, start: Moment) -> None:
         """Explore everything the human can reach, then one Dijkstra backward from the goal states."""
         late = self.world.settled
         seen, stack = {start}, [start]
-        edges: dict[State, list[tuple[State, Worth]]] = {}
+        edges: dict[Moment, list[tuple[Moment, Worth]]] = {}
         while stack:
-            state = stack.pop()
-            for way in self.ways(Moment(state), late):
-                edges.setdefault(way.moment.state, []).append((state, way.price))
-                if way.moment.state not in seen:
-                    seen.add(way.moment.state)
-                    stack.append(way.moment.state)
-        final: dict[State, Worth] = {}
-        goals = [state for state in seen if holds(self.task.goal, state)]
-        queue: list[tuple[Worth, int, State]] = [((Fraction(0), 0, 0), n, s) for n, s in enumerate(goals)]
+            now = stack.pop()
+            for way in self.ways(now, late):
+                edges.setdefault(way.moment, []).append((now, way.price))
+                if way.moment not in seen:
+                    seen.add(way.moment)
+                    stack.append(way.moment)
+        final: dict[Moment, Worth] = {}
+        goals = [moment for moment in seen if self.world.reached(moment)]
+        queue: list[tuple[Worth, int, Moment]] = [((Fraction(0), 0, 0), n, m) for n, m in enumerate(goals)]
         ticket = len(queue)
         while queue:
-            worth, _, state = heapq.heappop(queue)
-            if state in final:
+            worth, _, now = heapq.heappop(queue)
+            if now in final:
                 continue
-            final[state] = worth
-            for before, price in edges.get(state, ()):
+            final[now] = worth
+            for before, price in edges.get(now, ()):
                 ticket += 1
                 heapq.heappush(queue, (_sum(price, worth), ticket, before))
-        for state in seen:
-            self._settled[state] = final.get(state)
+        for now in seen:
+            self._settled[now] = final.get(now)
 
 
 def _sum(a: Worth, b: Worth) -> Worth:

@@ -10,7 +10,8 @@ from itertools import combinations
 from typing import NamedTuple
 
 from serendipity.model import GroundAction, Task
-from serendipity.testing.oracle.epochs import State, after, compatible, usable
+from serendipity.testing.oracle.epochs import State, after, compatible, holds, usable
+from serendipity.testing.oracle.noticing import FRESH, Notices, Noticing
 
 Going = tuple[tuple[int, int], ...]
 """What is under way, ascending: numbers of actions, each with how many of its parts are over."""
@@ -23,11 +24,13 @@ class Moment(NamedTuple):
         state: the facts that are true.
         going: what is under way.
         retired: whether the human begins nothing any more, so that waiting costs them nothing.
+        noticing: what is news to them, where that counts.
     """
 
     state: State
     going: Going = ()
     retired: bool = False
+    noticing: Noticing = FRESH
 
 
 def parts_of(action: GroundAction) -> tuple[GroundAction, ...]:
@@ -56,13 +59,15 @@ class World:
     Args:
         task: the task.
         strict: whether interference is strict.
+        notices: what the human notices, where that counts.
 
     Attributes:
         settled: the epoch after which nothing depends on the epoch any more.
     """
 
-    def __init__(self, task: Task, *, strict: bool = False) -> None:
+    def __init__(self, task: Task, *, strict: bool = False, notices: Notices | None = None) -> None:
         self.task = task
+        self._notices = notices
         self.settled = task.script.last
         deeds = [action for deed in task.script.deeds for action in deed.variants]
         self._numbers = {id(action): len(task.actions) + i for i, action in enumerate(deeds)}
@@ -87,7 +92,9 @@ class World:
                     yield from extend((*chosen, ready[k]), k + 1)
 
         for chosen in extend((), 0):
-            yield chosen, self._outcome(moment, epoch, (*forced, *((i, 0) for i in chosen)))
+            onward = self._outcome(moment, epoch, (*forced, *((i, 0) for i in chosen)))
+            if onward is not None:
+                yield chosen, onward
 
     def alone(self, moment: Moment, epoch: int, begun: int | None = None) -> Moment | None:
         """The moment after an epoch in which only one action begins, or none; None where that can't be."""
@@ -111,6 +118,12 @@ class World:
             epoch += 1
             now = self.alone(now, epoch)
         return now
+
+    def reached(self, moment: Moment) -> bool:
+        """Whether the human has what they want, and notices."""
+        notices = self._notices
+        unknown = notices is not None and notices.in_goal(moment.noticing)
+        return holds(self.task.goal, moment.state) and not unknown
 
     def number(self, action: GroundAction) -> int:
         """The number of an action of a bystander."""
@@ -156,13 +169,17 @@ class World:
         one, other = (self._parts[i][k] for i, k in (a, b))
         return compatible(one, other, strict=self._strict)
 
-    def _outcome(self, moment: Moment, epoch: int, happening: Going) -> Moment:
+    def _outcome(self, moment: Moment, epoch: int, happening: Going) -> Moment | None:
         state = after(moment.state, [self._parts[i][k] for i, k in happening])
         if epoch <= self.settled:
             facts = [one for one in self.task.script.facts if one.epoch == epoch]
             state = (state - {one.fact for one in facts}) | {one.fact for one in facts if one.true}
         going = tuple(sorted((i, k + 1) for i, k in happening if k + 1 < len(self._parts[i])))
-        return Moment(state, going, moment.retired)
+        noticing: Noticing | None = moment.noticing
+        if self._notices is not None:
+            begun = [i for i, _ in happening]
+            noticing = self._notices.after(moment.state, moment.noticing, begun, state)
+        return None if noticing is None else Moment(state, going, moment.retired, noticing)
 
 
 def action_sets(

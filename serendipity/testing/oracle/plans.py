@@ -14,6 +14,7 @@ from serendipity.testing.oracle.epochs import holds
 from serendipity.testing.oracle.labels import NOTHING, Label, Layer, Moves, advance, front, plus
 from serendipity.testing.oracle.moments import Moment
 from serendipity.testing.oracle.nobody_pays import Rule, counts_everybody
+from serendipity.testing.oracle.noticing import Notices
 from serendipity.testing.oracle.suffixes import Suffixes
 
 
@@ -48,7 +49,8 @@ class Plans:
         self.task = task
         self.options = options
         self.human_plan = human_plan
-        self.alone = Alone(task, options.waiting_cost, strict=options.strict)
+        notices = Notices(task, human_plan) if options.noticed and human_plan is not None else None
+        self.alone = Alone(task, options.waiting_cost, strict=options.strict, notices=notices)
         self.world = self.alone.world
         self.length = 0 if human_plan is None else task.epochs_of(human_plan)
         self.robots_goal = bool(task.robot_goal) and options.mode != "individual"
@@ -184,7 +186,7 @@ class Plans:
 
     def _done(self, moment: Moment) -> bool:
         goal = self.task.robot_goal
-        reached = holds(self.task.goal, moment.state) and (not self.robots_goal or holds(goal, moment.state))
+        reached = self.world.reached(moment) and (not self.robots_goal or holds(goal, moment.state))
         over = reached and self.world.plan_is_over(moment)
         return over and (self._rule is None or self._rule.keeps(moment))
 

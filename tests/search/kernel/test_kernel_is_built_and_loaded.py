@@ -75,6 +75,7 @@ def test_what_is_built_is_loaded_once(
 
 @pytest.mark.usefixtures("beside")
 def test_that_it_is_absent_is_said_once(binary: Path, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("WARNING", logger="search.kernel")  # a command may have been told to be quiet
     assert library.library() is None
     assert library.library() is None
     (record,) = caplog.records

@@ -1,50 +1,33 @@
-"""Help that costs nobody anything, and leaves nothing behind (semantics 12).
+"""Answers under rules of help: what it may cost, leave behind, disturb, and has to show (semantics 12 to 14).
 
-The call is answered without the rule first: where the best answer keeps it, that is the answer.  Else it is
-answered with what has to be kept as goals of the robots, and with a meter on what the human pays.
+The call is answered without them first: where the best answer keeps them, that is the answer.  Else it is
+answered with what has to be kept as goals of the robots, and with a task that allows nothing else.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from fnmatch import fnmatchcase
 from fractions import Fraction
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 from search import PreparedTask
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade.call import Request
-from serendipity.model import Condition, Deadline, HumanPlan, Options, Step, Task, UsageError
+from serendipity.facade.kept import Kept, epochs, is_kept, kept, kept_by, with_goals
+from serendipity.model import Deadline, HumanPlan, Options, Step, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.errors import LIMITS, limit_reason
-from serendipity.model.numbers import total
 from serendipity.model.options import INFINITE
-from serendipity.model.task.actions import GroundAction, apply
-from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.disturbance import Weighed, disturbance_from
-from serendipity.model.task.gate import is_bound, nobody_pays, require_metered
+from serendipity.model.task.gate import is_bound, require_metered
 from serendipity.model.task.horizon import common_horizon
 from serendipity.model.task.metered import Metered
-from serendipity.model.task.unit_steps import CLOCK
+from serendipity.model.task.noticed import Noticed
 
 _SHARE: Final = 0.5
 """The share of the time for the call without the rule."""
 
 Solve = Callable[[Request, HumanPlan | None], Iterator[Answer]]
 """Answers a call beside a plan of the human's, or the predicted one, without the rule."""
-
-_Literals = set[tuple[int, bool]]
-
-
-class Kept(NamedTuple):
-    """What has to be as it would be without help.
-
-    Attributes:
-        facts: of the last state.
-        most: that the human may pay; None: anything.
-    """
-
-    facts: Condition
-    most: Fraction | None
 
 
 def answers(call: Request, plan: HumanPlan | None, solve: Solve) -> Iterator[Answer]:
@@ -63,7 +46,8 @@ def answers(call: Request, plan: HumanPlan | None, solve: Solve) -> Iterator[Ans
         if answer.horizon == INFINITE:
             _refuse_infinite(call.options)
             return True
-        return _is_kept(call.task, _kept_by(call, answer), answer) and _is_calm(call, answer)
+        known = _is_calm(call, answer) and _is_noticed(call, answer)
+        return known and is_kept(call.task, kept_by(call, answer), answer)
 
     def keeping(free: Answer) -> Iterator[Answer]:
         return _keeping(call, free, solve)
@@ -95,7 +79,7 @@ def over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[A
 
     def keeps(answer: Answer) -> bool:
         served = zip(answer.goals or (), rules, strict=True)
-        return all(_is_kept(call.task, rule, one, last) for one, rule in served)
+        return all(is_kept(call.task, rule, one, last) for one, rule in served)
 
     def keeping(free: Answer) -> Iterator[Answer]:
         del free
@@ -169,11 +153,14 @@ def _keeping(call: Request, free: Answer, solve: Solve) -> Iterator[Answer]:
     Raises:
         LimitReachedError: there was no time to put it together.
     """
-    plan, rule = free.human_plan, _kept_by(call, free)
+    plan, rule = free.human_plan, kept_by(call, free)
     task = with_goals(call.task, rule.facts)
     optimum = call.optimum if call.given is not None or plan is None else call.task.cost_of(plan)
     asked = replace(call, optimum=optimum, predicts=plan is not None, question=None)
-    layers: list[Metered | Calm] = []
+    layers: list[Noticed | Metered | Calm] = []
+    if call.options.noticed and plan is not None:
+        layers.append(Noticed(task, plan, call.original or call.task))
+        task = layers[-1].task
     if call.task.robot_goal and rule.most is not None:
         layers.append(Metered(task, rule.most, call.deadline))
     if call.options.max_disturbance is not None:
@@ -206,7 +193,7 @@ class Calm:
 
 
 def _keeping_over_scenarios(
-    call: Request, candidates: Sequence[Candidate], rules: Sequence["Kept"]
+    call: Request, candidates: Sequence[Candidate], rules: Sequence[Kept]
 ) -> Iterator[Answer]:
     """The same over scenarios."""
     bound = [replace(one, kept=rule.facts) for one, rule in zip(candidates, rules, strict=True)]
@@ -222,7 +209,7 @@ def _keeping_over_scenarios(
     return (_told([metered], answer) for answer in found)
 
 
-def _told(layers: Sequence[Metered | Calm], answer: Answer) -> Answer:
+def _told(layers: Sequence[Noticed | Metered | Calm], answer: Answer) -> Answer:
     """An answer about a task with some layers on it as one about the task itself."""
 
     def original(ids: Sequence[int]) -> tuple[int, ...]:
@@ -248,13 +235,20 @@ def _order(answer: Answer) -> tuple[bool, Fraction, Fraction]:
     return not answer.opportunity, answer.objective or Fraction(0), answer.cost or Fraction(0)
 
 
-# -- what has to be kept
+# -- what an answer keeps
 
 
 def _is_calm(call: Request, answer: Answer) -> bool:
     """Whether an answer disturbs the human no more than it may."""
     most = call.options.max_disturbance
     return most is None or disturbance_of(call, answer) <= most
+
+
+def _is_noticed(call: Request, answer: Answer) -> bool:
+    """Whether the human sees in time what an answer has them leave their plan for."""
+    if not call.options.noticed or answer.human_plan is None:
+        return True
+    return Noticed(call.task, answer.human_plan, call.original or call.task).allows(answer.steps or ())
 
 
 def disturbance_of(call: Request, answer: Answer) -> Fraction:
@@ -268,159 +262,10 @@ def disturbance_of(call: Request, answer: Answer) -> Fraction:
     found = Fraction(0)
     steps = answer.steps or ()
     last = max((step.epoch for step in steps), default=0)
-    for state, actions in _epochs(task, steps, last):
+    for state, actions in epochs(task, steps, last):
         for action in actions:
             for new in variants[ids[id(action)]]:
                 if weighed.task.actions[new].applicable(state):
                     found += weighed.weights[new]
                     break
-    return found
-
-
-def _is_kept(task: Task, rule: Kept, answer: Answer | ServedGoal, last: int | None = None) -> bool:
-    """Whether what happens in an answer, or in one of its scenarios, keeps the rule; ``last`` is ``T``."""
-    steps = answer.steps or ()
-    if last is None:
-        assert isinstance(answer, Answer)
-        last = int(answer.horizon or 0)
-    if rule.most is not None and paid(task, steps) > rule.most:
-        return False
-    return rule.facts.holds(_played(task, steps, last))
-
-
-def paid(task: Task, steps: Iterable[Step]) -> Fraction:
-    """What the human pays in a plan."""
-    actions = (task.actions[step.action] for step in steps)
-    return total(action.cost for action in actions if task.human in action.participants)
-
-
-def _kept_by(call: Request, answer: Answer) -> Kept:
-    last = int(answer.horizon or 0)
-    return kept(call.task, call.options, answer.human_plan, last, call.original or call.task)
-
-
-def kept(task: Task, options: Options, plan: HumanPlan | None, last: int, original: Task) -> Kept:
-    """What a plan of the human's and ``T`` ask of everybody else (semantics 12).
-
-    Args:
-        task: in single epochs.
-        plan: of the human, or None without one.
-        last: ``T``.
-        original: the task as it was given.
-    """
-    if plan is None and _is_broken(original, last, strict=options.strict):
-        return Kept(Condition(), None)
-    chosen = (action for i, action in enumerate(task.actions) if i not in task.of_bystanders)
-    changed = {fact for action in chosen for fact in (*action.add, *action.delete)}
-    state = _played(task, [Step(epoch, action) for epoch, action in enumerate(plan or (), start=1)], last)
-    literals: _Literals = set()
-    everybody = nobody_pays(original, options)
-    if everybody:
-        literals |= _undisturbed(task, state)
-    if options.leave_free is not None:
-        patterns = [pattern.strip() for pattern in options.leave_free.split(",")]
-        facts = (f for f in changed if f < len(original.facts))
-        bound = (f for f in facts if not any(fnmatchcase(task.facts[f], one) for one in patterns))
-        literals |= {(fact, fact in state) for fact in bound}
-    most = task.cost_of(plan) if everybody and plan is not None else None
-    return Kept(_condition((fact, true) for fact, true in literals if fact in changed), most)
-
-
-def _is_broken(task: Task, last: int, *, strict: bool) -> bool:
-    """Whether bystanders are disturbed by ``T`` where nobody else does anything."""
-    course = PlayedPlan(task.facts, task.init, task.script, strict=strict)
-    try:
-        while course.epoch < last:
-            if not course.rest(last):
-                course.begin([])
-    except BrokenPlanError:
-        return True
-    return False
-
-
-def _condition(literals: Iterable[tuple[int, bool]]) -> Condition:
-    told = sorted(literals)
-    return Condition(tuple(f for f, true in told if true), tuple(f for f, true in told if not true))
-
-
-def with_goals(task: Task, facts: Condition) -> Task:
-    """The task with more goals of the robots'."""
-    own = task.robot_goal
-    positive, negative = {*own.positive, *facts.positive}, {*own.negative, *facts.negative}
-    return task.with_goal(task.goal, Condition(tuple(sorted(positive)), tuple(sorted(negative))))
-
-
-def _due(task: Task, state: frozenset[int]) -> list[GroundAction]:
-    """What goes on in a state whatever is chosen: of each action the variant that can, or the first."""
-    found = []
-    for fact in sorted(state.intersection(task.due_for)):
-        for variants in task.due_for[fact]:
-            actions = [task.actions[i] for i in variants]
-            found.append(next((one for one in actions if one.applicable(state)), actions[0]))
-    return found
-
-
-def _after(task: Task, state: frozenset[int], actions: Iterable[GroundAction]) -> frozenset[int]:
-    """The state after an epoch; the script comes last."""
-    clock = task.agents.index(CLOCK) if CLOCK in task.agents else -1
-    each = list(actions)
-    state = apply(state, *(one for one in each if clock not in one.participants))
-    return apply(state, *(one for one in each if clock in one.participants))
-
-
-def _played(task: Task, steps: Iterable[Step], last: int) -> frozenset[int]:
-    """The state after an epoch if these things are done, and what goes on by itself."""
-    state = task.init
-    for before, actions in _epochs(task, steps, last):
-        state = _after(task, before, actions)
-    return state
-
-
-def _epochs(
-    task: Task, steps: Iterable[Step], last: int
-) -> Iterator[tuple[frozenset[int], list[GroundAction]]]:
-    """Epochs up to one, as far as anything happens in them: the state before, and what does."""
-    begun: dict[int, list[GroundAction]] = {}
-    for step in steps:
-        begun.setdefault(step.epoch, []).append(task.actions[step.action])
-    state = task.init
-    for epoch in range(1, last + 1) if task.due else sorted(begun):
-        actions = {id(one): one for one in (*begun.get(epoch, ()), *_due(task, state))}
-        yield state, list(actions.values())
-        state = _after(task, state, actions.values())
-
-
-def _undisturbed(task: Task, state: frozenset[int]) -> _Literals:
-    """What the bystanders ask of a state for the rest of their plans and their goals (a triangle table).
-
-    Those whom it does not serve ask for nothing.
-    """
-    people, goals = task.script.people, dict(task.own_goals)
-    asked: dict[int, _Literals] = {agent: set() for agent in people}
-    disturbed: set[int] = set()
-    touched: set[int] = set()
-
-    def ask(condition: Condition) -> _Literals | None:
-        """The literals of a condition that nothing has changed since; None where it does not hold."""
-        literals = {(fact, True) for fact in condition.positive} | {
-            (fact, False) for fact in condition.negative
-        }
-        return {one for one in literals if one[0] not in touched} if condition.holds(state) else None
-
-    ends = {agent: ask(goals.get(agent, Condition())) for agent in people}
-    while due := _due(task, state):
-        own = [(agent, one) for one in due for agent in one.participants if agent in people]
-        for agent, action in own:
-            needed = ask(action.precondition)
-            if needed is None:
-                disturbed.add(agent)
-            asked[agent] |= needed or set()
-        state = _after(task, state, due)
-        touched.update(fact for one in due for fact in (*one.add, *one.delete))
-        for agent, _ in own:
-            ends[agent] = ask(goals.get(agent, Condition()))
-    found: _Literals = set()
-    for agent, needed in ends.items():
-        if needed is not None and agent not in disturbed:
-            found |= asked[agent] | needed
     return found

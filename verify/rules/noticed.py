@@ -1,0 +1,100 @@
+"""Whether the human notices what a plan has them leave their own for (semantics 14).
+
+It follows the plan epoch by epoch, with the facts that robots have changed and the human has not seen since.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+from serendipity.model import Deadline, GroundAction, HumanPlan, Result, Task
+from serendipity.model.task.visibility import Surroundings, surroundings
+from verify.base import wording
+from verify.base.execution import State
+from verify.rules.replay import Replay, replay
+
+
+def unnoticed(
+    task: Task, result: Result, plan: HumanPlan | None, original: Task, deadline: Deadline
+) -> str | None:
+    """What the human leaves their plan for without having noticed it, in words; None if nothing.
+
+    A plan that can't be executed is none of this rule's.
+
+    Args:
+        task: without time.
+        result: with the plan.
+        plan: the human's own.
+        original: the task as it was given.
+        deadline: polled.
+    """
+    found = replay(task, result.plan or (), deadline, strict=False)
+    if not result.options.noticed or plan is None or result.plan is None or found.fault is not None:
+        return None
+    watch = _Watch(task, [task.actions[i].name for i in plan], surroundings(original))
+    for what in watch.asked(found):
+        return wording.UNNOTICED.format(task.facts[what])
+    return None
+
+
+@dataclass
+class _Watch:
+    """What the human saw of a plan.
+
+    Attributes:
+        task: without time.
+        steps: names of the steps of the human's plan that are left.
+        around: what is to be seen where.
+        hidden: facts that robots have changed, and the human has not seen since.
+        left: whether they have left their plan.
+    """
+
+    task: Task
+    steps: Sequence[str]
+    around: Surroundings
+    hidden: set[int] = field(default_factory=set)
+    left: bool = False
+
+    def asked(self, found: Replay) -> Iterator[int]:
+        """Facts that the human would have had to notice, as the plan unfolds."""
+        for epoch in sorted(found.sets):
+            before, after = found.state_after(epoch - 1), found.state_after(epoch)
+            chosen = [self.task.actions[i] for i in found.sets[epoch]]
+            his = next((one for one in chosen if self.task.human in one.participants), None)
+            yield from self._epoch(before, after, his, [one for one in chosen if one is not his])
+        yield from (fact for fact in self._wanted() if fact in self.hidden)
+
+    def _epoch(
+        self, before: State, after: State, his: GroundAction | None, others: Iterable[GroundAction]
+    ) -> Iterator[int]:
+        looks = not self.left
+        if looks:
+            self.hidden = {fact for fact in self.hidden if not self._sees(fact, before)}
+        arrives = False
+        if his is not None:
+            arrives = looks and bool(self.steps) and self.steps[0] == his.name
+            self.left = not arrives
+            if arrives:
+                self.steps = self.steps[1:]
+            elif not his.joint:
+                yield from (fact for fact in (*his.pre, *his.neg) if fact in self.hidden)
+        goals = {f for f in self._wanted() if arrives and self._sees(f, after) and not self._sees(f, before)}
+        own = set() if his is None else {*his.add, *his.delete}
+        news = {fact for other in others for fact in (*other.add, *other.delete) if fact in self._matters()}
+        if looks:
+            news = {fact for fact in news if not self._sees(fact, before)}
+        yield from news & (own | goals)
+        self.hidden = (self.hidden | news) - own - goals
+
+    def _wanted(self) -> tuple[int, ...]:
+        return (*self.task.goal.positive, *self.task.goal.negative)
+
+    def _matters(self) -> set[int]:
+        """The facts that the human's own actions, or their goal, ask for."""
+        own = (self.task.actions[i] for i in self.task.human_actions)
+        return {*self._wanted(), *(fact for action in own for fact in (*action.pre, *action.neg))}
+
+    def _sees(self, fact: int, state: State) -> bool:
+        """Whether a fact is about the human, or their place; without places all are seen."""
+        name, parts = self.task.agents[self.task.human], self.around.parts[fact]
+        places = {f: at for f, (who, at) in self.around.located.items() if who == name}
+        return not places or name in parts or any(at in parts for f, at in places.items() if f in state)
