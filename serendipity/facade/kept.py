@@ -1,7 +1,6 @@
 """What help has to leave as it would be without it (semantics 12)."""
 
 from collections.abc import Iterable, Iterator
-from fnmatch import fnmatchcase
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -12,9 +11,13 @@ from serendipity.model.numbers import total
 from serendipity.model.task.actions import GroundAction, apply
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.gate import nobody_pays
+from serendipity.model.task.leftovers import leftovers
 from serendipity.model.task.unit_steps import CLOCK
 
-_Literals = set[tuple[int, bool]]
+Literal = tuple[int, bool]
+"""A fact, and whether it is to be true."""
+
+_Literals = set[Literal]
 
 
 class Kept(NamedTuple):
@@ -23,10 +26,12 @@ class Kept(NamedTuple):
     Attributes:
         facts: of the last state.
         most: that the human may pay; None: anything.
+        prices: of literals that may be left otherwise, in the order of the facts.
     """
 
     facts: Condition
     most: Fraction | None
+    prices: tuple[tuple[Literal, Fraction], ...] = ()
 
 
 def is_kept(task: Task, rule: Kept, answer: Answer | ServedGoal, last: int | None = None) -> bool:
@@ -38,6 +43,15 @@ def is_kept(task: Task, rule: Kept, answer: Answer | ServedGoal, last: int | Non
     if rule.most is not None and paid(task, steps) > rule.most:
         return False
     return rule.facts.holds(_played(task, steps, last))
+
+
+def left(call: Request, rule: Kept, answer: Answer) -> list[tuple[Literal, Fraction]]:
+    """What an answer leaves that is priced, the dearest first."""
+    if not rule.prices:
+        return []
+    state = _played(call.task, answer.steps or (), int(answer.horizon or 0))
+    found = [(literal, price) for literal, price in rule.prices if (literal[0] in state) is not literal[1]]
+    return sorted(found, key=lambda one: -one[1])
 
 
 def paid(task: Task, steps: Iterable[Step]) -> Fraction:
@@ -70,13 +84,17 @@ def kept(task: Task, options: Options, plan: HumanPlan | None, last: int, origin
     everybody = nobody_pays(original, options)
     if everybody:
         literals |= _undisturbed(task, state)
-    if options.leave_free is not None:
-        patterns = [pattern.strip() for pattern in options.leave_free.split(",")]
-        facts = (f for f in changed if f < len(original.facts))
-        bound = (f for f in facts if not any(fnmatchcase(task.facts[f], one) for one in patterns))
-        literals |= {(fact, fact in state) for fact in bound}
+    prices: list[tuple[Literal, Fraction]] = []
+    rest = leftovers(options)
+    for fact in sorted(f for f in changed if rest is not None and f < len(original.facts)):
+        price = None if rest is None else rest.price(task.facts[fact])
+        if price is None:
+            literals.add((fact, fact in state))
+        elif price:
+            prices.append(((fact, fact in state), price))
     most = task.cost_of(plan) if everybody and plan is not None else None
-    return Kept(_condition((fact, true) for fact, true in literals if fact in changed), most)
+    facts = _condition((fact, true) for fact, true in literals if fact in changed)
+    return Kept(facts, most, tuple(prices))
 
 
 def _is_broken(task: Task, last: int, *, strict: bool) -> bool:
@@ -96,10 +114,12 @@ def _condition(literals: Iterable[tuple[int, bool]]) -> Condition:
     return Condition(tuple(f for f, true in told if true), tuple(f for f, true in told if not true))
 
 
-def with_goals(task: Task, facts: Condition) -> Task:
+def with_goals(task: Task, facts: Condition, literals: Iterable[Literal] = ()) -> Task:
     """The task with more goals of the robots'."""
+    more = _condition(literals)
     own = task.robot_goal
-    positive, negative = {*own.positive, *facts.positive}, {*own.negative, *facts.negative}
+    positive = {*own.positive, *facts.positive, *more.positive}
+    negative = {*own.negative, *facts.negative, *more.negative}
     return task.with_goal(task.goal, Condition(tuple(sorted(positive)), tuple(sorted(negative))))
 
 

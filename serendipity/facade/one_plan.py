@@ -9,6 +9,7 @@ from serendipity.facade.call import Request
 from serendipity.facade.simulation import realised
 from serendipity.model import HumanPlan
 from serendipity.model.answers.answer import Answer, Improvement
+from serendipity.model.numbers import total
 from serendipity.model.task.gate import is_bound
 
 _VERDICT_SHARE: Final = 0.02
@@ -39,7 +40,7 @@ def with_verdicts(call: Request, answer: Answer, *, last: bool = True) -> Answer
         call.options,
         answer.human_plan or (),
         answer.steps,
-        cost=answer.cost,
+        cost=answer.cost - total(price for _, price in answer.left),
         horizon=answer.horizon,
         visible=call.visible,
         deadline=call.limits.sooner(-_VERDICT_SHARE) if last else call.limits.part(_VERDICT_SHARE),

@@ -57,6 +57,7 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
             "kernel": state_at_hand(),
             **({"strategies": [_tried(row) for row in answer.tried]} if answer.tried else {}),
             **_rule(answer),
+            **({"left": {task.facts[f]: float(price) for f, price in answer.left}} if answer.left else {}),
         },
         policy=answer.policy,
         ties=None

@@ -12,7 +12,8 @@ from typing import Any, Final
 from search import PreparedTask
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade.call import Request
-from serendipity.facade.kept import Kept, epochs, is_kept, kept, kept_by, with_goals
+from serendipity.facade.kept import Kept, Literal, epochs, is_kept, kept, kept_by, left, with_goals
+from serendipity.facade.leftovers import priced
 from serendipity.model import Deadline, HumanPlan, Options, Step, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.errors import LIMITS, limit_reason
@@ -20,6 +21,7 @@ from serendipity.model.options import INFINITE
 from serendipity.model.task.disturbance import Weighed, disturbance_from
 from serendipity.model.task.gate import is_bound, require_metered
 from serendipity.model.task.horizon import common_horizon
+from serendipity.model.task.leftovers import leftovers
 from serendipity.model.task.metered import Metered
 from serendipity.model.task.noticed import Noticed
 
@@ -46,11 +48,14 @@ def answers(call: Request, plan: HumanPlan | None, solve: Solve) -> Iterator[Ans
         if answer.horizon == INFINITE:
             _refuse_infinite(call.options)
             return True
-        known = _is_calm(call, answer) and _is_noticed(call, answer)
-        return known and is_kept(call.task, kept_by(call, answer), answer)
+        known, rule = _is_calm(call, answer) and _is_noticed(call, answer), kept_by(call, answer)
+        return known and is_kept(call.task, rule, answer) and not left(call, rule, answer)
 
     def keeping(free: Answer) -> Iterator[Answer]:
-        return _keeping(call, free, solve)
+        rule = kept_by(call, free)
+        if not rule.prices:
+            return _keeping(call, free, rule, solve)
+        return priced(call, rule, lambda literals: _keeping(call, free, rule, solve, literals))
 
     found = _answers(call, solve(_soon(call), plan), keeps, keeping)
     if call.options.disturbance is None and call.options.max_disturbance is None:
@@ -135,7 +140,7 @@ def _answers(
 
 
 def _refuse_infinite(options: Options) -> None:
-    if options.nobody_pays or options.leave_free is not None or options.max_disturbance is not None:
+    if options.nobody_pays or leftovers(options) is not None or options.max_disturbance is not None:
         raise UsageError("horizon: expected a number of epochs, by which nobody may have paid")
 
 
@@ -147,14 +152,15 @@ def _on_the_way(options: Options, answer: Answer) -> Answer:
     return answer._replace(status="feasible", lower_bound=least)
 
 
-def _keeping(call: Request, free: Answer, solve: Solve) -> Iterator[Answer]:
-    """Answers to the call with the rule, given the last one without it.
+def _keeping(
+    call: Request, free: Answer, rule: Kept, solve: Solve, literals: Iterable[Literal] = ()
+) -> Iterator[Answer]:
+    """Answers to the call with the rule, and more that has to be kept, given the last one without it.
 
     Raises:
         LimitReachedError: there was no time to put it together.
     """
-    plan, rule = free.human_plan, kept_by(call, free)
-    task = with_goals(call.task, rule.facts)
+    plan, task = free.human_plan, with_goals(call.task, rule.facts, literals)
     optimum = call.optimum if call.given is not None or plan is None else call.task.cost_of(plan)
     asked = replace(call, optimum=optimum, predicts=plan is not None, question=None)
     layers: list[Noticed | Metered | Calm] = []

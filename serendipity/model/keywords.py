@@ -61,6 +61,7 @@ class AnswerOptions(InterruptionOptions, total=False):
     risk: Risk
     nobody_pays: bool | None
     leave_free: str | None
+    leave_price: str | None
     disturbance: str | None
     max_disturbance: Number | None
     noticed: bool

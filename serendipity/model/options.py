@@ -44,7 +44,7 @@ _LIMITS: Final = {"time_limit": "seconds", "memory_limit": "MiB"}
 
 _LATER: Final = (
     *("memory_limit", "strategies", "waiting_cost", "head_start", "policy", "risk"),
-    *("nobody_pays", "leave_free", "disturbance", "max_disturbance", "noticed"),
+    *("nobody_pays", "leave_free", "leave_price", "disturbance", "max_disturbance", "noticed"),
 )
 """Options that results of the first versions do without."""
 
@@ -55,6 +55,7 @@ _SELDOM: Final = {
     "risk": "mean",
     "nobody_pays": None,
     "leave_free": None,
+    "leave_price": None,
     "disturbance": None,
     "max_disturbance": None,
     "noticed": False,
@@ -89,6 +90,7 @@ class Options:
         risk: what is minimised over scenarios (semantics 11).
         nobody_pays: whether help may cost nobody anything (semantics 12); None: beside bystanders.
         leave_free: patterns, by commas, of the facts that help may leave changed (semantics 12); None: all.
+        leave_price: patterns of others that it may, each with the price of such a fact.
         disturbance: weights of what disturbs the human, ``"ask=1,meet=1,sight=1"`` (semantics 13).
         max_disturbance: the most that help may disturb the human, or None.
         noticed: whether the human has to see what they leave their plan for (semantics 14).
@@ -124,6 +126,7 @@ class Options:
     risk: Risk = "mean"
     nobody_pays: bool | None = None
     leave_free: str | None = None
+    leave_price: str | None = None
     disturbance: str | None = None
     max_disturbance: Fraction | None = None
     noticed: bool = False
@@ -180,6 +183,7 @@ class Options:
     def _check_rule(self) -> None:
         texts = {
             "leave_free": "patterns apart by commas",
+            "leave_price": "patterns with prices, such as dirty *=0.5",
             "disturbance": "weights such as ask=1,meet=1,sight=1",
         }
         for name, expected in texts.items():
@@ -189,7 +193,7 @@ class Options:
         if self.max_disturbance is not None:
             most = exact(self.max_disturbance, "max_disturbance")
             self._set("max_disturbance", _not_negative(most, "max_disturbance"))
-        for name in ("nobody_pays", "leave_free", "max_disturbance"):
+        for name in ("nobody_pays", "leave_free", "leave_price", "max_disturbance"):
             if getattr(self, name) is None or getattr(self, name) is False:
                 continue
             if self.mode == "assistance" or self.human_model != "omniscient":

@@ -50,6 +50,13 @@ RESULT_BREAKS_RULE: Final = "the result breaks a rule already"
 ANSWER_BREAKS_RULE: Final = "the answer breaks a rule already"
 RULE_OVER_TIES: Final = "over ties nobody can tell yet whether nobody pays beside each plan"
 HUMAN_PAYS: Final = "nobody-pays (semantics 12): the human pays {:.12g}, and {:.12g} without help"
+PRICED: Final = {
+    True: "no plan that keeps any of what is priced, and pays for the rest, is better",
+    False: "a plan that leaves other things changed is better",
+    None: "whether another plan is better, with what it leaves, was not examined",
+}
+"""By what was found out of prices of what is left (semantics 12)."""
+LEFT_TOO_DEAR: Final = "leftovers (semantics 12): with what it leaves, help costs no less than none"
 UNNOTICED: Final = "noticed (semantics 14): the human has not seen '{}' in time"
 DISTURBS: Final = "disturbance (semantics 13): help disturbs the human by {:.12g}, and may by {:.12g}"
 LEFT_CHANGED: Final = "nobody-pays (semantics 12): at the end it is not as it would be without help: {}"

@@ -11,6 +11,7 @@ from serendipity.model import (
     Claim,
     Deadline,
     HumanPlan,
+    Options,
     PlanError,
     Result,
     Step,
@@ -28,6 +29,7 @@ from verify.base.undecided import UNDECIDED, why
 from verify.calls.call import ExaminedCall
 from verify.calls.methods import require_known
 from verify.calls.single_epochs import examined_in_time
+from verify.calls.solve import solve
 from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.humans import HumanExaminer
 from verify.certificate.provable import require_programs
@@ -133,7 +135,11 @@ def _examined(task: Task, result: Result, effort: Effort, original: Task) -> tup
         def examine(bound: Task, said: Result) -> tuple[Claim, ...]:
             return _Certifier(bound, said, effort, own).claims()
 
-        return under_the_rule(own, said, original, effort.deadline, examine)
+        def solve_it(bound: Task, options: Options, plan: Sequence[str] | None) -> Result:
+            return solve(bound, options, human_plan=plan, deadline=effort.deadline)
+
+        timed = needs_time(original, options=said.options) or said.in_time
+        return under_the_rule(own, said, original, effort.deadline, examine, None if timed else solve_it)
 
     if not result.says("goals"):
         return alone(task, result)

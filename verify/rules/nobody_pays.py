@@ -4,14 +4,17 @@ What bystanders need for the rest of their plans is worked out backward, from th
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from fnmatch import fnmatchcase
+from dataclasses import replace
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from serendipity.model import Claim, Condition, Deadline, HumanPlan, Options, PlanError, Result, Task
+from serendipity.model.answers.certificate import Verdict
+from serendipity.model.numbers import as_written, figure
 from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.disturbance import Weighed, disturbance_from
 from serendipity.model.task.gate import is_bound, nobody_pays
+from serendipity.model.task.leftovers import leftovers
 from serendipity.model.task.metered import Metered
 from serendipity.model.task.noticed import Noticed
 from serendipity.model.task.visibility import surroundings
@@ -19,6 +22,7 @@ from verify.base import wording
 from verify.base.due import onward
 from verify.base.execution import State, after, is_calm, is_last, met
 from verify.base.obligations import is_tied, needed
+from verify.rules.leftovers import Leftovers, Prices, left
 from verify.rules.noticed import unnoticed
 from verify.rules.replay import replay, replay_human
 
@@ -32,10 +36,19 @@ class Rule(NamedTuple):
     Attributes:
         facts: of the last state.
         most: that the human may pay; None: anything.
+        prices: of facts that may be left otherwise, with what they are without help.
     """
 
     facts: Condition
     most: Fraction | None
+    prices: Prices
+
+
+Solve = Callable[[Task, Options, Sequence[str] | None], Result]
+"""The best plan for a task beside a plan of the human's, or none."""
+
+UNPRICED: Final = ("optimal", "no_opportunity", "lower_bound")
+"""Claims that prices change."""
 
 
 def under_the_rule(
@@ -44,6 +57,7 @@ def under_the_rule(
     original: Task,
     deadline: Deadline,
     examine: Callable[[Task, Result], Iterable[Claim]],
+    solve: Solve | None = None,
 ) -> tuple[Claim, ...]:
     """The claims of a result about one plan of the human's.
 
@@ -56,6 +70,7 @@ def under_the_rule(
         original: the task as it was given.
         deadline: polled.
         examine: makes the claims of a task and a result without the rule.
+        solve: finds the best plan for a task, for claims about what is best where leaving costs something.
     """
     if not is_bound(original, result.options) or not isinstance(result.horizon, int):
         return tuple(examine(task, result))
@@ -74,18 +89,101 @@ def under_the_rule(
     )
     if fault is not None:
         return (Claim("replay", "refuted", fault),)
-    if not result.statistics.get("rule_binds"):
-        return tuple(examine(task, result))
-    bound = with_goals(task, rule.facts)
-    if result.options.noticed and plan is not None:
+
+    def bound(kept: Iterable[int] = ()) -> Task:
+        return bound_task(task, result.options, rule, kept, plan, original, deadline)
+
+    if rule.prices:
+        return _priced_claims(task, result, rule, bound, examine, solve)
+    return tuple(examine(bound() if result.statistics.get("rule_binds") else task, result))
+
+
+def _priced_claims(
+    task: Task,
+    result: Result,
+    rule: Rule,
+    bound: Callable[[Iterable[int]], Task],
+    examine: Callable[[Task, Result], Iterable[Claim]],
+    solve: Solve | None,
+) -> tuple[Claim, ...]:
+    """The claims where leaving something costs something: the plan's by itself, and that none is better."""
+    if result.plan is None or result.objective is None:
+        return tuple(Claim(name, "undecided", wording.NOT_EXAMINED) for name in needed(result))
+    options = result.options.but(leave_price=None, leave_free=None)
+
+    def last_state(found: Result) -> State:
+        return replay(task, found.plan or (), Deadline(), strict=options.strict).last
+
+    def solved(kept: frozenset[int]) -> tuple[Result, State] | None:
+        found = None if solve is None else solve(bound(kept), options, result.human_plan)
+        if found is None or found.status not in ("optimal", "infeasible"):
+            return None
+        return found, last_state(found)
+
+    idle = max(Fraction(0), as_written(result.saving_alone or 0))
+    if result.opportunity and as_written(result.saving or 0) <= idle:
+        return (Claim("cost", "refuted", wording.LEFT_TOO_DEAR),)
+    price = sum(left(rule.prices, last_state(result)).values(), Fraction(0))
+    said = replace(
+        result,
+        options=options,
+        status="feasible",
+        lower_bound=0.0,
+        cost=_less(result.cost, price),
+        objective=_less(result.objective, price),
+        saving=_less(result.saving, -price),
+    )
+    weight = options.window_weight if options.windowed else Fraction(0)
+    below = as_written(result.lower_bound or 0)
+    if result.status == "optimal":
+        below = as_written(result.objective) + (weight if result.window is None else 0)
+    verdict = Leftovers(solved, rule.prices, weight).none_below(
+        below
+    )  # first: what examines may take its time
+    claims = [claim for claim in examine(bound(()), said) if claim.claim not in UNPRICED]
+    told: dict[bool | None, Verdict] = {True: "proved", False: "refuted", None: "undecided"}
+    asked = (name for name in needed(result) if name in UNPRICED)
+    return (*claims, *(Claim(name, told[verdict], wording.PRICED[verdict]) for name in asked))
+
+
+def _less(value: float | None, amount: Fraction) -> float | None:
+    return None if value is None else figure(as_written(value) - amount)
+
+
+def bound_task(
+    task: Task,
+    options: Options,
+    rule: Rule,
+    kept: Iterable[int],
+    plan: HumanPlan | None,
+    original: Task,
+    deadline: Deadline,
+) -> Task:
+    """The task of an answer that the rules bind.
+
+    Args:
+        task: in single epochs where it needs time.
+        options: in force.
+        rule: what has to be kept, and paid at most.
+        kept: priced facts that are kept, too.
+        plan: the human's.
+        original: the task as it was given.
+        deadline: polled.
+    """
+    as_idle = {fact: rule.prices[fact][0] for fact in kept}
+    positive, negative = (
+        [fact for fact, true in as_idle.items() if true is value] for value in (True, False)
+    )
+    bound = with_goals(with_goals(task, rule.facts), Condition(tuple(positive), tuple(negative)))
+    if options.noticed and plan is not None:
         bound = Noticed(bound, plan, original).task
     if rule.most is not None and task.robot_goal:
         bound = Metered(bound, rule.most, deadline).task
-    most = result.options.max_disturbance
+    most = options.max_disturbance
     if most is not None:
-        weighed = Weighed(bound, disturbance_from(result.options.disturbance), original)
+        weighed = Weighed(bound, disturbance_from(options.disturbance), original)
         bound = Metered(weighed.task, most, deadline, weighed.weights, "disturbed").task
-    return tuple(examine(bound, result))
+    return bound
 
 
 def broken(task: Task, result: Result, rule: Rule, deadline: Deadline) -> str | None:
@@ -144,23 +242,25 @@ def rule_of(task: Task, options: Options, plan: HumanPlan | None, last: int, ori
         chosen = (plan or ())[epoch : epoch + 1]
         state = None if state is None else onward(task, state, chosen, strict=options.strict)
     if state is None:
-        return Rule(Condition(), None)
+        return Rule(Condition(), None, {})
     chosen_ones = (action for i, action in enumerate(task.actions) if i not in task.of_bystanders)
     changed = {fact for action in chosen_ones for fact in (*action.add, *action.delete)}
     kept: Literals = {}
     everybody = nobody_pays(original, options)
     if everybody:
         kept |= _bystanders_need(task, state, len(original.agents))
-    if options.leave_free is not None:
-        free = [pattern.strip() for pattern in options.leave_free.split(",")]
-        for fact, name in enumerate(original.facts):
-            if not any(fnmatchcase(name, pattern) for pattern in free):
-                kept[fact] = fact in state
+    prices: dict[int, tuple[bool, Fraction]] = {}
+    rest = leftovers(options)
+    for fact, price in enumerate(() if rest is None else rest.prices(original.facts)):
+        if price is None:
+            kept[fact] = fact in state
+        elif price and fact in changed:
+            prices[fact] = (fact in state, price)
     facts = Condition(
         tuple(sorted(fact for fact, true in kept.items() if true and fact in changed)),
         tuple(sorted(fact for fact, true in kept.items() if not true and fact in changed)),
     )
-    return Rule(facts, task.cost_of(plan) if everybody and plan is not None else None)
+    return Rule(facts, task.cost_of(plan) if everybody and plan is not None else None, prices)
 
 
 def with_goals(task: Task, facts: Condition) -> Task:

@@ -33,6 +33,7 @@ _TEXTS: Final[Mapping[str, tuple[str, str]]] = {
     "policy": ("Over several goals or plans: whether robots watch, or commit themselves.", ""),
     "risk": ("What is minimised over several goals or plans.", ""),
     "leave_free": ("Only facts that fit may be left changed, as in 'at robot *, dirty *'.", "PATTERNS"),
+    "leave_price": ("What each other fact costs that is left changed.", "PATTERN=PRICE,..."),
     "disturbance": ("Weights of what disturbs the human (semantics 13).", "ask=W,meet=W,sight=W"),
     "max_disturbance": ("The most that help may disturb the human.", "D"),
     "strategies": (
@@ -81,7 +82,7 @@ _OTHERS: Final[Mapping[str, Any]] = {
 _ALL: Final = (
     *("mode", "discount", "horizon", "human_plan", "window_weight", "max_window", "suffix", "preservation"),
     *("interference", "max_cost", "communication_weight", "keep_prefix", "human_model", "ties", "max_ties"),
-    *("no_block", "waiting_cost", "head_start", "policy", "risk", "nobody_pays", "leave_free"),
+    *("no_block", "waiting_cost", "head_start", "policy", "risk", "nobody_pays", "leave_free", "leave_price"),
     *("disturbance", "max_disturbance", "noticed", "strategies"),
 )
 """In the order of help."""
@@ -96,7 +97,7 @@ FRONT: Final = tuple(
 """What a front of saving against disturbance is asked with."""
 _UNKNOWN: Final = (
     *("human_model", "no_block", "waiting_cost", "head_start", "policy", "risk"),
-    *("nobody_pays", "leave_free", "disturbance", "max_disturbance", "noticed", "strategies"),
+    *("nobody_pays", "leave_free", "leave_price", "disturbance", "max_disturbance", "noticed", "strategies"),
 )
 PROGRAMS: Final = tuple(name for name in _ALL if name not in _UNKNOWN)
 """What integer programs know."""

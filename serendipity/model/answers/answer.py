@@ -109,6 +109,7 @@ class Answer(NamedTuple):
         without_rule: cost of the best answer without the rule that nobody pays; None where that is not known.
         is_bound: whether it was looked for under that rule, since the best answer without it breaks it.
         disturbed: how much it disturbs the human (semantics 13); None where that was not asked.
+        left: priced facts that are left otherwise than without help, each with its price.
     """
 
     status: Status
@@ -138,6 +139,7 @@ class Answer(NamedTuple):
     without_rule: Fraction | None = None
     is_bound: bool = False
     disturbed: Fraction | None = None
+    left: tuple[tuple[int, Fraction], ...] = ()
 
 
 def saved(baseline: Fraction | None, cost: Fraction | None, *, opportunity: bool) -> Fraction | None:

@@ -29,10 +29,13 @@ def goal_of(result: "Result", entry: GoalAnswer) -> tuple[str, ...] | None:
 
 
 def rule_told(result: "Result") -> Iterator[str]:
-    """What the rule of semantics 12 costs, if it costs anything."""
-    price = result.figure("rule_price")
+    """What the rules of help (semantics 12 to 14) cost, if anything, and what is paid for."""
+    price, left = result.figure("rule_price"), result.statistics.get("left")
     if price:
-        yield f"the rule that nobody pays, or finds anything changed, costs {plain(price)}"
+        yield f"what help has to keep to costs {plain(price)}"
+    if isinstance(left, dict) and left:
+        told = ", ".join(f"{fact} ({plain(each)})" for fact, each in left.items())
+        yield f"left changed, at a price: {told}"
 
 
 def over_scenarios(result: "Result") -> Iterator[Line | Grid]:

@@ -54,10 +54,8 @@ def nobody_pays(task: "Task", options: Options) -> bool:
 
 def is_bound(task: "Task", options: Options) -> bool:
     """Whether help has to leave anything as it would be without it."""
-    limited = any(
-        getattr(options, name) is not None for name in ("leave_free", "disturbance", "max_disturbance")
-    )
-    limited = limited or options.noticed
+    names = ("leave_free", "leave_price", "disturbance", "max_disturbance")
+    limited = options.noticed or any(getattr(options, name) is not None for name in names)
     return (limited and options.mode not in ("individual", "assistance")) or nobody_pays(task, options)
 
 
@@ -74,6 +72,8 @@ def require_metered(task: "Task", options: Options, *, scenarios: int = 1) -> No
     if scenarios > 1 and (options.max_disturbance is not None or options.noticed):
         limit = "noticed" if options.noticed else "max_disturbance"
         raise UsageError(f"{limit}: is for one goal and plan only")
+    if options.leave_price is not None and (scenarios > 1 or task.robot_goal):
+        raise UsageError("leave_price: is for one goal and plan, and robots without goals of their own")
     if options.noticed and needs_time(task, options=options):
         raise UsageError(f"noticed: {needs_time(task, options=options)}, which is not known here yet")
     if not nobody_pays(task, options) or (not task.robot_goal and scenarios == 1):

@@ -1,8 +1,9 @@
 """The rule that nobody pays, and that little is left behind, by brute force (semantics 12)."""
 
-from fnmatch import fnmatchcase
+from fractions import Fraction
 
 from serendipity.model import Condition, HumanPlan, Options, Task
+from serendipity.model.task.leftovers import leftovers
 from serendipity.testing.oracle.epochs import State, after, holds, usable
 from serendipity.testing.oracle.moments import Going, Moment, World
 
@@ -29,18 +30,27 @@ class Rule:
         self._variants: dict[int, int] = {}
         self._served = frozenset[int]()
         self._kept: dict[int, bool] = {}
+        self._prices: dict[int, tuple[bool, Fraction]] = {}
         if idle is not None and counts_everybody(self._task, options):
             self._served = self._serves(idle)
-        if idle is not None and options.leave_free is not None:
-            patterns = [text.strip() for text in options.leave_free.split(",")]
-            for fact, name in enumerate(self._task.facts):
-                if not any(fnmatchcase(name, pattern) for pattern in patterns):
-                    self._kept[fact] = fact in idle.state
+        rest = leftovers(options)
+        if idle is None or rest is None:
+            return
+        for fact, price in enumerate(rest.prices(self._task.facts)):
+            if price is None:
+                self._kept[fact] = fact in idle.state
+            elif price:
+                self._prices[fact] = (fact in idle.state, price)
 
     def keeps(self, end: Moment) -> bool:
         """Whether everybody is served who would be without help, and nothing else is left changed."""
         same = all((fact in end.state) is true for fact, true in self._kept.items())
         return same and self._served <= self._serves(end)
+
+    def price(self, end: Moment) -> Fraction:
+        """What is to be paid for what is left changed."""
+        changed = (price for fact, (true, price) in self._prices.items() if (fact in end.state) is not true)
+        return sum(changed, Fraction(0))
 
     def _serves(self, end: Moment) -> frozenset[int]:
         """The bystanders who can do the rest of their plans after a moment, and reach what they want.

@@ -8,6 +8,7 @@ from math import lcm
 
 from serendipity.model import HumanPlan, Options, PlanError, Task, UsageError, Window
 from serendipity.model.keywords import Horizon
+from serendipity.model.task.leftovers import leftovers
 from serendipity.testing.oracle.alone import Alone
 from serendipity.testing.oracle.disturbing import Disturbing
 from serendipity.testing.oracle.epochs import holds
@@ -74,7 +75,7 @@ class Plans:
             raise UsageError("nobody_pays: not with these options")
         if options.mode == "individual" or not isinstance(last, int):
             return
-        if nobody_pays or options.leave_free is not None:
+        if nobody_pays or leftovers(options) is not None:
             self._rule = Rule(self.world, options, self.human_plan, last)
         if nobody_pays and self.human_plan is not None:
             self._most = self.units(self.cost_of_plan())
@@ -142,10 +143,15 @@ class Plans:
         paid = self.units(self.options.waiting_cost * epochs)
         return (paid, paid, 0, 0 if self._most is None else paid, 0)
 
-    def lasts(self, moment: Moment, epoch: int, last: int) -> bool:
-        """Whether all goals hold after epoch ``last`` if everybody is idle until then."""
+    def ended(self, moment: Moment, epoch: int, last: int) -> Label | None:
+        """What the end costs if everybody is idle until epoch ``last``; None if not all goals hold then."""
         end = self.world.idled(moment, epoch, last)
-        return end is not None and self._done(end) and holds(self.task.robot_goal, end.state)
+        lasts = end is not None and self._done(end) and holds(self.task.robot_goal, end.state)
+        return self._left(end) if end is not None and lasts else None
+
+    def _left(self, end: Moment) -> Label:
+        price = Fraction(0) if self._rule is None else self._rule.price(end)
+        return (self.units(price), self.units(price), 0, 0, 0) if price else NOTHING
 
     def pays(self, label: Label) -> bool:
         """Whether the human pays no more than they may, and is disturbed no more."""
@@ -182,7 +188,7 @@ class Plans:
     def _goal_labels(self, layer: Layer[Moment]) -> Iterator[Label]:
         for moment, labels in layer.items():
             if self._done(moment):
-                yield from filter(self.pays, labels)
+                yield from (plus(label, self._left(moment)) for label in labels if self.pays(label))
 
     def _done(self, moment: Moment) -> bool:
         goal = self.task.robot_goal
@@ -306,6 +312,8 @@ def _closure(layer: Layer[Moment], moves: Moves[Moment]) -> Layer[Moment]:
 def smallest_unit(task: Task, options: Options) -> int:
     """The number of units in a cost of 1, so that all that is added up is whole."""
     amounts = [options.window_weight, options.waiting_cost]
+    rest = leftovers(options)
+    amounts += [price for _, price in rest.priced] if rest is not None else []
     if isinstance(options.max_cost, Fraction):
         amounts.append(options.max_cost)
     for action in task.actions:

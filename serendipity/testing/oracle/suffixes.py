@@ -8,7 +8,7 @@ from typing import Protocol
 from serendipity.model import HumanPlan, Options, Task
 from serendipity.testing.oracle.alone import Alone
 from serendipity.testing.oracle.epochs import State, after, holds, usable
-from serendipity.testing.oracle.labels import NOTHING, Front, Label, front, plus
+from serendipity.testing.oracle.labels import Front, Label, front, plus
 from serendipity.testing.oracle.moments import Moment, World
 
 
@@ -21,8 +21,8 @@ class SuffixPrices(Protocol):
     def waiting(self, epochs: int) -> Label:
         """Of some epochs of waiting."""
 
-    def lasts(self, moment: Moment, epoch: int, last: int) -> bool:
-        """Whether all goals hold after epoch ``last`` if everybody is idle until then."""
+    def ended(self, moment: Moment, epoch: int, last: int) -> Label | None:
+        """What the end costs if everybody is idle until epoch ``last``; None if not all goals hold then."""
 
 
 class Suffixes:
@@ -84,7 +84,7 @@ class Suffixes:
         plain = moment._replace(retired=False)
         resting = self.alone.resting(plain, epoch)
         if not acts and resting is not None and resting == self.alone.worth(plain, epoch):
-            return NOTHING if self.prices.lasts(moment, epoch, self.last) else None
+            return self.prices.ended(moment, epoch, self.last)
         if moment.retired:
             return None
         found: list[Label] = []
@@ -98,8 +98,9 @@ class Suffixes:
     def _follow(self, moment: Moment, epoch: int, index: int, may_skip: bool) -> Front:
         """Actions of ``pi_H`` from an index on, each at most once; all, unless some may be skipped."""
         labels: list[Label] = []
-        if (may_skip or index == len(self.plan)) and self.prices.lasts(moment, epoch, self.last):
-            labels.append(NOTHING)
+        ended = self.prices.ended(moment, epoch, self.last) if may_skip or index == len(self.plan) else None
+        if ended is not None:
+            labels.append(ended)
         if not moment.retired:
             indices = range(index, len(self.plan)) if may_skip else range(index, len(self.plan))[:1]
             for k in indices:

@@ -1,0 +1,85 @@
+"""What help leaves changed has a price (semantics 12): as brute force has it, and proved."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import serendipity
+from serendipity import Options, Task, UsageError
+from serendipity.testing import strategies
+from serendipity.testing.oracle import best
+from tests.facade.rooms import rooms
+
+_OPTIONS = st.builds(
+    Options,
+    mode=st.sampled_from(["serendipity", "serendipity", "communication", "composite"]),
+    discount=st.sampled_from(["0.5", "0.9", "1"]),
+    window_weight=st.sampled_from(["0", "0.25", "1000"]),
+    suffix=st.sampled_from(["replan", "subplan"]),
+    leave_free=st.sampled_from([None, "at r*"]),
+    leave_price=st.sampled_from(["*=0.31", "at *=0.17, lit *=0.53, *=2.9", "*0*=0.07, *=1.13"]),
+)
+_KITE = "at kite *=0.5, *=0"
+
+
+@pytest.mark.long
+@given(st.one_of(rooms(), strategies.tasks()), _OPTIONS)
+def test_answers_are_those_of_brute_force(task: Task, options: Options) -> None:
+    task = replace(task, robot_goal=type(task.goal)(), known_variables=task.variables)
+    horizon = 4 if serendipity.plan(task, mode="individual").cost is None else None
+    options = options.but(horizon=horizon)
+    expected = best(task, options)
+    answer = serendipity.plan(task, **{name: getattr(options, name) for name in options.to_dict()})
+    if expected.cost is None or expected.objective is None:
+        assert answer.status == expected.status
+        return
+    figures = (answer.status, answer.cost, answer.objective, answer.opportunity)
+    assert figures == (expected.status, float(expected.cost), float(expected.objective), expected.opportunity)
+    verdict = serendipity.verify(task, answer).verdict
+    assert verdict == "proved" or (verdict == "undecided" and task.needs_time)
+
+
+def test_what_is_left_is_told_and_paid_for() -> None:
+    answer = serendipity.plan(serendipity.example("flights"), discount="0.9", leave_price=_KITE)
+    free = serendipity.plan(serendipity.example("flights"), discount="0.9")
+    assert (free.cost, answer.cost, answer.figure("rule_price")) == (10.8, 11.8, 1)
+    assert answer.statistics["left"] == {"at kite harbour": 0.5, "at kite ridge": 0.5}
+    assert "left changed, at a price: at kite harbour (0.5), at kite ridge (0.5)" in str(answer)
+
+
+@pytest.mark.parametrize(("name", "by"), [("cost", 0.5), ("objective", 0.5), ("saving", 0.5)])
+def test_edited_figures_are_refuted(name: str, by: float) -> None:
+    task = serendipity.example("flights")
+    answer = serendipity.plan(task, discount="0.9", leave_price=_KITE)
+    told = replace(answer, **{name: getattr(answer, name) + by})
+    assert serendipity.verify(task, told).verdict == serendipity.check(task, told).verdict == "refuted"
+
+
+def test_a_dearer_answer_is_refuted() -> None:
+    """Doing nothing, where help pays with what it leaves; and help, where with that it does not."""
+    task = serendipity.example("flights")
+    nothing = serendipity.plan(task, discount="0.9", leave_price="at kite *=9, *=0")
+    assert not nothing.opportunity
+    options = nothing.options.but(leave_price=_KITE)
+    assert serendipity.verify(task, replace(nothing, options=options)).verdict == "refuted"
+    helped = serendipity.plan(task, discount="0.9", leave_price=_KITE)
+    told = replace(helped, cost=28.8, objective=1028.8, lower_bound=1028.8, saving=-10.8)
+    assert serendipity.verify(task, replace(told, options=nothing.options)).verdict == "refuted"
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"leave_price": "at *"}, "leave_price: expected patterns such as dirty"),
+        ({"leave_price": "at *=-1"}, r"leave_price: at \*: expected at least 0, got -1"),
+        ({"leave_price": "at *=x"}, r"leave_price: at \*: "),
+        ({"leave_price": 3}, "leave_price: expected patterns with prices"),
+        ({"leave_price": "*=1", "mode": "composite", "horizon": "inf"}, "leave_price: needs a horizon"),
+    ],
+)
+def test_what_is_no_price_is_refused(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(UsageError, match=message):
+        serendipity.plan(serendipity.example("flights"), **options)
