@@ -41,6 +41,7 @@ SERVERS: Final = (
     "serendipity play --example taxis --discount 0.9 --port 8124",
     "serendipity play --study answers --rounds 4 --seed 1 --port 8124",
     "serendipity serve --workers 2 --time-limit 10 --port 8123",
+    "serendipity mcp --http --time-limit 10 --port 8125",
 )
 """They go on until somebody stops them, so the tests ask them for a port that there can't be."""
 

@@ -23,7 +23,7 @@ NAMES: Final = (
     *("plan", "check-task", "verify", "check-proof", "simulate", "execute", "explain", "interruptions"),
     "front",
     *("recognise", "learn", "reproduce", "show", "solve", "crosscheck", "league", "bench"),
-    *("examples", "generate", "play", "serve"),
+    *("examples", "generate", "play", "serve", "mcp"),
 )
 """As ``--help`` lists them: each a function in a module, both of its name, or a group ``app`` there."""
 

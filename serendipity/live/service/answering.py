@@ -6,7 +6,7 @@ A refusal is a status, and the one line that the command line says, too.
 import asyncio
 import json
 import logging
-from collections.abc import AsyncGenerator, AsyncIterator, Callable, Coroutine
+from collections.abc import AsyncGenerator, AsyncIterator, Callable, Coroutine, Mapping
 from contextlib import aclosing, suppress
 from typing import Any, Final, TypeVar
 
@@ -156,9 +156,19 @@ async def _malformed(request: Request, error: Exception) -> Response:
         return JSONResponse({"error": f"body: expected JSON: {found}"}, 400)
     if first["loc"] == ("body",) and "json" not in request.headers.get("content-type", ""):
         return JSONResponse({"error": "body: expected JSON, and 'Content-Type: application/json'"}, 422)
-    where = ".".join(str(part) for part in first["loc"][1:]) or "body"
-    found = first["msg"].removeprefix("Value error, ")
-    return JSONResponse({"error": f"{where}: {found[:1].lower()}{found[1:]}"}, 422)
+    return JSONResponse({"error": line_of({**first, "loc": first["loc"][1:]}, "body")}, 422)
+
+
+def line_of(error: Mapping[str, Any], whole: str) -> str:
+    """What is wrong with a part of a request, in a line.
+
+    Args:
+        error: as pydantic tells it.
+        whole: what all parts are called together.
+    """
+    where = ".".join(str(part) for part in error["loc"]) or whole
+    found = error["msg"].removeprefix("Value error, ")
+    return f"{where}: {found[:1].lower()}{found[1:]}"
 
 
 async def _too_deep(_request: Request, _error: Exception) -> Response:

@@ -31,6 +31,8 @@ def _says(description: str, kind: str = "application/json") -> Described:
 
 _RESULT = _says("schema `serendipity.result/1`")
 _CERTIFICATE = _says("schema `serendipity.certificate/1`")
+_EXPLANATION = _says("schema `serendipity.explanation/1`, or `serendipity.policy-explanation/1`")
+_REPORT = _says("schema `serendipity.task-report/1`")
 _STREAM = _says("events `answer` with results that get better; then `end`, or `error`", "text/event-stream")
 
 
@@ -55,6 +57,16 @@ def call_router(pool: Pool) -> APIRouter:
     async def verify(call: asked.VerifyRequest, request: Request) -> Response:
         """Check a result claim by claim, independently of the search."""
         return await answering.as_json(request, said("verify", call))
+
+    @router.post("/explain", responses=_EXPLANATION, response_class=Response)
+    async def explain(call: asked.ExplainRequest, request: Request) -> Response:
+        """Why this help, why then, and from which discount on; or what stands in the way of any."""
+        return await answering.as_json(request, said("explain", call))
+
+    @router.post("/check-task", responses=_REPORT, response_class=Response)
+    async def check_task(call: asked.CheckTaskRequest, request: Request) -> Response:
+        """How large a task is, and what is wrong with it, or probably not meant."""
+        return await answering.as_json(request, said("check_task", call))
 
     return router
 

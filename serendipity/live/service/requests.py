@@ -98,6 +98,18 @@ class VerifyRequest(RequestPart):
     method: str | None = Field(None, examples=["auto"])
 
 
+class ExplainRequest(AnytimeRequest):
+    """An answer to be explained, or options of one that is planned first."""
+
+    result: dict[str, Any] | None = Field(None, description="what `plan` answered; without it, it is planned")
+
+
+class CheckTaskRequest(RequestPart):
+    """A task to be looked at."""
+
+    task: GivenTask
+
+
 class SessionPlanRequest(RequestPart):
     """A planning call from where a session stands."""
 

@@ -4,7 +4,7 @@ import json
 import re
 from collections import OrderedDict
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import chdir
+from contextlib import chdir, contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
@@ -64,15 +64,32 @@ def _read(given: GivenTask, deadline: Deadline) -> Task:
     if way == "example":
         task = serendipity.example(given["example"], deadline=deadline)
         return task if human is None else task.with_human(human)
-    with TemporaryDirectory(prefix="serendipity-") as folder, chdir(folder):
+    with _written(given) as pairs:
         if way == "agents":
-            pairs = {agent: _pair(agent, files) for agent, files in given["agents"].items()}
-            team = _pair("team", given["team"], Path("superagent")) if "team" in given else None
+            team = pairs.pop(_TEAM, None)
             return serendipity.load_agents(pairs, team, human, deadline=deadline)
-        if "problem" not in given or human is None:
-            raise UsageError("task: with domain, expected problem and human, and robots")
-        pair = _pair("", given, Path())
-        return serendipity.load_pddl(*pair, human, given.get("robots", ()), deadline=deadline)
+        if human is None:
+            raise UsageError(_WITH_DOMAIN)
+        return serendipity.load_pddl(*pairs[""], human, given.get("robots", ()), deadline=deadline)
+
+
+_TEAM: Final = "superagent"
+"""The folder of the team's files."""
+_WITH_DOMAIN: Final = "task: with domain, expected problem and human, and robots"
+
+
+@contextmanager
+def _written(given: GivenTask) -> Iterator[dict[str, tuple[Path, Path]]]:
+    """The files of a task in a folder of their own, by agent; none of an example."""
+    with TemporaryDirectory(prefix="serendipity-") as folder, chdir(folder):
+        pairs = {agent: _pair(agent, files) for agent, files in (given.get("agents") or {}).items()}
+        if given.get("team") is not None:
+            pairs[_TEAM] = _pair("team", given["team"], Path(_TEAM))
+        if given.get("domain") is not None:
+            if given.get("problem") is None:
+                raise UsageError(_WITH_DOMAIN)
+            pairs[""] = _pair("", given, Path())
+        yield pairs
 
 
 _FIELDS: Final = {
@@ -190,6 +207,23 @@ def verify(worker: WorkerState, asked: Given, deadline: Deadline) -> Answers:
     yield serendipity.verify(task, result, deadline=deadline, **how).to_dict()
 
 
+def explain(worker: WorkerState, asked: Given, deadline: Deadline) -> Answers:
+    """Why an answer is as it is; one over scenarios is explained as a policy."""
+    task = worker.tasks.task(asked["task"], deadline)
+    result = None if asked["result"] is None else Result.from_dict(asked["result"])
+    if result is not None and len(result.goals or ()) > 1 and not asked["options"]:
+        yield serendipity.explain_policy(task, result, deadline=deadline).to_dict()
+        return
+    yield serendipity.explain(task, result, deadline=deadline, **_call(asked)).to_dict()
+
+
+def check_task(worker: WorkerState, asked: Given, deadline: Deadline) -> Answers:
+    """What is wrong with a task."""
+    task = worker.tasks.task(asked["task"], deadline)
+    with _written(asked["task"]) as pairs:
+        yield serendipity.check_task(task, [*pairs.values()], deadline=deadline).to_dict()
+
+
 def session(worker: WorkerState, asked: Given, deadline: Deadline) -> Answers:
     """One call of a session; before the answers comes nothing, behind them where it stands now.
 
@@ -216,6 +250,8 @@ JOBS: Final[dict[str, Job]] = {
     "plan": plan,
     "plan_anytime": plan_anytime,
     "verify": verify,
+    "explain": explain,
+    "check_task": check_task,
     "session": session,
 }
 

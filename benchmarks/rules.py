@@ -1,0 +1,115 @@
+"""What each rule of help costs, domain by domain: of harming nobody, of leaving nothing changed, and others.
+
+    python -m benchmarks.rules [--smallest N] [--stride N] [--limit S] [--jobs N] [--record FILE]
+
+The human wants half of a problem's goals.  ``nobody pays``: a second person, a bystander, wants another goal.
+In the buildings robots may be anywhere (``at robot*``).  A price is what the best answer costs more than the
+best without the rule, if both are proved; problems that are not there are left out.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from random import Random
+from typing import Any, Final, NamedTuple
+
+import typer
+
+import serendipity
+from benchmarks.problems import PROBLEMS, Source, can_some, load, of_suite, usar
+from serendipity import SerendipityError, Task
+from serendipity.evaluation.measuring.record import measured
+from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
+
+RULES: Final[Mapping[str, Mapping[str, Any]]] = {
+    "nobody pays": {"nobody_pays": True},
+    "nothing left changed": {"leave_free": ""},
+    "robots elsewhere only": {"leave_free": "at robot*"},
+    "0.1 for each that is": {"leave_price": "*=0.1"},
+    "noticed": {"noticed": True},
+    "no disturbance": {"max_disturbance": 0},
+}
+
+Row = Mapping[str, Any]
+
+
+class Job(NamedTuple):
+    """A task of a family, under a rule; the seconds of each call."""
+
+    family: str
+    rule: str
+    source: Source
+    limit: float
+
+
+def main(
+    smallest: int = 3, stride: int = 4, limit: float = 10, jobs: int = 1, record: Path | None = None
+) -> None:
+    """Measure and print the table."""
+    found = measured([*_jobs(smallest, stride, limit)], priced, record, processes=jobs)
+    rows = [{"family": job.family, "rule": job.rule, **row} for job, row in found if row]
+    lines = grouped(rows, lambda row: (row["family"], row["rule"]))
+    print(as_markdown([table(("family", "rule"), lines, COLUMNS)]), flush=True)
+
+
+def _jobs(smallest: int, stride: int, limit: float) -> Iterator[Job]:
+    for source in usar(stride):
+        yield from (Job("buildings", rule, source, limit) for rule in RULES if rule != "nobody pays")
+    for problem, who, source in of_suite(PROBLEMS / "codmap15", can_some, smallest=smallest):
+        if who.alone and len(who.robots) > 1:
+            yield from (
+                Job(problem.domain, rule, source, limit) for rule in RULES if rule != "robots elsewhere only"
+            )
+
+
+def priced(job: Job) -> Row | None:
+    """Both answers; None where the human can't reach half of the goals alone, or the bystander their own."""
+    task = load(job.source)
+    asked = {"discount": "0.9", "time_limit": job.limit}
+    try:
+        task = _shared(task, bystander=job.rule == "nobody pays")
+        free = serendipity.plan(task, **asked, nobody_pays=False)
+        bound = serendipity.plan(task, **asked, **{"nobody_pays": False, **RULES[job.rule]})
+    except SerendipityError:
+        return None
+    if free.status == "infeasible":
+        return None
+    return {
+        "proved": free.status == bound.status == "optimal",
+        "alone": free.human_cost,
+        "free": free.saving,
+        "bound": bound.saving,
+    }
+
+
+def _shared(task: Task, *, bystander: bool) -> Task:
+    """The task with half of its goals for the human, and, with a bystander, one of the others for them."""
+    goals = sorted(task.goal.positive)
+    if len(goals) < 2:
+        return task
+    dice = Random(task.name)
+    wanted = dice.sample(goals, (len(goals) + 1) // 2)
+    others = [fact for fact in goals if fact not in wanted]
+    task = task.with_goal(type(task.goal)(tuple(sorted(wanted)), ()))
+    if not bystander:
+        return task
+    person, fact = task.agents[task.robots[-1]], task.facts[dice.choice(others)]
+    return serendipity.with_bystanders(task, {person: [fact]})
+
+
+def _sum(name: str) -> Callable[[Sequence[Row]], str]:
+    return lambda of: f"{sum(row[name] for row in of if row['proved']):.1f}"
+
+
+COLUMNS: Final[Mapping[str, Callable[[Sequence[Row]], object]]] = {
+    "calls": len,
+    "proved": lambda of: sum(row["proved"] for row in of),
+    "alone": _sum("alone"),
+    "saved without": _sum("free"),
+    "saved under it": _sum("bound"),
+    "calls with a price": lambda of: sum(row["proved"] and row["bound"] < row["free"] for row in of),
+}
+
+
+if __name__ == "__main__":
+    main.__doc__ = __doc__
+    typer.run(main)
