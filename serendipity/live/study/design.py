@@ -95,7 +95,7 @@ def open_design(folder: Path, labels: Path | None = None, **given: Any) -> Desig
         if value is not None and value != kept["settings"][name]:
             begun = kept["settings"][name]
             raise UsageError(f"--{name}: the study in {folder} was begun with {begun}; take another folder")
-    if kept["texts"] != texts.model_dump():
+    if StudyFile.model_validate(kept["texts"]) != texts:
         raise InputError(f"is not what the study was begun with ({_KEPT}): take another folder", file)
     return _design(folder, texts, labels, kept)
 

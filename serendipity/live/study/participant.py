@@ -28,6 +28,9 @@ _SHOWN: Final = (
 )
 """What of a round a participant's page is told: nothing of what robots think, or are worth."""
 
+_ASKED: Final = ("comprehension", "questions", "closing")
+"""Stages with questions, each called as in the file of the study."""
+
 _OVER: Final = ("end", "withdrawn")
 
 
@@ -39,7 +42,8 @@ class Participant(RecordedRounds):
 
     Attributes:
         joined: the first event.
-        stage: ``instructions``, ``play``, ``questions``, ``closing``, ``end`` or ``withdrawn``.
+        stage: ``instructions``, ``comprehension``, ``play``, ``questions``, ``closing``, ``end`` or
+            ``withdrawn``.
 
     Raises:
         InputError: the record is no participant's.
@@ -50,6 +54,7 @@ class Participant(RecordedRounds):
         self._design = design
         self.stage = "instructions"
         self._left: str | None = None
+        self._tries, self._understood = 0, False
         self._since = perf_counter()
         self.joined: Event = {}
         try:
@@ -84,13 +89,13 @@ class Participant(RecordedRounds):
         study: dict[str, Any] = {"participant": self.name, "rounds": len(self.joined["order"])}
         shown = {"stage": self.stage, "moment": self._moment, "round": self.round, "study": study}
         if self.stage == "instructions":
-            study["text"] = self._design.instructions()
+            study |= {"text": self._design.instructions(), "again": self._tries > 0}
         elif self.stage == "play":
             played = self._playing()
             view = played.view()
             shown |= {key: view[key] for key in _SHOWN} | {"end": self._end(played) if played.done else None}
-        elif self.stage in ("questions", "closing"):
-            study["questions"] = [question.model_dump() for question in self._questions()]
+        elif self.stage in _ASKED:
+            study["questions"] = [question.model_dump(exclude={"expect"}) for question in self._questions()]
         elif self.stage == "end":
             study["code"] = self._design.code
         return shown
@@ -128,7 +133,7 @@ class Participant(RecordedRounds):
             self._add("instructed", **took, **self._seconds(), text=self._design.instructions())
         elif what == "go on" and self.stage == "play" and self._playing().done:
             self._add("round over", **self._about(), **took, **self._playing().robots())
-        elif what == "answer" and self.stage in ("questions", "closing"):
+        elif what == "answer" and self.stage in _ASKED:
             self._answer(message, took)
         else:
             raise UsageError(f"expected something else at this point of the study, got {what!r:.50}")
@@ -143,8 +148,8 @@ class Participant(RecordedRounds):
             if wrong := question.fault(answer):
                 raise UsageError(f"answers: {wrong}, got {answer!r:.50}")
         told = [
-            {"question": question.text, "answer": answer, **_took(time)}
-            for question, answer, time in zip(asked, answers, times, strict=True)
+            {"question": one.text, "answer": answer, **_right(one, answer), **_took(time)}
+            for one, answer, time in zip(asked, answers, times, strict=True)
         ]
         when = self._about() if self.stage == "questions" else {"condition": self.joined["condition"]}
         self._add("answers", **when, about=self.stage, **took, **self._seconds(), answers=told)
@@ -153,7 +158,8 @@ class Participant(RecordedRounds):
 
     @property
     def _moment(self) -> str:
-        return f"{self.stage}.{self.round}.{len(self._epochs)}"
+        again = f".{self._tries}" if self._tries else ""
+        return f"{self.stage}.{self.round}.{len(self._epochs)}{again}"
 
     def _happened(self, event: Event) -> None:
         """Move on by what is recorded."""
@@ -169,6 +175,11 @@ class Participant(RecordedRounds):
             self.stage = "play"
         elif what == "asked":
             self.stage = event["about"]
+        elif what == "read again":
+            self.stage = "instructions"
+        elif what == "answers" and event["about"] == "comprehension":
+            self._tries += 1
+            self._understood = all(told["right"] for told in event["answers"])
         elif what in _OVER:
             self.stage, self._now = what, None
 
@@ -177,7 +188,11 @@ class Participant(RecordedRounds):
         left, asks = self._left, self._design.texts
         if left is None:
             return
-        if left == "instructed":
+        if left == "instructed" and asks.comprehension:
+            self._add("asked", condition=self.joined["condition"], about="comprehension")
+        elif self.stage == "comprehension" and not self._understood and self._tries < asks.tries:
+            self._add("read again", tries=self._tries)
+        elif left == "instructed" or self.stage == "comprehension":
             self._begin(0 if self._design.practice is not None else 1)
         elif left == "round over" and self.round and asks.questions:
             self._add("asked", **self._about(), about="questions")
@@ -189,7 +204,8 @@ class Participant(RecordedRounds):
             self._add("end", condition=self.joined["condition"], code=self._design.code)
 
     def _questions(self) -> list[Item]:
-        return self._design.texts.questions if self.stage == "questions" else self._design.texts.closing
+        asked: list[Item] = getattr(self._design.texts, self.stage)
+        return asked
 
     def _setting(self, number: int) -> RoundSetting:
         """What is played in a round."""
@@ -201,6 +217,12 @@ class Participant(RecordedRounds):
     def _seconds(self) -> Event:
         """How long what is answered now has been there."""
         return {"seconds": round(perf_counter() - self._since, 3)}
+
+
+def _right(question: Item, answer: object) -> Event:
+    """Whether an answer is right, where one is expected."""
+    right = question.right(answer)
+    return {} if right is None else {"right": right}
 
 
 def page_facts(message: Mapping[str, Any]) -> Event:

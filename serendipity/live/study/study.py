@@ -45,6 +45,10 @@ COLUMNS: Final = {
     "begun": "when it began, UTC",
     "seconds": "from its beginning to the last choice",
     "thinking_seconds": "mean time for a choice, by the page where it said so",
+    "understood": "how often the questions about the instructions were answered until all were right; never: "
+    "not in as many tries as there are; empty: there are none",
+    "attentive": "whether all that is expected of who attends was answered, after the round and at the end: "
+    "true or false; empty: nothing is",
 }
 """Columns and what they mean; the answers come behind them."""
 
@@ -87,11 +91,13 @@ def _rows(events: Sequence[Event], state: str) -> Iterator[Event]:
         "outside_id": joined.get("outside_id"),
         "state": state,
         "study": joined.get("study"),
+        "understood": _understood(events),
         **_answered("closing", closing),
     }
     for first in (event for event in events if event["event"] == "begun"):
         here = [event for event in events if event.get("round") == first["round"]]
-        yield {**person, **_round(first, here)}
+        asked = [event for event in (*here, *closing) if event["event"] == "answers"]
+        yield {**person, **_round(first, here), "attentive": _attentive(asked)}
 
 
 def _round(first: Event, here: Sequence[Event]) -> Event:
@@ -114,6 +120,18 @@ def _round(first: Event, here: Sequence[Event]) -> Event:
         "thinking_seconds": round(sum(thought) / len(thought), 3) if thought else None,
         **_answered("answer", [e for e in here if e["event"] == "answers"]),
     }
+
+
+def _understood(events: Sequence[Event]) -> int | str | None:
+    tries = [e["answers"] for e in events if e["event"] == "answers" and e.get("about") == "comprehension"]
+    if not tries:
+        return None
+    return len(tries) if all(told["right"] for told in tries[-1]) else "never"
+
+
+def _attentive(asked: Sequence[Event]) -> bool | None:
+    checks = [told["right"] for event in asked for told in event["answers"] if "right" in told]
+    return all(checks) if checks else None
 
 
 def _answered(kind: str, events: Sequence[Event]) -> dict[str, Any]:

@@ -41,7 +41,7 @@ class _Part(BaseModel):
 
 
 class Item(_Part):
-    """An item of a questionnaire: a scale from 1 on, a choice, or a text."""
+    """An item of a questionnaire: a scale from 1 on, a choice, or a text; with ``expect`` a check."""
 
     text: str = Field(min_length=1)
     kind: Literal["scale", "choice", "text"] = "scale"
@@ -49,12 +49,19 @@ class Item(_Part):
     ends: list[str] = Field(default=["not at all", "very much"], min_length=2, max_length=2)
     choices: list[str] = []
     required: bool = True
+    expect: int | str | None = None
 
     @model_validator(mode="after")
     def _chosen_from(self) -> Self:
         if (self.kind == "choice") != bool(self.choices):
             raise ValueError("choices: go with kind = 'choice', and only with that")
+        if self.expect is not None and (wrong := self.fault(self.expect)):
+            raise ValueError(f"expect: {wrong}")
         return self
+
+    def right(self, answer: object) -> bool | None:
+        """Whether an answer is what is expected of those who read and attend; None if anything is."""
+        return None if self.expect is None else answer == self.expect
 
     def fault(self, answer: object) -> str | None:
         """What is wrong with an answer; None where nothing is."""
@@ -84,6 +91,8 @@ class StudyFile(_Part):
 
     consent: Lines = _CONSENT
     instructions: Lines = _INSTRUCTIONS
+    comprehension: list[Item] = []
+    tries: int = Field(default=3, ge=1, le=100)
     questions: list[Item] = [
         *(Item(text=text) for text in _SCALES),
         Item(text="Anything else?", kind="text", required=False),
@@ -100,6 +109,8 @@ class StudyFile(_Part):
     def _known(self) -> Self:
         if len(set(self.conditions)) < len(self.conditions) or not set(self.conditions) <= CONDITIONS.keys():
             raise ValueError(f"conditions: expected some of {', '.join(CONDITIONS)}, each once")
+        if any(item.expect is None for item in self.comprehension):
+            raise ValueError("comprehension: expected that each question says what to expect")
         names = [scenario.name for scenario in self.scenarios]
         if len(set(names)) < len(names):
             raise ValueError("scenarios: two have the same name")

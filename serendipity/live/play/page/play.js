@@ -59,7 +59,7 @@
   // -- showing what it says
 
   function show(next) {
-    const fresh = shown !== `${next.stage} ${next.round}`;
+    const fresh = shown !== `${next.stage} ${next.round} ${next.study && next.study.again}`;
     const back = view !== null && !next.study && (next.round < view.round || (next.round === view.round && next.epoch < view.epoch));
     if (view === null || view.moment !== next.moment) {
       since = performance.now();
@@ -69,8 +69,8 @@
     }
     id("anew").hidden = !back;
     view = next;
-    shown = `${next.stage} ${next.round}`;
-    for (const stage of ["consent", "instructions", "play", "questions", "end", "withdrawn"]) id(stage).hidden = stage !== (next.stage === "closing" ? "questions" : next.stage);
+    shown = `${next.stage} ${next.round} ${next.study && next.study.again}`;
+    for (const stage of ["consent", "instructions", "play", "questions", "end", "withdrawn"]) id(stage).hidden = stage !== (next.study && next.study.questions ? "questions" : next.stage);
     id("keys").hidden = next.stage !== "play";
     id("exports").hidden = Boolean(next.study);
     id("scenario").textContent = next.scenario && !next.study ? next.scenario : "";

@@ -20,9 +20,10 @@ function makeStudy({ id, make, money, say, answer, page }) {
     }
     if (stage === "instructions") {
       paragraphs("instructions-text", study.text);
+      id("read-again").hidden = !study.again;
       id("link").textContent = location.href;
     }
-    if (stage === "questions" || stage === "closing") showQuestions(stage, study.questions);
+    if (study.questions) showQuestions(stage, study.questions);
     if (stage === "end") [id("number").textContent, id("code").textContent] = [study.participant, study.code];
     if (stage === "withdrawn") id("withdrawn-number").textContent = study.participant;
   }
@@ -44,7 +45,8 @@ function makeStudy({ id, make, money, say, answer, page }) {
     asked = questions;
     touched = questions.map(() => null);
     begun = performance.now();
-    id("questions-title").textContent = stage === "closing" ? "At the end" : "A few questions about this round";
+    const titles = { comprehension: "What you have read", questions: "A few questions about this round", closing: "At the end" };
+    id("questions-title").textContent = titles[stage];
     id("asked").replaceChildren(...questions.map((question, number) => {
       const field = make("fieldset");
       field.append(make("legend", question.text), ...inputs(question, `q${number}`));

@@ -1,0 +1,96 @@
+"""Whether participants have understood, and attend: asked, recorded, and told in the table."""
+
+import csv
+import io
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from serendipity.live.study.design import open_design
+from serendipity.model import InputError
+from tests.live.studies import PLAIN, act_along, join, opened, say
+
+CHECKED = PLAIN.replace(
+    'conditions = ["none", "silent"]',
+    """conditions = ["none", "silent"]
+tries = 2
+[[comprehension]]
+text = "What ends a round?"
+kind = "choice"
+choices = ["the goal", "the clock"]
+expect = "the goal"
+[[questions]]
+text = "Choose 2 here."
+expect = 2""",
+)
+
+
+@pytest.fixture
+def checked(tmp_path: Path) -> Path:
+    (tmp_path / "study.toml").write_text(CHECKED)
+    return tmp_path
+
+
+def table(folder: Path) -> list[dict[str, str]]:
+    design = open_design(folder)
+    text = opened(folder).file(f"experimenter/{design.secret}/rounds.csv").text
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def answer(room: Any, **by_text: object) -> None:
+    asked = room.view()["study"]["questions"]
+    say(room, "answer", answers=[by_text[question["text"].split()[0]] for question in asked])
+
+
+def finish(room: Any, folder: Path, *, attends: bool) -> None:
+    usual = {"Was": 6, "Why?": "so", "Who": "me", "Choose": 2 if attends else 3}
+    while not room.over:
+        if room.view()["stage"] == "play" and not room.view()["done"]:
+            act_along(room, open_design(folder))
+        elif room.view()["stage"] == "play":
+            say(room, "go on")
+        else:
+            answer(room, **usual)
+
+
+def test_who_has_not_understood_reads_again(checked: Path) -> None:
+    room = join(opened(checked))
+    assert say(room, "go on")["stage"] == "comprehension"
+    (question,) = room.view()["study"]["questions"]
+    assert "expect" not in question
+    answer(room, What="the clock")
+    view = room.view()
+    assert (view["stage"], view["study"]["again"]) == ("instructions", True)
+    moment = view["moment"]
+    room = opened(checked).room(room.joined["token"])  # the server was stopped in between
+    assert room.view()["moment"] == moment
+    say(room, "go on")
+    answer(room, What="the goal")
+    assert room.view()["stage"] == "play"
+    finish(room, checked, attends=True)
+    assert {(row["understood"], row["attentive"]) for row in table(checked)} == {("2", "true")}
+
+
+def test_who_never_does_plays_all_the_same_and_is_told_apart(checked: Path) -> None:
+    room = join(opened(checked))
+    for _ in range(2):
+        say(room, "go on")
+        answer(room, What="the clock")
+    assert room.view()["stage"] == "play"
+    finish(room, checked, attends=False)
+    assert {(row["understood"], row["attentive"]) for row in table(checked)} == {("never", "false")}
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("[[comprehension]]\ntext = 'Why?'", "each question says what to expect"),
+        ("[[questions]]\ntext = 'Why?'\nexpect = 9", "expect: expected a whole number from 1 to 7"),
+        ("tries = 0", "tries"),
+    ],
+)
+def test_checks_that_can_not_be_are_refused(tmp_path: Path, text: str, fault: str) -> None:
+    (tmp_path / "study.toml").write_text(text)
+    with pytest.raises(InputError, match=fault):
+        open_design(tmp_path)
