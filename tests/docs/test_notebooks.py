@@ -19,12 +19,13 @@ NEEDS = {"unified-planning": ("unified_planning", "up_fast_downward", "up_symk")
 """What a notebook imports that need not be installed."""
 
 
-def test_there_are_three() -> None:
-    assert [path.stem for path in NOTEBOOKS] == ["own-domain", "paper", "unified-planning"]
+def test_there_are_four() -> None:
+    assert [path.stem for path in NOTEBOOKS] == ["own-domain", "paper", "study", "unified-planning"]
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_cells_print_what_is_shown(path: Path) -> None:
+def test_cells_print_what_is_shown(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(path.parent)
     absent = [name for name in NEEDS.get(path.stem, ()) if find_spec(name) is None]
     if absent:
         pytest.skip(f"needs {', '.join(absent)}")

@@ -6,7 +6,8 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -38,6 +39,14 @@ class Server:
         return code, self.process.stderr.read()
 
 
+def until(holds: Callable[[], bool], seconds: float = 20) -> None:
+    """Wait for something that has to come about."""
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
 def workers_of(pid: int) -> list[int]:
     """The processes that a server has started."""
     found = []
@@ -51,13 +60,17 @@ def workers_of(pid: int) -> list[int]:
 
 
 @contextmanager
-def serving(*arguments: str, command: str = "serve", env: dict[str, str] | None = None) -> Iterator[Server]:
-    """A server on a free port, in a folder of its own."""
+def serving(
+    *arguments: str, command: str = "serve", env: dict[str, str] | None = None, seconds: float = 120
+) -> Iterator[Server]:
+    """A server on a free port, in a folder of its own; it is killed after so many seconds."""
     with TemporaryDirectory() as folder:
-        yield from _serving(folder, *arguments, command=command, env=env)
+        yield from _serving(folder, *arguments, command=command, env=env, seconds=seconds)
 
 
-def _serving(folder: str, *arguments: str, command: str, env: dict[str, str] | None) -> Iterator[Server]:
+def _serving(
+    folder: str, *arguments: str, command: str, env: dict[str, str] | None, seconds: float
+) -> Iterator[Server]:
     process = subprocess.Popen(
         [
             sys.executable,
@@ -74,7 +87,7 @@ def _serving(folder: str, *arguments: str, command: str, env: dict[str, str] | N
         cwd=folder,
         env={**os.environ, **(env or {})},
     )
-    watchdog = threading.Timer(120, process.kill)
+    watchdog = threading.Timer(seconds, process.kill)
     watchdog.start()
     try:
         line = process.stdout.readline()

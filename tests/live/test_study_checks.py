@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from serendipity.live.study import analysis
 from serendipity.live.study.design import open_design
 from serendipity.model import InputError
 from tests.live.studies import PLAIN, act_along, join, opened, say
@@ -80,6 +81,21 @@ def test_who_never_does_plays_all_the_same_and_is_told_apart(checked: Path) -> N
     assert room.view()["stage"] == "play"
     finish(room, checked, attends=False)
     assert {(row["understood"], row["attentive"]) for row in table(checked)} == {("never", "false")}
+
+
+def test_the_analysis_can_leave_them_out(checked: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for attends in (True, False):
+        room = join(opened(checked))
+        say(room, "go on")
+        answer(room, What="the goal")
+        finish(room, checked, attends=attends)
+    design = open_design(checked)
+    file, plot = checked / "rounds.csv", checked / "means.svg"
+    file.write_text(opened(checked).file(f"experimenter/{design.secret}/rounds.csv").text)
+    assert len({row["participant"] for row in analysis.read_rounds(file)}) == 2
+    assert analysis.main([str(file), "--attentive", "--plot", str(plot)]) == 0
+    assert capsys.readouterr().out.startswith("1 finished participants")
+    assert "<svg" in plot.read_text()
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,9 @@ import io
 import json
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import networkx as nx
@@ -82,8 +83,10 @@ def far(one: str, other: str) -> int:
     return int(nx.shortest_path_length(BUILDING, one, other))
 
 
-def takes_part(page: Any, server: Server, runner: Runner) -> Iterator[None]:
-    """From wherever they are to the end."""
+def takes_part(
+    page: Any, server: Server, runner: Runner, thinks: Callable[[Any], int] = lambda _: 5
+) -> Iterator[None]:
+    """From wherever they are to the end; ``thinks`` says what they answer on scales."""
     while page.is_hidden("#end"):
         if page.is_visible("#consent"):
             page.check("#agree")
@@ -100,7 +103,7 @@ def takes_part(page: Any, server: Server, runner: Runner) -> Iterator[None]:
             yield from plays_well(page, runner.number(server, page))
         else:
             for question in page.locator("#asked fieldset").all()[:-1]:
-                question.locator('label:has-text("5")').click()
+                question.locator(f'label:has-text("{thinks(page)}")').click()
             page.fill("#asked textarea", "=1+1\n😀")
             page.click("#send")
             page.wait_for_selector("#end", state="visible")
@@ -175,3 +178,54 @@ def judge(folder: Path, runner: Runner, events: list[dict[str, Any]], rows: list
     assert any(event["said"] and event["said"].startswith("I will ") for event in told)
     assert all(event["page_seconds"] > 0 for event in told)
     assert analysis.main([str(folder / "rounds.csv")]) == 0
+
+
+LIKED = {"none": 2.5, "silent": 4.0, "announced": 5.5}
+"""What fifty participants are made to think of the robot in the mean, by condition."""
+
+
+@pytest.mark.slow
+def test_fifty_take_part_and_what_they_were_made_to_think_is_found(opened: Opened, tmp_path: Path) -> None:
+    """Two are interrupted, with the server, and go on; the analysis finds what was put in."""
+    runner, dice, arguments = Runner(tmp_path), Random(1), ("--study", str(tmp_path))
+
+    def conditions(server: Server) -> dict[str, str]:
+        joined = (e for e in json.loads(runner.save(server, "events.json")) if e["event"] == "joined")
+        return {event["participant"]: event["condition"] for event in joined}
+
+    def take_part(server: Server, pages: list[Any]) -> None:
+        def thinks(page: Any) -> int:
+            condition = conditions(server)[page.inner_text("#participant").split(",")[0]]
+            return min(7, max(1, round(dice.gauss(LIKED[condition], 1))))
+
+        together([takes_part(page, server, runner, thinks) for page in pages])
+        for page in pages:
+            page.close()
+
+    with serving(*arguments, command="play") as server:
+        begun = [opened(server, at=f"/?participant=s{i}") for i in range(2)]
+        for page in begun:
+            person = takes_part(page, server, runner)
+            for _ in range(5):
+                next(person)
+        links = [page.url.removeprefix(server.url) for page in begun]
+        for page in begun:
+            page.close()
+        port = str(server.port)
+    with serving(*arguments, "--port", port, command="play", seconds=600) as server:
+        take_part(server, [opened(server, at=link) for link in links])
+        for _ in range(12):
+            take_part(server, [opened(server) for _ in range(4)])
+        table = runner.save(server, "rounds.csv")
+        spread = Counter(conditions(server).values())
+    assert sorted(spread.values()) == [16, 17, 17]
+    (tmp_path / "rounds.csv").write_text(table)
+    rows = analysis.read_rounds(tmp_path / "rounds.csv")
+    assert len({row["participant"] for row in rows}) == 50
+    for measure in ("answer_1", "answer_2", "answer_3", "answer_4"):
+        found = {name: analysis.estimate(told) for name, told in analysis.by_person(rows, measure).items()}
+        for name, mean in LIKED.items():
+            assert abs(found[name].mean - mean) < 2 * (found[name].half_width or 0)
+    told = analysis.by_person(rows, "answer_2")
+    more = analysis.difference(told["announced"], told["none"])
+    assert more.mean > 2 and more.mean - (more.half_width or 0) > 1

@@ -1,19 +1,24 @@
 """What a study has found, from the table of its rounds: means by condition, with intervals of 95 %.
 
-``python -m serendipity.live.study.analysis rounds.csv`` prints them.  Rounds of one person depend on
-each other, so they are averaged first, and means and intervals (Student's t) are over persons.
-Only finished participants count, practice does not; differences are to the first condition (Welch's t).
+``python -m serendipity.live.study.analysis rounds.csv`` prints them; ``--attentive`` leaves out who has not
+understood or not attended, ``--plot FILE`` draws them.  Rounds of one person depend on each other, so they
+are averaged first, and means and intervals (Student's t) are over persons.  Only finished participants count,
+practice does not; differences are to the first condition (Welch's t).
 """
 
+import argparse
 import csv
 import math
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from statistics import fmean, variance
-from typing import Final, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
-from serendipity.model import InputError
+from serendipity.model import InputError, SerendipityError, UsageError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _MEASURES: Final = ("spared", "saved", "seconds", "thinking_seconds", "helped", "taken")
 _CONDITIONS: Final = ("none", "silent", "announced")
@@ -33,8 +38,12 @@ class Estimate(NamedTuple):
         return f"{self.mean:.3g}" + ("" if self.half_width is None else f" ± {self.half_width:.2g}")
 
 
-def read_rounds(file: Path) -> list[Row]:
+def read_rounds(file: Path, *, attentive: bool = False) -> list[Row]:
     """The rounds that count.
+
+    Args:
+        file: ``rounds.csv`` of the study.
+        attentive: leave out participants who have not understood, or failed what checks their attention.
 
     Raises:
         InputError: it is not such a table.
@@ -43,6 +52,11 @@ def read_rounds(file: Path) -> list[Row]:
         with file.open(encoding="utf-8", newline="") as opened:
             rows = list(csv.DictReader(opened))
         counted = [r for r in rows if r["state"] == "finished" and int(r["round"]) > 0]
+        if attentive:
+            out = {
+                r["participant"] for r in counted if r["understood"] == "never" or r["attentive"] == "false"
+            }
+            counted = [row for row in counted if row["participant"] not in out]
         for row in counted:
             alone = float(row["alone_cost"])
             row["spared"] = str(alone - float(row["human_cost"]))
@@ -117,14 +131,46 @@ def summary(rows: Sequence[Row]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def main(arguments: Sequence[str]) -> int:
-    """Print the summary of a file."""
-    if len(arguments) != 1:
-        sys.stderr.write("Error: expected rounds.csv, as the experimenter's page has it\n")
-        return 2
+def drawn(rows: Sequence[Row], measures: Sequence[str] = ("spared", "saved")) -> "Figure":
+    """Means with their intervals by condition, and a point for each person.
+
+    Args:
+        rows: as :func:`read_rounds` has them.
+        measures: one picture each.
+
+    Raises:
+        UsageError: matplotlib is not installed.
+    """
     try:
-        sys.stdout.write(summary(read_rounds(Path(arguments[0]))))
-    except InputError as error:
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise UsageError("--plot: needs matplotlib: install serendipity-planner[plot]") from None
+    figure = Figure(figsize=(3.2 * len(measures), 3.2), layout="constrained")
+    for number, measure in enumerate(measures, start=1):
+        axes = figure.add_subplot(1, len(measures), number)
+        groups = by_person(rows, measure)
+        for place, values in enumerate(groups.values()):
+            found = estimate(values)
+            axes.plot([place] * len(values), values, "o", color="0.8", markersize=4)
+            axes.errorbar(place, found.mean, found.half_width or 0, fmt="s", color="C0", capsize=5)
+        axes.set_xticks(range(len(groups)), list(groups))
+        axes.set_title(measure)
+    return figure
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Print the summary of a file, and draw it where that is asked for."""
+    parser = argparse.ArgumentParser(prog="python -m serendipity.live.study.analysis")
+    parser.add_argument("rounds", type=Path, help="rounds.csv, as the experimenter's page has it")
+    parser.add_argument("--attentive", action="store_true", help="only who has understood and attends")
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="draw means and intervals, as SVG or PNG")
+    asked = parser.parse_args(arguments)
+    try:
+        rows = read_rounds(asked.rounds, attentive=asked.attentive)
+        sys.stdout.write(summary(rows))
+        if asked.plot is not None:
+            drawn(rows).savefig(asked.plot)
+    except (SerendipityError, ValueError, OSError) as error:
         sys.stderr.write(f"Error: {error}\n")
         return 2
     return 0
