@@ -3,7 +3,7 @@
     python -m benchmarks.rules [--smallest N] [--stride N] [--limit S] [--jobs N] [--record FILE]
 
 The human wants half of a problem's goals.  ``nobody pays``: a second person, a bystander, wants another goal.
-In the buildings robots may be anywhere (``at robot*``).  A price is what the best answer costs more than the
+In the buildings robots may be anywhere (``at_robot*``).  A price is what the best answer costs more than the
 best without the rule, if both are proved; problems that are not there are left out.
 """
 
@@ -23,7 +23,7 @@ from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
 RULES: Final[Mapping[str, Mapping[str, Any]]] = {
     "nobody pays": {"nobody_pays": True},
     "nothing left changed": {"leave_free": ""},
-    "robots elsewhere only": {"leave_free": "at robot*"},
+    "robots elsewhere only": {"leave_free": "at_robot*"},
     "0.1 for each that is": {"leave_price": "*=0.1"},
     "noticed": {"noticed": True},
     "no disturbance": {"max_disturbance": 0},

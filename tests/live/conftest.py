@@ -4,6 +4,8 @@ from typing import Any
 
 import pytest
 
+from serendipity.cli.app import main
+from tests.facade.conftest import ENDLESS
 from tests.live.server import Server, serving
 from tests.live.studies import PLAIN
 
@@ -15,6 +17,17 @@ def server() -> Iterator[Server]:
     """One service for all tests that leave it as they found it."""
     with serving("--workers", "2", "--queue", "8", "--body-limit", "0.5", "--time-limit", "20") as started:
         yield started
+
+
+@pytest.fixture(scope="module")
+def long_call(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
+    """A call that has an answer soon, and no proof for minutes."""
+    folder = tmp_path_factory.mktemp("long") / "building"
+    words = "--rooms 200 --medkits 3 --robots 3 --seed 1 --layout pair"
+    assert main(["generate", "usar", *words.split(), "-o", str(folder)]) == 0
+    texts = {name: (folder / f"{name}.pddl").read_text() for name in ("domain", "problem")}
+    task = {**texts, "human": "commx", "robots": ["robot1", "robot2", "robot3"]}
+    return {"task": task, "options": ENDLESS}
 
 
 @pytest.fixture

@@ -4,43 +4,20 @@ import json
 import os
 import signal
 import socket
-import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from starlette.exceptions import HTTPException
 
-from serendipity.cli.app import main
 from serendipity.live.service.sessions import SessionStore
-from tests.facade.conftest import ENDLESS
-from tests.live.server import Server, serving, workers_of
+from tests.live.server import Server, serving, until, workers_of
 
 ROOM2 = {"example": "room2"}
 ASKED = {"task": ROOM2, "options": {"discount": 0.6}}
 
 
-def until(holds: Callable[[], bool], seconds: float = 20) -> None:
-    """Wait for something that has to come about."""
-    end = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < end
-        time.sleep(0.02)
-
-
 def answers(server: Server) -> bool:
     return bool(server.post("/plan", ASKED).json()["cost"] == 12.6)
-
-
-@pytest.fixture(scope="module")
-def long_call(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
-    """A call that has an answer soon, and no proof for minutes."""
-    folder = tmp_path_factory.mktemp("long") / "building"
-    words = "--rooms 200 --medkits 3 --robots 3 --seed 1 --layout pair"
-    assert main(["generate", "usar", *words.split(), "-o", str(folder)]) == 0
-    texts = {name: (folder / f"{name}.pddl").read_text() for name in ("domain", "problem")}
-    task = {**texts, "human": "commx", "robots": ["robot1", "robot2", "robot3"]}
-    return {"task": task, "options": ENDLESS}
 
 
 def figure(server: Server, name: str) -> float:
@@ -193,7 +170,7 @@ def test_each_request_has_a_line_of_log(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])
 def test_a_signal_ends_it(number: int, long_call: dict[str, object]) -> None:
-    with serving("--workers", "1") as server, begin(server, "/plan", long_call):
+    with serving("--workers", "1", "--drain", "0") as server, begin(server, "/plan", long_call):
         until(lambda: busy(server) == 1)
         workers = workers_of(server.process.pid)
         assert server.stop(number) == (130, "Interrupted.\n")

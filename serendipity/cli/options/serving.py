@@ -76,8 +76,8 @@ class Serving(Group):
         return PoolLimits(
             self.workers or os.cpu_count() or 1,
             self.queue,
-            _limit("time_limit", self.time_limit, "seconds"),
-            _limit("memory_limit", self.memory_limit, "MiB"),
+            limit("time_limit", self.time_limit, "seconds"),
+            limit("memory_limit", self.memory_limit, "MiB"),
         )
 
     def body(self) -> int:
@@ -86,11 +86,16 @@ class Serving(Group):
         Raises:
             UsageError: it is no number.
         """
-        return int(_limit("body_limit", self.body_limit, "MiB") * _MIB)
+        return int(limit("body_limit", self.body_limit, "MiB") * _MIB)
 
 
-def _limit(name: str, value: str, unit: str) -> float:
-    limit = limit_of(name, value, unit)
-    if limit == float("inf"):
+def limit(name: str, value: str, unit: str) -> float:
+    """A limit that there has to be.
+
+    Raises:
+        UsageError: it is none.
+    """
+    found = limit_of(name, value, unit)
+    if found == float("inf"):
         raise UsageError(f"{name}: expected {unit}, got {value}")
-    return limit
+    return found

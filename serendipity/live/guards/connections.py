@@ -4,6 +4,7 @@ import asyncio
 import errno
 import ipaddress
 import os
+import signal
 import socket
 from collections.abc import Sequence
 from typing import Any, ClassVar, Final
@@ -11,6 +12,7 @@ from typing import Any, ClassVar, Final
 import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from serendipity.live.guards.draining import Draining
 from serendipity.model import UsageError
 
 _BACKLOG: Final = 2048
@@ -78,6 +80,9 @@ def hosts(host: str, more: Sequence[str] = ()) -> list[str]:
 _CONNECTIONS: Final = 1000
 """At once; those beyond are told to come again."""
 
+_STEP: Final = 0.02
+"""Seconds between looks at what is still open."""
+
 _GOODBYE: Final = 1
 """Seconds that requests have to end in when the server is stopped."""
 
@@ -127,8 +132,44 @@ class ImpatientProtocol(H11Protocol):
             self.transport.close()
 
 
-def serve(app: Any, listener: socket.socket) -> None:
-    """Answer requests to an ASGI application, on a socket that listens, until a signal ends it."""
+class _Server(uvicorn.Server):
+    """One that drains when SIGTERM comes, where it may take its time."""
+
+    def __init__(self, config: uvicorn.Config, draining: Draining, seconds: float) -> None:
+        super().__init__(config)
+        self._draining = draining
+        self._seconds = seconds
+        self._loop: asyncio.AbstractEventLoop | None = None
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Remember the loop, for signals."""
+        self._loop = asyncio.get_running_loop()
+        await super().startup(sockets)
+
+    def handle_exit(self, sig: int, frame: Any) -> None:
+        """Drain first; a second signal ends the server at once."""
+        if sig != signal.SIGTERM or self._draining.begun or self._loop is None or not self._seconds:
+            super().handle_exit(sig, frame)
+            return
+        self._draining.begun = True
+        asyncio.run_coroutine_threadsafe(self._drain(), self._loop)
+
+    async def _drain(self) -> None:
+        end = asyncio.get_running_loop().time() + self._seconds
+        while self._draining.open and asyncio.get_running_loop().time() < end:
+            await asyncio.sleep(_STEP)
+        self.should_exit = True
+
+
+def serve(app: Any, listener: socket.socket, draining: Draining | None = None, seconds: float = 0) -> None:
+    """Answer requests to an ASGI application, on a socket that listens, until a signal ends it.
+
+    Args:
+        app: the application.
+        listener: the socket.
+        draining: of the application, where SIGTERM has it answer what it has begun first.
+        seconds: that it may take for that.
+    """
     config = uvicorn.Config(
         app,
         http=ImpatientProtocol,
@@ -140,4 +181,4 @@ def serve(app: Any, listener: socket.socket) -> None:
         limit_concurrency=_CONNECTIONS,
         timeout_graceful_shutdown=_GOODBYE,
     )
-    uvicorn.Server(config).run(sockets=[listener])
+    _Server(config, draining or Draining(), seconds).run(sockets=[listener])

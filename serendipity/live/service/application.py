@@ -12,12 +12,15 @@ from prometheus_client.core import CounterMetricFamily
 from prometheus_client.process_collector import ProcessCollector
 from prometheus_client.registry import Collector
 from starlette.middleware import Middleware
+from starlette.responses import JSONResponse
 from starlette.types import Scope
 
 from serendipity import __version__
+from serendipity.live.guards.draining import Drained, Draining
 from serendipity.live.guards.middleware import Access, BodyLimits, Responses
 from serendipity.live.service import answering
 from serendipity.live.service import requests as asked
+from serendipity.live.service.repeats import Repeats
 from serendipity.live.service.sessions import Remembered, SessionStore
 from serendipity.live.workers.pool import Pool, PoolLimits
 
@@ -89,7 +92,7 @@ def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
     @router.post("", status_code=201, response_model=asked.SessionState)
     async def begin(call: asked.SessionRequest, request: Request) -> dict[str, Any]:
         """Begin a session."""
-        session = sessions.begin(call.model_dump())
+        session = sessions.begin(*call.parts())
         await answering.all_of(request, _said(pool, session, "begin", {}))
         sessions.add(session)
         return session.stands
@@ -132,6 +135,18 @@ def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
     return router
 
 
+def snapshot_router(sessions: SessionStore) -> APIRouter:
+    """The path of what another server needs to go on with a session."""
+    router = APIRouter(prefix="/sessions", tags=["sessions"])
+
+    @router.get("/{name}/snapshot", response_model=asked.SessionSnapshot)
+    async def snapshot(name: str) -> dict[str, Any]:
+        """All of a session, for another server to go on with."""
+        return sessions.named(name).snapshot
+
+    return router
+
+
 def _said(pool: Pool, session: Remembered, call: str, given: dict[str, Any]) -> answering.Answers:
     return answering.answers(pool, "session", session.asked(call, given), session)
 
@@ -147,6 +162,9 @@ class ServiceLimits:
         sessions: how many are remembered.
         session_bytes: what all of them may take.
         session_seconds: after which an unused one is forgotten.
+        keys: answers that are kept for requests with an ``Idempotency-Key``.
+        key_bytes: what these may take.
+        key_seconds: after which they are forgotten.
     """
 
     pool: PoolLimits
@@ -155,16 +173,23 @@ class ServiceLimits:
     sessions: int = 1000
     session_bytes: int = 256 * 2**20
     session_seconds: float = 3600.0
+    keys: int = 1000
+    key_bytes: int = 64 * 2**20
+    key_seconds: float = 3600.0
 
 
-def service(limits: ServiceLimits, hosts: Sequence[str], token: str | None = None) -> FastAPI:
+def service(
+    limits: ServiceLimits, hosts: Sequence[str], token: str | None = None, draining: Draining | None = None
+) -> FastAPI:
     """The application.
 
     Args:
         limits: what it lets others use.
         hosts: names under which it may be asked, ports apart.
         token: what requests have to bring, or None.
+        draining: whether it is about to end.
     """
+    drains = draining or Draining()
     pool = Pool(limits.pool)
     sessions = SessionStore(limits.sessions, limits.session_bytes, limits.session_seconds)
     metrics = Metrics(pool, sessions)
@@ -187,12 +212,15 @@ def service(limits: ServiceLimits, hosts: Sequence[str], token: str | None = Non
         middleware=[
             Middleware(Responses, inline=True, count=metrics.count),
             Middleware(Access, hosts=hosts, token=token),
+            Middleware(Drained, draining=drains),
             Middleware(BodyLimits, most=limits.body, seconds=limits.body_seconds),
+            Middleware(Repeats, most=limits.keys, bytes_=limits.key_bytes, seconds=limits.key_seconds),
         ],
         exception_handlers=answering.HANDLERS,
     )
     app.include_router(call_router(pool))
     app.include_router(session_router(pool, sessions))
+    app.include_router(snapshot_router(sessions))
 
     @app.get("/health", tags=["server"])
     async def health() -> dict[str, Any]:
@@ -204,6 +232,13 @@ def service(limits: ServiceLimits, hosts: Sequence[str], token: str | None = Non
             "busy": pool.figures.busy,
             "waiting": pool.figures.waiting,
         }
+
+    @app.get("/ready", tags=["server"], responses={503: {"model": asked.Refusal}})
+    async def ready() -> Response:
+        """Whether the server takes requests: not once it is about to end."""
+        if drains.begun:
+            return JSONResponse({"error": "the server is about to end"}, 503)
+        return JSONResponse({"status": "ready"})
 
     @app.get("/metrics", tags=["server"], response_class=Response)
     async def figures() -> Response:

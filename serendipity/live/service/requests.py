@@ -84,8 +84,35 @@ class PlanRequest(AnytimeRequest):
     plans: list[dict[str, Any]] | None = Field(None, description="plans that the human may follow")
 
 
-class SessionRequest(AnytimeRequest):
-    """A session to be begun; its options are defaults of its calls."""
+class SessionSnapshot(RequestPart):
+    """All of a session: what it was begun with, and where it stands."""
+
+    task: GivenTask
+    options: dict[str, Any] = _OPTIONS
+    human_plan: list[str] | None = None
+    state: dict[str, Any] | None = Field(description="as `Session.snapshot` writes it; null at the beginning")
+
+
+class SessionRequest(RequestPart):
+    """A session to be begun; its options are defaults of its calls. Or a snapshot of one to go on with."""
+
+    task: GivenTask | None = None
+    options: dict[str, Any] = _OPTIONS
+    human_plan: list[str] | None = Field(None, description="what the human will do; None predicts it")
+    snapshot: SessionSnapshot | None = Field(None, description="what another server's `/snapshot` said")
+
+    @model_validator(mode="after")
+    def _begun_one_way(self) -> "SessionRequest":
+        if (self.task is None) == (self.snapshot is None):
+            raise ValueError("expected a task or a snapshot")
+        if self.snapshot is not None and (self.options or self.human_plan is not None):
+            raise ValueError("snapshot: goes without options and human_plan, it has its own")
+        return self
+
+    def parts(self) -> tuple[dict[str, Any], dict[str, Any] | None]:
+        """What it is begun with, and where it stands."""
+        begun = (self.snapshot or self).model_dump(exclude={"snapshot"})
+        return begun, begun.pop("state", None)
 
 
 class VerifyRequest(RequestPart):

@@ -54,6 +54,11 @@ class Remembered:
         return {"id": self.name, **(json.loads(self.state) or {})}
 
     @property
+    def snapshot(self) -> dict[str, Any]:
+        """All of it, for another server."""
+        return {**json.loads(self.begun), "state": json.loads(self.state)}
+
+    @property
     def size(self) -> int:
         """The bytes that it takes, and some for what is around them."""
         return len(self.begun) + len(self.state) + _AROUND
@@ -82,15 +87,18 @@ class SessionStore:
         """The bytes that all of them take."""
         return sum(session.size for session in self._known.values())
 
-    def begin(self, begun: dict[str, Any]) -> Remembered:
+    def begin(self, begun: dict[str, Any], state: dict[str, Any] | None = None) -> Remembered:
         """A session that :meth:`add` makes known.
+
+        Args:
+            begun: the request that begins it.
+            state: where it stood on another server, or None.
 
         Raises:
             HTTPException: there are too many, or they take too much memory.
         """
-        session = Remembered(
-            secrets.token_urlsafe(16), json.dumps(begun, ensure_ascii=False).encode(), time.monotonic()
-        )
+        request, stands = (json.dumps(part, ensure_ascii=False).encode() for part in (begun, state))
+        session = Remembered(secrets.token_urlsafe(16), request, time.monotonic(), stands)
         self._require_room(session)
         return session
 

@@ -1,0 +1,129 @@
+"""Many homes on servers side by side, of which one is killed, and one is asked to end, in the middle.
+
+    python -m benchmarks.replicas [--replicas 4] [--homes 40] [--seconds 60] [--clients 8]
+
+Behind one address a balancer sends each home to the replica that its name leads to, or, where that does not
+answer, to the next one, under the same ``Idempotency-Key``.  Each answer is compared with the library's.
+"""
+
+import asyncio
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+from itertools import cycle
+from typing import Any, Final
+from zlib import crc32
+
+import httpx
+import typer
+import uvicorn
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route
+
+import serendipity
+from serendipity.evaluation.measuring.figures import percentile
+from serendipity.live.guards.connections import listening, url
+
+EXAMPLES: Final = ("room2", "room5", "flights", "parcels", "morning", "office")
+DISCOUNTS: Final = ("0.5", "0.6", "0.7", "0.8", "0.9")
+
+
+def main(replicas: int = 4, homes: int = 40, seconds: float = 60, clients: int = 8) -> None:
+    """Measure and print."""
+    started = [_started() for _ in range(replicas)]
+    try:
+        asyncio.run(_measured(started, homes, seconds, clients))
+    finally:
+        for process, _ in started:
+            process.kill()
+
+
+def _started() -> tuple[subprocess.Popen[str], str]:
+    command = [sys.executable, "-m", "serendipity", "serve", "--port", "0", "--workers", "1"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    return process, process.stdout.readline().split()[2].rstrip(",")
+
+
+async def _measured(
+    replicas: list[tuple[subprocess.Popen[str], str]], homes: int, seconds: float, clients: int
+) -> None:
+    calls = list(zip(cycle(EXAMPLES), cycle(DISCOUNTS), range(homes), strict=False))
+    expected = {
+        (name, discount): serendipity.plan(serendipity.example(name), discount=discount)
+        for name, discount, _ in calls
+    }
+    listener = listening("127.0.0.1", 0)
+    async with httpx.AsyncClient(timeout=60) as behind:
+        config = uvicorn.Config(_balancer([at for _, at in replicas], behind), log_level="critical")
+        server = uvicorn.Server(config)
+        serving = asyncio.create_task(server.serve([listener]))
+        turns, found, times = iter(range(10**9)), Counter[str](), list[float]()
+        end = time.monotonic() + seconds
+
+        async def client() -> None:
+            async with httpx.AsyncClient(base_url=url(listener), timeout=60) as front:
+                while time.monotonic() < end:
+                    turn = next(turns)
+                    name, discount, home = calls[turn % len(calls)]
+                    begun = time.perf_counter()
+                    body = {"task": {"example": name}, "options": {"discount": float(discount)}}
+                    head = {"X-Home": str(home), "Idempotency-Key": f"{home} {turn}"}
+                    answer = await front.post("/plan", json=body, headers=head)
+                    times.append(time.perf_counter() - begun)
+                    found[_judged(answer, expected[name, discount])] += 1
+
+        async def accidents() -> None:
+            await asyncio.sleep(seconds / 3)
+            replicas[0][0].send_signal(signal.SIGKILL)
+            await asyncio.sleep(seconds / 3)
+            replicas[1][0].send_signal(signal.SIGTERM)
+
+        await asyncio.gather(accidents(), *(client() for _ in range(clients)))
+        drained = await asyncio.to_thread(replicas[1][0].wait, 40)
+        server.should_exit = True
+        await serving
+    print(f"{len(times)} calls in {seconds:g} s, {len(times) / seconds:.0f} a second: {dict(found)}")
+    print(f"p50 {1000 * percentile(times, 0.5):.1f} ms, p99 {1000 * percentile(times, 0.99):.1f} ms")
+    print(f"longest {1000 * max(times):.0f} ms; the one that was asked to end did with {drained}")
+
+
+def _judged(answer: httpx.Response, expected: serendipity.Result) -> str:
+    if answer.status_code != 200:
+        return f"lost ({answer.status_code})"
+    told: dict[str, Any] = answer.json()
+    same = (told["cost"], told["objective"]) == (expected.cost, expected.objective)
+    return "right" if same else "wrong"
+
+
+def _balancer(replicas: list[str], behind: httpx.AsyncClient) -> Starlette:
+    out: dict[str, float] = {}
+
+    async def passed_on(request: Request) -> Response:
+        body, home = await request.body(), request.headers["x-home"]
+        first = crc32(home.encode()) % len(replicas)
+        head = {name: request.headers[name] for name in ("content-type", "idempotency-key")}
+        for at in (replicas[first:] + replicas[:first]) * 2:
+            if out.get(at, 0) > time.monotonic():
+                continue
+            try:
+                answer = await behind.post(at + request.url.path, content=body, headers=head)
+            except httpx.TransportError:
+                out[at] = time.monotonic() + 5
+                continue
+            if answer.status_code not in (429, 503):
+                return Response(answer.content, answer.status_code, media_type="application/json")
+            if answer.status_code == 503:
+                out[at] = time.monotonic() + 5
+        return Response(status_code=503)
+
+    return Starlette(routes=[Route("/{path:path}", passed_on, methods=["POST"])])
+
+
+if __name__ == "__main__":
+    main.__doc__ = __doc__
+    typer.run(main)
