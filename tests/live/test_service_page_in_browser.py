@@ -15,7 +15,7 @@ def test_the_interface_is_described_and_can_be_tried(server: Server, browser: An
     page.on("request", lambda asked: None if server.url[7:] in asked.url else complaints.append(asked.url))
     page.goto(f"{server.url}/docs")
     page.wait_for_selector(".opblock")
-    assert page.locator(".opblock").count() == 13
+    assert page.locator(".opblock").count() == 17
     page.click("#operations-calls-plan_plan_post button.opblock-summary-control")
     page.click("#operations-calls-plan_plan_post .try-out__btn")
     page.fill(

@@ -180,6 +180,19 @@ def judge(folder: Path, runner: Runner, events: list[dict[str, Any]], rows: list
     assert analysis.main([str(folder / "rounds.csv")]) == 0
 
 
+def test_the_page_speaks_the_language_of_the_study(opened: Opened, tmp_path: Path) -> None:
+    (tmp_path / "study.toml").write_text('language = "de"\n')
+    with serving("--study", str(tmp_path), "--rounds", "1", "--seed", "1", command="play") as server:
+        page = opened(server)
+        page.check("#agree")
+        page.click('button:text-is("Beginnen")')
+        page.click('button:text-is("Ich habe das gelesen")')
+        page.wait_for_selector("#play", state="visible")
+        assert page.inner_text("#do-title") == "Sie können"
+        assert page.locator("#can .word").last.inner_text() == "warten"
+        assert "Übung" in page.inner_text("#participant")
+
+
 LIKED = {"none": 2.5, "silent": 4.0, "announced": 5.5}
 """What fifty participants are made to think of the robot in the mean, by condition."""
 

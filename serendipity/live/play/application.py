@@ -2,7 +2,7 @@
 
 import asyncio
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from typing import Any, Final, Protocol
 
@@ -11,6 +11,7 @@ from fastapi.responses import HTMLResponse, PlainTextResponse
 from starlette.middleware import Middleware
 
 from serendipity.live.guards.middleware import Access, BodyLimits, Responses
+from serendipity.live.play.language import script
 from serendipity.live.play.records import Download
 from serendipity.model import SerendipityError
 
@@ -34,6 +35,10 @@ class Room(Protocol):
 
 class Host(Protocol):
     """What is behind the pages: :class:`.rounds.SharedRounds`, or a study."""
+
+    @property
+    def texts(self) -> Mapping[str, str]:
+        """Of the page, by the English ones, in another language."""
 
     def room(self, token: str) -> Room | None:
         """The room of a token; that of the first page where it is empty."""
@@ -69,6 +74,8 @@ def application(host: Host, hosts: Sequence[str]) -> FastAPI:
 
     @app.get("/page/{name}")
     async def part(name: str) -> Response:
+        if name == "texts.js":
+            return Response(script(host.texts), media_type=_TYPES["js"], headers=_FRESH)
         if name not in _PARTS:
             return Response(status_code=404)
         return Response(_text(name), media_type=_TYPES[name.rpartition(".")[2]], headers=_FRESH)

@@ -1,7 +1,7 @@
 """Words that people read instead of PDDL: sentences for a domain's actions and goals, nouns for things."""
 
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from string import Formatter
 from typing import Annotated, Final, TypeVar
@@ -136,9 +136,13 @@ class Phrases:
 
     Args:
         labels: of its domain; what has none is said by its name.
+        say: the language.
     """
 
-    def __init__(self, task: Task, places: Places, labels: DomainLabels) -> None:
+    def __init__(
+        self, task: Task, places: Places, labels: DomainLabels, say: Callable[..., str] = str.format
+    ) -> None:
+        self._say = say
         self._task = task
         self._finder = Finder(places)
         self._labels = labels
@@ -170,12 +174,12 @@ class Phrases:
 
     def thing(self, name: str) -> str:
         """A thing, a robot, or ``you``."""
-        return "you" if name == self._task.agents[self._task.human] else self._labels.thing(name)
+        return self._say("you") if name == self._task.agents[self._task.human] else self._labels.thing(name)
 
     def robots(self, step: PlanStep) -> str:
         """The robots of a step."""
         human = self._task.agents[self._task.human]
-        return " and ".join(self._labels.thing(agent) for agent in step.agents if agent != human)
+        return self._say(" and ").join(self._labels.thing(agent) for agent in step.agents if agent != human)
 
     def goal(self, known: frozenset[int]) -> list[dict[str, str | bool]]:
         """What the person wants, fact by fact, and what of it they know to hold."""
@@ -184,7 +188,12 @@ class Phrases:
         for fact in (*goal.positive, *goal.negative):
             wanted = fact in goal.positive
             words = self._wish(self._task.facts[fact])
-            said.append({"text": words if wanted else f"not {words}", "holds": (fact in known) == wanted})
+            said.append(
+                {
+                    "text": words if wanted else self._say("not {fact}", fact=words),
+                    "holds": (fact in known) == wanted,
+                }
+            )
         return said
 
     def _wish(self, fact: str) -> str:

@@ -10,6 +10,7 @@ from serendipity.execution import Decided, Passed, moment_of
 from serendipity.execution.decided import account
 from serendipity.execution.log import decision_of
 from serendipity.live.play.labels import DomainLabels, Phrases
+from serendipity.live.play.language import ENGLISH, Language
 from serendipity.live.play.map_view import Knowledge, MapView
 from serendipity.live.play.records import Event
 from serendipity.model import GroundAction, HumanModel, InputError, PlanStep, Task, UsageError
@@ -43,6 +44,7 @@ class RoundSetting:
         deadline: seconds for each decision of the robots, or None.
         labels: words for its domain.
         most_epochs: after which it is over, whatever has been reached; None: without end.
+        say: the language.
     """
 
     name: str
@@ -54,6 +56,7 @@ class RoundSetting:
     deadline: float | None = None
     labels: DomainLabels = field(default_factory=DomainLabels)
     most_epochs: int | None = None
+    say: Language = ENGLISH
 
     def execution(self) -> serendipity.Execution:
         """The round at its beginning.
@@ -73,6 +76,8 @@ class RoundSetting:
             run.drop(self.task.agents[robot] for robot in self.task.robots)
         return run
 
+
+_WAITING: Final = {"action": None, "kind": "wait", "cost": 0, "place": None}
 
 _EXPLAINING = 10.0
 """Seconds for an explanation at the end."""
@@ -94,7 +99,8 @@ class Round:
         self.alone = alone.cost
         self.run = setting.execution()
         places = find_places(task)
-        self._words = Phrases(task, places, setting.labels)
+        self._words = Phrases(task, places, setting.labels, setting.say)
+        self._say = setting.say
         self._known = Knowledge(task, setting.view)
         self._map = MapView(task, places, self._known)
         self._seen: list[dict[str, Any]] = []
@@ -256,7 +262,7 @@ class Round:
                     "place": place,
                 }
         own = sorted(known.values(), key=lambda choice: choice["kind"])
-        return [*choices, *own, {"action": None, "text": "wait", "kind": "wait", "cost": 0, "place": None}]
+        return [*choices, *own, {**_WAITING, "text": self._say("wait")}]
 
     def _thinking(self, decided: Decided) -> dict[str, Any]:
         return {
@@ -284,7 +290,7 @@ class Round:
         if self.setting.condition != "announced":
             return None
         if decided.verdict == "stopped":
-            return "I have stopped helping; please go on alone."
+            return self._say("I have stopped helping; please go on alone.")
         if decided.verdict not in ("helps", "waits"):
             return None
         task = self.setting.task
@@ -292,26 +298,33 @@ class Round:
         if not mine:
             return None
         name = moment_of(self.run).wish
-        wish = "" if name is None else f" Please {self._words.action(task.actions[task.named[name][0]])} now."
+        asked = None if name is None else self._words.action(task.actions[task.named[name][0]])
+        wish = "" if asked is None else " " + self._say("Please {action} now.", action=asked)
         said: dict[str, list[str]] = {}
         for step in mine:
             robot = next(i for i in task.robots if task.agents[i] in step.agents)
-            text = f"{self._words.step(step, robot)} (epoch {self.run.epoch + step.epoch - 1})"
+            epoch = self.run.epoch + step.epoch - 1
+            text = self._say("{action} (epoch {epoch})", action=self._words.step(step, robot), epoch=epoch)
             said.setdefault(self._words.robots(step), []).append(text)
-        one = len(task.robots) == 1
-        names = {who: "I" if one else who[:1].upper() + who[1:] for who in said}
-        return " ".join(f"{names[who]} will {', '.join(does)}." for who, does in said.items()) + wish
+        if len(task.robots) == 1:
+            return self._say("I will {actions}.", actions=", ".join(*said.values())) + wish
+        told = (
+            self._say("{robot} will {actions}.", robot=who[:1].upper() + who[1:], actions=", ".join(does))
+            for who, does in said.items()
+        )
+        return " ".join(told) + wish
 
     def _told(self, passed: Passed, near: str | None) -> dict[str, Any]:
         """An epoch as the person has seen it."""
         own = next((step for step in passed.steps if self.human in step.agents), None)
         if own is not None:
             robots = self._words.robots(own)
-            did = self._words.step(own) + (f", with {robots}" if robots else "")
+            did = self._words.step(own)
+            did = self._say("{action}, with {robots}", action=did, robots=robots) if robots else did
         elif passed.in_vain:
-            did = f"tried to {passed.human}, in vain"
+            did = self._say("tried to {action}, in vain", action=passed.human)
         else:
-            did = "waited"
+            did = self._say("waited")
         seen = (s for s in passed.steps if self.human not in s.agents and self._noticed(s, near))
         others = [f"{self._words.robots(step)}: {self._words.step(step)}" for step in seen]
         return {"epoch": passed.epoch, "you": did, "others": others}

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from itertools import takewhile
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from serendipity.live.play.records import Download, Event, Records, as_csv, as_json, read
@@ -101,6 +102,11 @@ class SharedRounds(RecordedRounds):
     Raises:
         InputError: the file is of other rounds.
     """
+
+    @property
+    def texts(self) -> Mapping[str, str]:
+        """None: the page is in English."""
+        return MappingProxyType({})
 
     def __init__(self, setting: RoundSetting, file: Path | None = None) -> None:
         events, faults = ([], []) if file is None or not file.exists() else read(file)

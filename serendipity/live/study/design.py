@@ -11,6 +11,7 @@ from typing import Any, Final
 
 import serendipity
 from serendipity.live.play.labels import labels_for, read_settings
+from serendipity.live.play.language import Language, language
 from serendipity.live.play.records import made
 from serendipity.live.play.round import RoundSetting
 from serendipity.live.study.drawing import (
@@ -47,6 +48,7 @@ class Design:
         code: what participants get at the end.
         mark: the hash of all this, but for the secret; it stands in each record.
         report: the rehearsals in words.
+        language: of the page.
     """
 
     texts: StudyFile
@@ -57,6 +59,7 @@ class Design:
     code: str
     mark: str
     report: str
+    language: Language
 
     def setting(self, scenario: str, condition: str) -> RoundSetting:
         """A round of somebody's."""
@@ -66,7 +69,7 @@ class Design:
         """What there is to know before the first round."""
         rounds = [*self.scenarios.values(), *([] if self.practice is None else [self.practice])]
         about = dict.fromkeys(text for setting in rounds for text in setting.labels.about)
-        first = "First comes a round for practice, in which the robot stands still."
+        first = self.language("First comes a round for practice, in which the robot stands still.")
         return [*about, *self.texts.instructions, *([] if self.practice is None else [first])]
 
 
@@ -85,19 +88,22 @@ def open_design(folder: Path, labels: Path | None = None, **given: Any) -> Desig
     made(folder, "--study")
     file = folder / _TEXTS
     texts = read_settings(file, StudyFile) if file.exists() else StudyFile.model_validate({})
+    spoken = language(texts.language, folder)
+    texts = texts.said_in(spoken)
     if texts.scenarios and given.get("rounds") not in (None, len(texts.scenarios)):
         raise UsageError(f"--rounds: {file} has {len(texts.scenarios)} scenarios of its own")
     kept = _read(folder / _KEPT)
     if kept is None:
-        kept = _begin(folder, texts, labels, given)
+        kept = _begin(folder, texts, labels, given) | {"language": spoken.model_dump()}
         _write(folder / _KEPT, kept)
     for name, value in given.items():
         if value is not None and value != kept["settings"][name]:
             begun = kept["settings"][name]
             raise UsageError(f"--{name}: the study in {folder} was begun with {begun}; take another folder")
-    if StudyFile.model_validate(kept["texts"]) != texts:
+    begun_in = Language.model_validate(kept.get("language", {}))
+    if StudyFile.model_validate(kept["texts"]).model_dump() != texts.model_dump() or begun_in != spoken:
         raise InputError(f"is not what the study was begun with ({_KEPT}): take another folder", file)
-    return _design(folder, texts, labels, kept)
+    return _design(folder, texts, labels, kept, spoken)
 
 
 def _begin(folder: Path, texts: StudyFile, labels: Path | None, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -164,7 +170,9 @@ def _loaded(files: list[Path], own: OwnScenario) -> serendipity.Task:
     raise UsageError("files: expected a folder, or a domain and a problem with their human")
 
 
-def _design(folder: Path, texts: StudyFile, labels: Path | None, kept: Mapping[str, Any]) -> Design:
+def _design(
+    folder: Path, texts: StudyFile, labels: Path | None, kept: Mapping[str, Any], spoken: Language
+) -> Design:
     how = _how(texts, kept["settings"])
     own = {scenario.name: scenario for scenario in texts.scenarios}
     scenarios = {
@@ -173,19 +181,32 @@ def _design(folder: Path, texts: StudyFile, labels: Path | None, kept: Mapping[s
         else numbered(int(name.rpartition("-")[2]), **how)
         for name in kept["scenarios"]
     }
+    scenarios = {name: _said_in(setting, spoken, labels) for name, setting in scenarios.items()}
     trial = None if kept["practice"] is None else numbered(kept["practice"], **how)
+    if trial is not None:
+        trial = replace(_said_in(trial, spoken, labels), name="practice", condition="none")
     same = {key: value for key, value in kept.items() if key != "secret"}
     mark = hashlib.sha256(json.dumps(same, sort_keys=True).encode()).hexdigest()[:16]
     return Design(
         texts,
         scenarios,
-        None if trial is None else replace(trial, name="practice", condition="none"),
+        None
+        if trial is None
+        else replace(_said_in(trial, spoken, labels), name="practice", condition="none"),
         kept["settings"]["seed"],
         kept["secret"],
         kept["completion_code"],
         mark,
         kept["report"],
+        spoken,
     )
+
+
+def _said_in(setting: RoundSetting, spoken: Language, labels: Path | None) -> RoundSetting:
+    """A round in a language; its labels are the language's, where these fit and no others are given."""
+    theirs = spoken.labels
+    fits = labels is None and theirs is not None and theirs.complete(setting.task)
+    return replace(setting, say=spoken, labels=theirs if fits and theirs is not None else setting.labels)
 
 
 def _read(file: Path) -> dict[str, Any] | None:

@@ -208,6 +208,11 @@ class Study:
         lost = silent > timedelta(minutes=self._design.texts.lost_after_minutes)
         return "lost" if lost else "under way"
 
+    @property
+    def texts(self) -> Mapping[str, str]:
+        """Of the page, by the English ones."""
+        return self._design.language.texts
+
     # -- joining
 
     def consent(self) -> list[str]:

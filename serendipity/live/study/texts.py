@@ -1,9 +1,10 @@
 """What ``study.toml`` may say: texts, questions, conditions and scenarios of a study's own."""
 
-from typing import Annotated, Final, Literal, Self
+from typing import Annotated, Any, Final, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from serendipity.live.play.language import Language
 from serendipity.live.play.round import CONDITIONS
 
 Lines = Annotated[list[Annotated[str, Field(min_length=1)]], Field(min_length=1)]
@@ -89,6 +90,7 @@ class OwnScenario(_Part):
 class StudyFile(_Part):
     """What the file may hold; everything has a default."""
 
+    language: str = "en"
     consent: Lines = _CONSENT
     instructions: Lines = _INSTRUCTIONS
     comprehension: list[Item] = []
@@ -104,6 +106,14 @@ class StudyFile(_Part):
     lost_after_minutes: float = Field(default=60.0, gt=0)
     most_epochs: int = Field(default=60, ge=1, le=1000)
     scenarios: list[OwnScenario] = []
+
+    def said_in(self, language: Language) -> "StudyFile":
+        """The same in a language, as far as the file has no words of its own."""
+        theirs: dict[str, Any] = {"consent": language.consent, "instructions": language.instructions}
+        scales = [Item(text=text, ends=language.ends) for text in language.scales]
+        theirs["questions"] = [*scales, Item(text=language.comment or "-", kind="text", required=False)]
+        known = self.model_fields_set if language.scales else theirs.keys()
+        return self.model_copy(update={name: words for name, words in theirs.items() if name not in known})
 
     @model_validator(mode="after")
     def _known(self) -> Self:

@@ -7,6 +7,7 @@
     if (kind) element.className = kind;
     return element;
   };
+  const t = (text, values = {}) => (texts[text] || text).replace(/\{(\w+)\}/g, (_, name) => values[name]);
   const money = (value) => String(Math.round(value * 1000) / 1000);
   const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
   const token = location.pathname.startsWith("/s/") ? location.pathname.slice(2) : "";
@@ -94,7 +95,7 @@
   // What has happened, for those who hear the page.
   function tell(fresh) {
     const last = view.log[0];
-    id("told").textContent = fresh || !last ? "" : [`Epoch ${view.epoch}.`, `You: ${last.you}.`, ...last.others.map((text) => `${text}.`)].join(" ");
+    id("told").textContent = fresh || !last ? "" : [t("Epoch {epoch}.", { epoch: view.epoch }), t("You: {action}.", { action: last.you }), ...last.others.map((text) => `${text}.`)].join(" ");
   }
 
   function showPlay(fresh) {
@@ -105,7 +106,7 @@
   function showRound(fresh) {
     id("goal").replaceChildren(...view.goal.map((part) => {
       const item = make("li", part.text, part.holds ? "holds" : "");
-      if (part.holds) item.append(make("span", " (done)", "hidden"));
+      if (part.holds) item.append(make("span", t(" (done)"), "hidden"));
       return item;
     }));
     id("epoch").textContent = view.done ? view.epoch - 1 : view.epoch;
@@ -129,7 +130,7 @@
       const sample = make("i", agent.letter, agent.kind);
       sample.style.background = agent.colour;
       sample.style.color = agent.ink;
-      item.append(sample, agent.kind === "person" ? `${agent.name} (you)` : agent.name);
+      item.append(sample, agent.kind === "person" ? t("{name} (you)", { name: agent.name }) : agent.name);
       return item;
     }));
     const entry = (kind, text) => {
@@ -138,14 +139,14 @@
       id("legend").append(item);
     };
     id("ways").hidden = !view.map || Object.keys(view.map.places).length < 2;
-    if (!id("ways").hidden) entry("dashed", "you can go there");
-    if (view.sight === "here") entry("dim", "not in sight: as you saw it last");
+    if (!id("ways").hidden) entry("dashed", t("you can go there"));
+    if (view.sight === "here") entry("dim", t("not in sight: as you saw it last"));
   }
 
   function showFacts() {
     id("facts").hidden = !view.facts;
     if (!view.facts) return;
-    const facts = view.facts.length ? view.facts : ["Nothing is true yet of what can change."];
+    const facts = view.facts.length ? view.facts : [t("Nothing is true yet of what can change.")];
     id("facts").replaceChildren(...facts.map((fact) => make("p", fact)));
   }
 
@@ -156,7 +157,7 @@
       const button = make("button");
       button.type = "button";
       const word = make("span", undefined, "word");
-      if (choice.kind === "offer") word.append(make("small", `${choice.with} is ready:`));
+      if (choice.kind === "offer") word.append(make("small", t("{robot} is ready:", { robot: choice.with })));
       word.append(choice.text);
       button.append(make("span", choice.kind === "wait" ? "␣" : index < 9 ? index + 1 : "·", "key"), word, make("span", money(choice.cost), "price"));
       button.addEventListener("click", () => act(choice.action));
@@ -177,7 +178,7 @@
 
   function showCosts() {
     if (view.study) {
-      id("bars").replaceChildren(bar("you", "you", view.paid, Math.max(20, view.paid)));
+      id("bars").replaceChildren(bar(t("you"), "you", view.paid, Math.max(20, view.paid)));
       return;
     }
     const most = Math.max(view.alone, view.paid, view.team);
@@ -290,7 +291,7 @@
 
   // -- the rest of the page
 
-  const theStudy = makeStudy({ id, make, money, say, answer, page });
+  const theStudy = makeStudy({ id, make, money, say, answer, page, t });
 
   id("again").addEventListener("click", () => say({ do: "again" }));
   id("ask-why").addEventListener("click", () => {
@@ -319,5 +320,11 @@
     if (choice && !event.repeat) act(choice.action);
   });
 
+  // What stands in the page is said in its language, too.
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (walker.nextNode()) {
+    const text = walker.currentNode.nodeValue;
+    if (texts[text.trim()]) walker.currentNode.nodeValue = text.replace(text.trim(), () => texts[text.trim()]);
+  }
   connect();
 })();

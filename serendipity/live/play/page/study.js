@@ -1,6 +1,6 @@
 "use strict";
 // What a study has beside its rounds: consent, instructions, questions, the end.
-function makeStudy({ id, make, money, say, answer, page }) {
+function makeStudy({ id, make, money, say, answer, page, t }) {
   const visit = String(Math.random()); // so that a double click joins once
   let asked = [];
   let touched = [];
@@ -8,7 +8,7 @@ function makeStudy({ id, make, money, say, answer, page }) {
 
   function show(view, fresh) {
     const { study, stage, round } = view;
-    const place = stage !== "play" ? "" : round === 0 ? ", practice" : `, round ${round} of ${study.rounds}`;
+    const place = stage !== "play" ? "" : round === 0 ? t(", practice") : t(", round {round} of {rounds}", { round, rounds: study.rounds });
     id("who").hidden = !study.participant;
     id("participant").textContent = (study.participant || "") + place;
     id("withdraw").hidden = stage === "end" || stage === "withdrawn";
@@ -33,10 +33,10 @@ function makeStudy({ id, make, money, say, answer, page }) {
   }
 
   function showRound({ end, round }) {
-    id("finish-title").textContent = end.reached ? "You made it" : "This round is over";
-    const paid = `${end.epochs} epochs. You paid ${money(end.paid)}.`;
-    const best = end.paid <= end.alone ? "Nobody could do better." : `The best way costs ${money(end.alone)}.`;
-    id("finish-text").textContent = round === 0 ? `${paid} ${best} That was for practice; now the rounds begin that count.` : paid;
+    id("finish-title").textContent = end.reached ? t("You made it") : t("This round is over");
+    const paid = t("{epochs} epochs. You paid {paid}.", { epochs: end.epochs, paid: money(end.paid) });
+    const best = end.paid <= end.alone ? t("Nobody could do better.") : t("The best way costs {cost}.", { cost: money(end.alone) });
+    id("finish-text").textContent = round === 0 ? `${paid} ${best} ${t("That was for practice; now the rounds begin that count.")}` : paid;
   }
 
   // -- questions
@@ -45,7 +45,7 @@ function makeStudy({ id, make, money, say, answer, page }) {
     asked = questions;
     touched = questions.map(() => null);
     begun = performance.now();
-    const titles = { comprehension: "What you have read", questions: "A few questions about this round", closing: "At the end" };
+    const titles = { comprehension: t("What you have read"), questions: t("A few questions about this round"), closing: t("At the end") };
     id("questions-title").textContent = titles[stage];
     id("asked").replaceChildren(...questions.map((question, number) => {
       const field = make("fieldset");
@@ -93,7 +93,7 @@ function makeStudy({ id, make, money, say, answer, page }) {
   id("understood").addEventListener("click", () => answer({ do: "go on" }));
   id("go-on").addEventListener("click", () => answer({ do: "go on" }));
   id("withdraw").addEventListener("click", () => {
-    if (confirm("Do you want to withdraw from the study? You can't come back then.")) answer({ do: "withdraw" });
+    if (confirm(t("Do you want to withdraw from the study? You can't come back then."))) answer({ do: "withdraw" });
   });
   id("form").addEventListener("submit", (event) => {
     event.preventDefault();
