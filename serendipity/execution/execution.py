@@ -7,6 +7,7 @@ from typing import Any, Final, Literal
 
 from serendipity.execution.beliefs import Beliefs
 from serendipity.execution.decided import COLUMNS, Decided, Outlook, Passed, Reported, Robots
+from serendipity.execution.leftovers import tidying
 from serendipity.execution.robot_policy import RobotPolicy
 from serendipity.execution.why import Why
 from serendipity.execution.world import Unfinished, World
@@ -63,6 +64,8 @@ class Execution(Tabular):
             finish what they have begun, or give back what they took.
         mode: ``serendipity``, or ``communication`` with somebody who is told: then robots' plan may also ask
             them to leave their own before they are met.
+        leave_free: patterns of the facts that robots may leave otherwise than they would be without them
+            (semantics 12); None: all.
         adapter: carries out what robots do; None: whatever is possible is done within the epoch.
         robots: who decides for them, see :class:`serendipity.execution.Robots`; None: the planner.
 
@@ -94,6 +97,7 @@ class Execution(Tabular):
         interference: Interference = "paper",
         told: bool = False,
         mode: Literal["serendipity", "communication"] = "serendipity",
+        leave_free: str | None = None,
         adapter: Adapter | None = None,
         robots: Robots | None = None,
     ) -> None:
@@ -103,6 +107,10 @@ class Execution(Tabular):
             raise UsageError(f"mode: expected {expected}, got '{mode}'")
         if plans is not None:
             _require_alone(task, goals, mode)
+        if leave_free is not None:
+            if goals is not None or plans is not None:
+                raise UsageError("leave_free: goes with a known goal only")
+            task = tidying(task, leave_free)
         given: dict[str, Any] = {"mode": mode, "discount": discount, "human_model": human_model}
         options = Options(**given, interference=interference)
         if told or plans is not None:
@@ -168,6 +176,11 @@ class Execution(Tabular):
     def passed(self) -> tuple[Passed, ...]:
         """The epochs that are over."""
         return tuple(self._passed)
+
+    @property
+    def left(self) -> tuple[str, ...]:
+        """What robots have not done for goals of their own: facts, ``!`` in front of those to be false."""
+        return self.task.robot_goal.open(self._world.state).literals(self.task.facts)
 
     def table(self) -> Table:
         """The epochs that are over, one a row."""

@@ -32,6 +32,7 @@ class Run:
         late: the number of epochs without a decision within the deadline.
         open: the number of epochs whose decision is the best that was found in time, and not proved to
             be the best.
+        left: what robots have not done of goals of their own, or left otherwise than they may.
         slowest: seconds of the longest decision.
         known: the epoch from which on the posterior of the person's goal was at least 0.9; None
             where it never was, or there was nothing to recognise.
@@ -52,6 +53,7 @@ class Run:
     stopped: int
     late: int
     open: int
+    left: int
     slowest: float
     known: int | None
     leads: int | None

@@ -49,6 +49,7 @@ class ExecutionOptions(TypedDict, total=False):
     noise: Noise | str | None
     mode: Literal["serendipity", "communication"]
     interference: Interference
+    leave_free: str | None
 
 
 @listing
@@ -95,8 +96,8 @@ def execute(
         epochs: the most of a run; None: ten times the length of the person's plan, and a hundred.
         jobs: processes.
         on_progress: called with the number of runs that are over, and of all.
-        **options: ``discount``, ``deadline``, ``setup``, ``beta``, ``noise``, ``mode`` and ``interference``
-            of :class:`Execution`.
+        **options: ``discount``, ``deadline``, ``setup``, ``beta``, ``noise``, ``mode``,
+            ``interference`` and ``leave_free`` of :class:`Execution`.
 
     Raises:
         UsageError: an argument is wrong.
@@ -204,9 +205,9 @@ class _Series:
     @cached_property
     def _ready(self) -> RobotPolicy:
         """Robots who have had time before the first epoch."""
-        task, told, surely = self.task, self.arguments["told"], self.adapters.surely
-        robots = RobotPolicy(task, self.untimed().options, None, told=told, surely=surely)
-        Execution(task, **{**self.arguments, "robots": robots})
+        told, surely, untimed = self.arguments["told"], self.adapters.surely, self.untimed()
+        robots = RobotPolicy(untimed.task, untimed.options, None, told=told, surely=surely)
+        Execution(self.task, **{**self.arguments, "robots": robots})
         return robots
 
     def run(self, number: int, seed: int) -> _Finished:
@@ -230,6 +231,8 @@ class _Series:
                     run.drop(gone)
                     left = [robot for robot in left if robot not in gone]
                 spoilt += _spoils(run, person)
+            while run.done and run.left and run.epoch <= self.epochs and run.decided.actions:
+                run.step()  # robots may end what they have to do
         decided = [passed.decided for passed in run.passed]
         verdicts = Counter(each.verdict for each in decided)
         row = Run(
@@ -246,6 +249,7 @@ class _Series:
             late=verdicts["late"],
             open=sum(d.verdict != "late" and d.plan is not None and not d.proved for d in decided),
             slowest=max((each.seconds for each in decided), default=0.0),
+            left=len(run.left),
             **_recognised(run, run.goal),
         )
         ties = TIES[self.drawn]

@@ -48,6 +48,7 @@ def execute(
         ),
     ] = None,
     interference: Annotated[str | None, planning.told("interference")] = None,
+    leave_free: Annotated[str | None, planning.told("leave_free")] = None,
     goals: planning.Goals = None,
     plans: planning.Plans = None,
     beta: planning.Beta = None,
@@ -117,6 +118,7 @@ def execute(
         noise=noise,
         ties=ties,
         human_model=human_model,
+        leave_free=leave_free,
     )
     with progress.counting("runs") as on_progress:
         found = serendipity.execute(

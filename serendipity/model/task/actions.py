@@ -33,6 +33,11 @@ class Condition:
         """The literals by the names of facts, ``!`` in front of those that must be false."""
         return (*(facts[f] for f in self.positive), *(f"!{facts[f]}" for f in self.negative))
 
+    def open(self, state: State) -> "Condition":
+        """The literals that do not hold in a state."""
+        positive = tuple(fact for fact in self.positive if fact not in state)
+        return Condition(positive, tuple(fact for fact in self.negative if fact in state))
+
     def without(self, other: "Condition") -> "Condition":
         """What is left without the literals of another, ascending."""
         positive = sorted(set(self.positive).difference(other.positive))
