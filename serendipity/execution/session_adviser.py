@@ -170,6 +170,8 @@ class SessionAdviser:
         )
         free = task.with_goal(task.goal, Condition())  # robots' own goals can wait
         self._joint = RestrictedSessions(free, **common, mode="composite", horizon=INFINITE)
+        self._own = RestrictedSessions(task, **common, mode="composite", horizon=INFINITE)
+        self._theirs = frozenset(i for i, a in enumerate(task.actions) if task.human in a.participants)
         self._pledges: dict[frozenset[int], Pledge] = {}
 
     def advise(self, following: Following, now: DecisionPoint, deadline: Deadline) -> Advice | None:
@@ -225,7 +227,7 @@ class SessionAdviser:
     ) -> Advice | None:
         hopeless, promise = following.hopeless, following.promise()
         if not promise and not hopeless:
-            return None
+            return self._afterwards(now, removed, deadline)
         sessions = self._joint if hopeless else self._beside
         session = sessions.without(removed)
         if pledge is not None and (pledge.before, pledge.state) == (session.task.init, now.state):
@@ -235,6 +237,14 @@ class SessionAdviser:
         session = sessions.at(now.state, removed)
         session.follow(None if hopeless else [self._task.actions[i].name for i in promise])
         return self._answered(session.plan(deadline=deadline), hopeless=hopeless)
+
+    def _afterwards(self, now: DecisionPoint, removed: frozenset[int], deadline: Deadline) -> Advice | None:
+        """What robots have still to do where the person has what they want."""
+        if self._task.robot_goal.holds(now.state) or not self._task.goal.holds(now.state):
+            return None
+        session = self._own.at(now.state, removed | self._theirs)
+        advice = self._answered(session.plan(deadline=deadline), hopeless=True)
+        return None if advice is None else replace(advice, pays=False)
 
     def _answered(self, result: Result, *, hopeless: bool) -> Advice | None:
         if result.plan is None:
