@@ -169,7 +169,8 @@ def as_brute_force(call: Call) -> None:
         assert "by which nobody may have paid" in str(error)
         return
     assert figures(answer) == figures(expected)
-    assert serendipity.verify(call.task, answer).verdict != "refuted"
+    verdict = serendipity.verify(call.task, answer).verdict
+    assert verdict == "proved" or (verdict == "undecided" and call.task.needs_time)
 
 
 @pytest.mark.long
@@ -180,7 +181,7 @@ def test_bystanders_pay_nothing_as_in_brute_force(call: Call) -> None:
 
 
 @pytest.mark.long
-@given(ruled(calls(modes=_MODES, ties=False)))
+@given(ruled(calls(modes=_MODES)))
 @settings(max_examples=25)
 def test_answers_without_time_are_those_of_brute_force(call: Call) -> None:
     as_brute_force(call)

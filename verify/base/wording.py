@@ -48,7 +48,8 @@ NOT_IN_TIME: Final = (
 NOTHING_TO_EXAMINE: Final = "there is no answer to examine"
 RESULT_BREAKS_RULE: Final = "the result breaks a rule already"
 ANSWER_BREAKS_RULE: Final = "the answer breaks a rule already"
-RULE_OVER_TIES: Final = "over ties nobody can tell yet whether nobody pays beside each plan"
+RULE_BESIDE_EACH: Final = "the best answer beside each optimal plan, under the rule for that plan"
+RULE_OVER_TIES: Final = "the best answers beside each optimal plan, under the rule, were not all found"
 HUMAN_PAYS: Final = "nobody-pays (semantics 12): the human pays {:.12g}, and {:.12g} without help"
 PRICED: Final = {
     True: "no plan that keeps any of what is priced, and pays for the rest, is better",

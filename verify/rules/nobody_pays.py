@@ -6,6 +6,7 @@ What bystanders need for the rest of their plans is worked out backward, from th
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from itertools import islice
 from typing import Final, NamedTuple
 
 from serendipity.model import Claim, Condition, Deadline, HumanPlan, Options, PlanError, Result, Task
@@ -22,6 +23,7 @@ from verify.base import wording
 from verify.base.due import onward
 from verify.base.execution import State, after, is_calm, is_last, met
 from verify.base.obligations import is_tied, needed
+from verify.base.optimal_plans import OptimalPlans
 from verify.rules.leftovers import Leftovers, Prices, left
 from verify.rules.noticed import unnoticed
 from verify.rules.replay import replay, replay_human
@@ -75,7 +77,7 @@ def under_the_rule(
     if not is_bound(original, result.options) or not isinstance(result.horizon, int):
         return tuple(examine(task, result))
     if is_tied(result):
-        return tuple(Claim(name, "undecided", wording.RULE_OVER_TIES) for name in needed(result))
+        return _claims_over_ties(task, result, original, deadline, examine, solve)
     try:
         names = result.human_plan
         plan = None if names is None else replay_human(task, names, deadline)
@@ -96,6 +98,59 @@ def under_the_rule(
     if rule.prices:
         return _priced_claims(task, result, rule, bound, examine, solve)
     return tuple(examine(bound() if result.statistics.get("rule_binds") else task, result))
+
+
+def _claims_over_ties(
+    task: Task,
+    result: Result,
+    original: Task,
+    deadline: Deadline,
+    examine: Callable[[Task, Result], Iterable[Claim]],
+    solve: Solve | None,
+) -> tuple[Claim, ...]:
+    """The claims over ties: what the best answer costs beside each plan, under the rule for that plan."""
+    asked = result.options.but(ties="fixed")
+
+    def bound(plan: HumanPlan) -> Task | None:
+        last = len(plan) if asked.horizon is None else int(asked.horizon)
+        rule = rule_of(task, asked, plan, last, original)
+        return None if rule.prices else bound_task(task, asked, rule, (), plan, original, deadline)
+
+    def named(plan: HumanPlan) -> tuple[str, ...]:
+        return tuple(task.actions[i].name for i in plan)
+
+    costs: dict[tuple[str, ...], Fraction] = {}
+    plans = (
+        islice(OptimalPlans(task).plans(), asked.max_ties)
+        if solve and result.status in ("optimal", "infeasible")
+        else ()
+    )
+    for plan in plans:
+        under = bound(plan)
+        found = None if solve is None or under is None else solve(under, asked, named(plan))
+        if found is not None and found.status == result.status == "infeasible":
+            return (Claim("infeasible", "proved", wording.RULE_BESIDE_EACH),)
+        if found is None or found.status != "optimal" or found.cost is None:
+            costs.clear()
+            break
+        costs[named(plan)] = as_written(found.cost)
+    if not costs or result.status != "optimal":
+        return tuple(Claim(name, "undecided", wording.RULE_OVER_TIES) for name in needed(result))
+    mean = sum(costs.values(), Fraction(0)) / len(costs)
+    least = {"optimistic": min(costs.values()), "robust": max(costs.values()), "expected": mean}
+    listed = {tied.human_plan: tied.cost for tied in result.ties or () if tied.cost is not None}
+    told = all(costs.get(names) == as_written(cost) for names, cost in listed.items())
+    right = told and result.cost is not None and as_written(result.cost) == least[result.options.ties]
+    verdict: Verdict = "proved" if right else "refuted"
+    claims: dict[str, Claim] = {}
+    if result.plan is not None and result.human_plan is not None:
+        under = bound(replay_human(task, result.human_plan, deadline))
+        said = replace(
+            result, options=asked, status="feasible", lower_bound=0.0, ties=None, optimal_plans=None
+        )
+        claims = {claim.claim: claim for claim in examine(under or task, said) if claim.claim not in UNPRICED}
+    own = (Claim(name, verdict, wording.RULE_BESIDE_EACH) for name in needed(result) if name not in claims)
+    return (*claims.values(), *own)
 
 
 def _priced_claims(
