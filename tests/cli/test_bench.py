@@ -48,7 +48,7 @@ def test_an_absent_contender_is_left_out_with_one_line(run: Runs, monkeypatch: p
 
 def test_absence_is_noticed_without_an_import(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(fast_downward, "_has_translator", lambda: False)
-    monkeypatch.setattr(fast_downward, "binary", lambda: None)
+    monkeypatch.setattr(fast_downward, "program", lambda _: None)
     reason = fast_downward.absent()
     assert "no fast-downward.translate and no up-fast-downward" in reason
 

@@ -114,7 +114,7 @@ def test_what_other_planners_do_not_know_is_refused(action: str, message: str, t
 @pytest.mark.skipif(fast_downward.absent() is not None, reason=fast_downward.absent() or "")
 @pytest.mark.parametrize("search", [fast_downward.LMCUT, fast_downward.IPDB])
 @pytest.mark.parametrize("name", SHIPPED)
-def test_fast_downward_proves_the_same(name: str, search: str) -> None:
+def test_fast_downward_proves_the_same(name: str, search: fast_downward.Search) -> None:
     files, agents = example_files(name)
     task = serendipity.example(name)
     found = fast_downward.run(lifted_files(unit(files), shares(agents, "0.9")), search, 20)

@@ -70,7 +70,7 @@ def bench(
             "--contenders NAME,...",
             "Some of search (first calls), in-turn (each task's discounts one after another), again "
             "(the same call again), automata, paper, fast-downward; of a suite some "
-            "of search, fast-downward, fast-downward-ipdb.",
+            "of search, fast-downward, fast-downward-ipdb, symk.",
         ),
     ] = None,
     scaling: Annotated[

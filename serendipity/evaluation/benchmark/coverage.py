@@ -61,7 +61,7 @@ def _search(call: Call) -> Outcome:
         return Outcome("failed", reason=told(error))
 
 
-def _fast_downward(search: str, call: Call) -> Outcome:
+def _fast_downward(search: fast_downward.Search, call: Call) -> Outcome:
     shares = {call.roles.human: Fraction(1)}
     if call.mode != "individual":
         shares |= dict.fromkeys(call.roles.robots, 1 - call.discount)
@@ -71,16 +71,17 @@ def _fast_downward(search: str, call: Call) -> Outcome:
         return Outcome("failed", reason=str(error))
 
 
-def _classical(search: str) -> Contender:
-    return Contender(partial(_fast_downward, search), CLASSICAL, fast_downward.absent)
+def _classical(search: fast_downward.Search) -> Contender:
+    return Contender(partial(_fast_downward, search), CLASSICAL, partial(fast_downward.absent, search))
 
 
 CONTENDERS: Final[dict[str, Contender]] = {
     _OURS: Contender(_search),
     "fast-downward": _classical(fast_downward.LMCUT),
     "fast-downward-ipdb": _classical(fast_downward.IPDB),
+    "symk": _classical(fast_downward.SYMK),
 }
-"""Our search, and Fast Downward with two heuristics."""
+"""Our search, Fast Downward with two heuristics, and SymK."""
 
 
 def can_alone(problem: Problem, who: Roles, time_limit: float) -> bool:

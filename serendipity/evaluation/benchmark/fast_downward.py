@@ -1,7 +1,7 @@
-"""Fast Downward, a planner for a single agent, as processes: translator and search.
+"""Fast Downward and SymK, planners for a single agent, as processes: translator and search.
 
-It is never imported, for it is under the GPL.  Both come with the optional extra ``bench``: the
-translator from ``fast-downward.translate``, the search's binary from the wheel ``up-fast-downward``.
+They are never imported, for they are under the GPL.  All comes with the optional extra ``bench``: the
+translator of both from ``fast-downward.translate``, the binaries from ``up-fast-downward`` and ``up-symk``.
 """
 
 import re
@@ -14,18 +14,35 @@ from dataclasses import dataclass, replace
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
 from serendipity.evaluation.benchmark.contenders import Outcome
 from serendipity.evaluation.measuring.figures import children_seconds
 from serendipity.model.errors import SerendipityError
 from serendipity.pddl.classical import ClassicalFiles
 
-LMCUT: Final = "astar(lmcut())"
+
+class Search(NamedTuple):
+    """A program's configuration.
+
+    Attributes:
+        words: as the program is given it.
+        package: the wheel that has the program.
+        place: of the program in it.
+    """
+
+    words: str
+    package: str = "up-fast-downward"
+    place: str = "downward/builds/release/bin/downward"
+
+
+LMCUT: Final = Search("astar(lmcut())")
 """A* with landmark cuts."""
-IPDB: Final = "astar(ipdb())"
+IPDB: Final = Search("astar(ipdb())")
 """A* with the pattern databases that hill climbing chooses."""
-ANY_PLAN: Final = "lazy_greedy([ff()], preferred=[ff()])"
+SYMK: Final = Search("sym_bd()", "up-symk", "symk/builds/release/bin/downward")
+"""Symbolic search from both ends, by decision diagrams."""
+ANY_PLAN: Final = Search("lazy_greedy([ff()], preferred=[ff()])")
 """Some plan, soon."""
 
 _SAS: Final = "output.sas"
@@ -38,18 +55,19 @@ _LEAVING: Final = 5.0
 """Seconds for saying what it knows, once it has to end."""
 
 
-def absent() -> str | None:
+def absent(search: Search = LMCUT) -> str | None:
     """Why it can't be run, or None."""
-    parts = {"fast-downward.translate": _has_translator(), "up-fast-downward": binary()}
+    parts = {"fast-downward.translate": _has_translator(), search.package: program(search)}
     missing = " and no ".join(name for name, found in parts.items() if not found)
     hint = "here: pip install serendipity-planner[bench]"
-    return f"fast-downward is left out: no {missing} {hint}" if missing else None
+    name = search.package.removeprefix("up-")
+    return f"{name} is left out: no {missing} {hint}" if missing else None
 
 
 @cache
-def binary() -> Path | None:
-    """The search's program."""
-    places = (Path(place, "downward/builds/release/bin/downward") for place in _places("up_fast_downward"))
+def program(search: Search) -> Path | None:
+    """The program, where it is installed."""
+    places = (Path(place, search.place) for place in _places(search.package.replace("-", "_")))
     return next(filter(Path.is_file, places), None)
 
 
@@ -75,20 +93,20 @@ class Found(Outcome):
     search_seconds: float = 0.0
 
 
-def run(files: ClassicalFiles, search: str, time_limit: float | None, *, invariants: bool = True) -> Found:
-    """Fast Downward's answer to a problem.
+def run(files: ClassicalFiles, search: Search, time_limit: float | None, *, invariants: bool = True) -> Found:
+    """A planner's answer to a problem.
 
     Args:
         files: the problem.
-        search: its configuration, such as :data:`LMCUT`.
+        search: which, and its configuration, such as :data:`LMCUT`.
         time_limit: seconds for translating, and as many again for the search.
         invariants: whether to look for them: on ground files that takes seconds, and finds none.
 
     Raises:
         SerendipityError: it fails, with what it says.
     """
-    program = binary()
-    assert program is not None, "absent() was asked before"
+    found_at = program(search)
+    assert found_at is not None, "absent() was asked before"
     before, start = children_seconds(), time.perf_counter()
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
@@ -100,7 +118,7 @@ def run(files: ClassicalFiles, search: str, time_limit: float | None, *, invaria
         translated = time.perf_counter()
         found = Found(status)
         if status == "optimal":
-            code, text = _process([str(program), "--search", search], folder, time_limit, _SAS)
+            code, text = _process([str(found_at), "--search", search.words], folder, time_limit, _SAS)
             status = _status(code, "the search", text)
             found = _read(status, text, files.scale, time.perf_counter() - translated)
     return replace(found, read_seconds=translated - start, process_seconds=children_seconds() - before)
@@ -137,7 +155,7 @@ def _read(status: str, text: str, scale: int, seconds: float) -> Found:
             raise _failed("the search", text)
         return found
 
-    memory, bound = last(r"Peak memory: (\d+) KB"), last(r"f = (\d+),")
+    memory, bound = last(r"Peak memory: (\d+) KB"), last(r"(?:f = |BOUND: )(\d+)")
     found = Found(
         status,
         lower_bound=None if bound is None or status == "infeasible" else bound / scale,
@@ -154,7 +172,7 @@ def _read(status: str, text: str, scale: int, seconds: float) -> Found:
         found,
         cost=cost,
         lower_bound=cost,
-        expanded=int(printed(r"Expanded (\d+) state")),
+        expanded=int(last(r"Expanded (\d+) state") or 0),
         search_seconds=printed(r"Search time: ([0-9.e-]+)s"),
         seconds=total,
         plan_seconds=None if cost is None else total,

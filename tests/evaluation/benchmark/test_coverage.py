@@ -72,8 +72,9 @@ def test_a_call_that_fails_does_not_end_the_run(suite: Path) -> None:
 
 @pytest.mark.skipif(fast_downward.absent() is not None, reason=fast_downward.absent() or "")
 def test_all_contenders_prove_the_same(suite: Path) -> None:
-    rows = list(measure(problems(suite), ["individual", "composite-inf"], CONTENDERS))
-    assert len(rows) == 3 * 2 * 3
+    present = [name for name, contender in CONTENDERS.items() if contender.absent() is None]
+    rows = list(measure(problems(suite), ["individual", "composite-inf"], present))
+    assert len(rows) == 3 * 2 * len(present)
     assert all(row.outcome.proved for row in rows)
     assert list(disagreements(rows)) == []
 

@@ -8,7 +8,7 @@ import pytest
 
 from serendipity import SerendipityError
 from serendipity.evaluation.benchmark import fast_downward
-from serendipity.evaluation.benchmark.fast_downward import LMCUT, Found, run
+from serendipity.evaluation.benchmark.fast_downward import LMCUT, SYMK, Found, run
 from serendipity.pddl.classical import ClassicalFiles
 
 FILES = ClassicalFiles("", "", scale=5)
@@ -39,7 +39,7 @@ def processes(monkeypatch: pytest.MonkeyPatch) -> Iterator[Outputs]:
     ) -> tuple[int | None, str]:
         return left.pop(0)
 
-    monkeypatch.setattr(fast_downward, "binary", lambda: Path("downward"))
+    monkeypatch.setattr(fast_downward, "program", lambda _: Path("downward"))
     monkeypatch.setattr(fast_downward, "_process", process)
     yield left
     assert not left
@@ -54,6 +54,12 @@ def test_costs_are_scaled_back(processes: Outputs) -> None:
     found = answered()
     assert (found.status, found.cost, found.lower_bound) == ("optimal", 25.2, 25.2)
     assert (found.search_seconds, found.seconds, found.expanded, found.memory) == (0.001651, 0.005, 13, 10)
+
+
+def test_a_bound_from_both_ends_is_read(processes: Outputs) -> None:
+    told = "[t=0.7s, 496568 KB] BOUND: 30 < 2147483647 [0/1 plans], dir: BW\n"
+    processes += [(0, "Done!"), (None, told)]
+    assert run(FILES, SYMK, 5).lower_bound == 6
 
 
 @pytest.mark.parametrize("outputs", [[(10, "unsolvable")], [(0, "Done!"), (11, NONE)]])
