@@ -138,6 +138,15 @@ def test_a_link_from_elsewhere_leads_to_the_same_person(folder: Path) -> None:
     assert study.room("abc") is None
 
 
+@pytest.mark.parametrize("given", ["{{%PROLIFIC_PID%}}", "a b", "a" * 101, "é", "a\n", ["a"]])
+def test_an_id_that_is_none_is_one_line_and_nobody_has_joined(folder: Path, given: object) -> None:
+    study = opened(folder)
+    with pytest.raises(UsageError, match=r"^participant: expected at most 100 letters[^\n]*$"):
+        join(study, address={"participant": given})
+    assert study.events() == []
+    assert not list(folder.glob("P*.jsonl"))
+
+
 def test_a_round_that_has_no_end_ends(folder: Path) -> None:
     (folder / "study.toml").write_text("most_epochs = 20\n" + PLAIN)
     room = join(opened(folder))

@@ -142,6 +142,7 @@ def _answered(kind: str, events: Sequence[Event]) -> dict[str, Any]:
 _FILE: Final = re.compile(r"P(\d{3,6})\.jsonl")
 _OUTSIDE: Final = ("PROLIFIC_PID", "participant", "id")
 """What of the address may say who somebody is elsewhere: the first of these that is there."""
+_ID: Final = re.compile(r"[A-Za-z0-9._~@:+=-]{1,100}")
 
 
 class Study:
@@ -223,14 +224,14 @@ class Study:
         """Somebody agrees to take part; who has done so before, by what the address says, goes on.
 
         Raises:
-            UsageError: they don't agree, or no file can be made.
+            UsageError: they don't agree, the address has no good id, or no file can be made.
         """
         if message.get("agree") is not True:
             raise UsageError("consent: nobody takes part without it")
         visit, address = message.get("visit"), message.get("address")
         visit = visit[:100] if isinstance(visit, str) else None
         known = address if isinstance(address, dict) else {}
-        outside = next((str(known[key])[:200] for key in _OUTSIDE if known.get(key)), None)
+        outside = next((_id(key, known[key]) for key in _OUTSIDE if known.get(key)), None)
         with self._joining:
             for participant in self._participants.values():
                 if outside is not None and participant.joined.get("outside_id") == outside:
@@ -314,6 +315,13 @@ class Study:
             "join at <a href='/'>/</a>; what stands there as ?PROLIFIC_PID=, ?participant= or ?id= is their "
             "outside id.</p></main></html>"
         )
+
+
+def _id(name: str, given: object) -> str:
+    """Who somebody is elsewhere; a placeholder that a site has not filled in, as ``{{%ID%}}``, is nobody."""
+    if not isinstance(given, str) or not _ID.fullmatch(given):
+        raise UsageError(f"{name}: expected at most 100 letters, digits or ._~@:+=-, got {given!r:.50}")
+    return given
 
 
 class _Lobby:
