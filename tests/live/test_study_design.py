@@ -130,6 +130,7 @@ def test_a_study_that_was_begun_otherwise_is_refused(folder: Path) -> None:
         ('[[scenarios]]\nname = "a"\nexample = "x"', "scenario a: example: expected one of"),
         ('[[scenarios]]\nname = "a"\nfiles = ["x"]', "scenario a: "),
         ("speed = 3", "speed: extra inputs"),
+        ('completion_link = "javascript:alert(1)"', "completion_link: "),
     ],
 )
 def test_a_wrong_study_file_is_one_line(text: str, said: str, tmp_path: Path, capsys) -> None:

@@ -117,6 +117,7 @@ def together(people: list[Iterator[None]]) -> None:
 
 
 def test_twelve_take_part_of_whom_two_leave_and_one_comes_back(opened: Opened, tmp_path: Path) -> None:
+    (tmp_path / "study.toml").write_text('completion_link = "https://example.org/?cc={code}&who={id}"\n')
     runner = Runner(tmp_path)
     arguments = ("--study", str(tmp_path))
     with serving(*arguments, command="play") as server:
@@ -143,6 +144,7 @@ def test_twelve_take_part_of_whom_two_leave_and_one_comes_back(opened: Opened, t
             people = [back] if start == 0 else []
             together([takes_part(page, server, runner) for page in (*people, *pages)])
         assert back.inner_text("#code") == code == runner.design.code
+        assert back.get_attribute("#completion-link", "href") == f"https://example.org/?cc={code}&who=p1"
         assert server.client.get("/s/nobody").status_code == 404
         overview = opened(server, at=f"/experimenter/{runner.design.secret}/")
         states = Counter(overview.locator("td:nth-child(3)").all_inner_texts())

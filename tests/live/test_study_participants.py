@@ -138,6 +138,19 @@ def test_a_link_from_elsewhere_leads_to_the_same_person(folder: Path) -> None:
     assert study.room("abc") is None
 
 
+def test_the_link_at_the_end_has_their_code_and_id(tmp_path: Path) -> None:
+    text = 'completion_code = "A&1"\ncompletion_link = "https://example.org/?cc={code}&who={id}"\n'
+    (tmp_path / "study.toml").write_text(text + PLAIN)
+    study, design = opened(tmp_path), open_design(tmp_path)
+    ends = []
+    for address in ({"id": "a@b+c"}, {}):
+        room = join(study, address=address)
+        assert "link" not in room.view()["study"]
+        finish(room, design)
+        ends.append(room.view()["study"]["link"])
+    assert ends == ["https://example.org/?cc=A%261&who=a%40b%2Bc", "https://example.org/?cc=A%261&who="]
+
+
 @pytest.mark.parametrize("given", ["{{%PROLIFIC_PID%}}", "a b", "a" * 101, "é", "a\n", ["a"]])
 def test_an_id_that_is_none_is_one_line_and_nobody_has_joined(folder: Path, given: object) -> None:
     study = opened(folder)

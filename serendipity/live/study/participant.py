@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from time import perf_counter
 from typing import Any, Final
+from urllib.parse import quote
 
 import serendipity
 from serendipity.live.play.records import Event, Records
@@ -97,8 +98,15 @@ class Participant(RecordedRounds):
         elif self.stage in _ASKED:
             study["questions"] = [question.model_dump(exclude={"expect"}) for question in self._questions()]
         elif self.stage == "end":
-            study["code"] = self._design.code
+            study |= {"code": self._design.code, "link": self._link()}
         return shown
+
+    def _link(self) -> str | None:
+        """To where the study says that they are through."""
+        link, told = self._design.texts.completion_link, self.joined.get("outside_id") or ""
+        if link is None:
+            return None
+        return link.replace("{code}", quote(self._design.code, "")).replace("{id}", quote(told, ""))
 
     def _end(self, played: Round) -> dict[str, Any]:
         run = played.run

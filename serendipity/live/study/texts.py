@@ -103,6 +103,7 @@ class StudyFile(_Part):
     conditions: Lines = list(CONDITIONS)
     practice: bool = True
     completion_code: str | None = None
+    completion_link: str | None = Field(default=None, pattern=r"^https?://[^\s/]\S*$")
     lost_after_minutes: float = Field(default=60.0, gt=0)
     most_epochs: int = Field(default=60, ge=1, le=1000)
     scenarios: list[OwnScenario] = []

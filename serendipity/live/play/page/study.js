@@ -24,7 +24,11 @@ function makeStudy({ id, make, money, say, answer, page, t }) {
       id("link").textContent = location.href;
     }
     if (study.questions) showQuestions(stage, study.questions);
-    if (stage === "end") [id("number").textContent, id("code").textContent] = [study.participant, study.code];
+    if (stage === "end") {
+      [id("number").textContent, id("code").textContent] = [study.participant, study.code];
+      id("through").hidden = !study.link;
+      if (study.link) id("completion-link").href = study.link;
+    }
     if (stage === "withdrawn") id("withdrawn-number").textContent = study.participant;
   }
 
