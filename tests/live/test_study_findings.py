@@ -1,6 +1,7 @@
 """What comes out of a study, and for whom."""
 
 from collections import Counter
+from itertools import islice
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ from serendipity.live.play.records import Event
 from serendipity.live.play.round import CONDITIONS
 from serendipity.live.study import analysis
 from serendipity.live.study.design import open_design
+from serendipity.live.study.drawing import places
 from serendipity.live.study.participant import Participant
 from tests.live.studies import finish, join, opened, say
 
@@ -53,6 +55,9 @@ def test_the_table_of_rounds_is_read_back(folder: Path, capsys) -> None:
     (folder / "rounds.csv").write_text(table.text)
     rows = analysis.read_rounds(folder / "rounds.csv")
     assert Counter(row["condition"] for row in rows) == {"none": 4, "silent": 4}
+    drawn = list(islice(places(["none", "silent"], 2, seed=int(rows[0]["seed"])), 4))
+    assert [drawn[int(row["place"])][0] for row in rows] == [row["condition"] for row in rows]
+    assert sorted({row["place"] for row in rows}) == ["0", "1", "2", "3"]
     assert {row["answer_1"] for row in rows} == {"6"}
     assert analysis.main([str(folder / "rounds.csv")]) == 0
     said = capsys.readouterr().out

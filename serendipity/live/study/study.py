@@ -26,6 +26,8 @@ COLUMNS: Final = {
     "outside_id": "what the link said of who they are elsewhere",
     "state": "of the participant: finished, withdrawn, lost (not heard of for long), under way",
     "study": "hash of the study's design; it is the same in all rows of one study",
+    "seed": "of the study; all draws follow from it",
+    "place": "the participant's among the places drawn in balanced blocks, from 0: their condition and order",
     "condition": "none: robots do nothing; silent: they help and say nothing; announced: they say what they "
     "do; practice rounds are always none",
     "round": "place of the round in the participant's order, from 1; 0 is for practice",
@@ -90,7 +92,7 @@ def _rows(events: Sequence[Event], state: str) -> Iterator[Event]:
         "participant": joined.get("participant"),
         "outside_id": joined.get("outside_id"),
         "state": state,
-        "study": joined.get("study"),
+        **{key: joined.get(key) for key in ("study", "seed", "place")},
         "understood": _understood(events),
         **_answered("closing", closing),
     }
