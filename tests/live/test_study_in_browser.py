@@ -183,8 +183,8 @@ def judge(folder: Path, runner: Runner, events: list[dict[str, Any]], rows: list
 
 
 def test_the_page_speaks_the_language_of_the_study(opened: Opened, tmp_path: Path) -> None:
-    (tmp_path / "study.toml").write_text('language = "de"\n')
-    with serving("--study", str(tmp_path), "--rounds", "1", "--seed", "1", command="play") as server:
+    arguments = ("--study", str(tmp_path), "--rounds", "1", "--seed", "1", "--language", "de")
+    with serving(*arguments, command="play") as server:
         page = opened(server)
         page.check("#agree")
         page.click('button:text-is("Beginnen")')

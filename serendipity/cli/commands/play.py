@@ -67,6 +67,10 @@ def play(
     seed: Annotated[
         int | None, option("--seed S", "Of a study: scenarios and conditions; by default drawn.")
     ] = None,
+    language: Annotated[
+        str | None,
+        option("--language en|de|FILE", "Of a study: what its page speaks; a file is one of the folder."),
+    ] = None,
     host: Annotated[str, option("--host ADDRESS", "Where a study listens.")] = "127.0.0.1",
     port: Annotated[int, option("--port N", "0 for any that is free.")] = 8124,
     allow_host: Annotated[
@@ -88,6 +92,7 @@ def play(
             "--report": report,
             "--rounds": rounds is not None,
             "--seed": seed is not None,
+            "--language": language is not None,
             "--host": host != "127.0.0.1",
             "--allow-host": allow_host is not None,
         },
@@ -109,7 +114,7 @@ def play(
             settings["discount"] = str(given["discount"])
         with nullcontext() if report else connections.listening(host, port) as listener:
             with progress.working("playing scenarios"):
-                design = open_design(study, labels, **settings)
+                design = open_design(study, labels, language, **settings)
             if listener is None:
                 output.say(design.report)
                 return ExitCode.ANSWERED

@@ -11,7 +11,8 @@ from typing import Any, Final
 
 import serendipity
 from serendipity.live.play.labels import labels_for, read_settings
-from serendipity.live.play.language import Language, language
+from serendipity.live.play.language import Language
+from serendipity.live.play.language import language as language_of
 from serendipity.live.play.records import made
 from serendipity.live.play.round import RoundSetting
 from serendipity.live.study.drawing import (
@@ -73,12 +74,15 @@ class Design:
         return [*about, *self.texts.instructions, *([] if self.practice is None else [first])]
 
 
-def open_design(folder: Path, labels: Path | None = None, **given: Any) -> Design:
+def open_design(
+    folder: Path, labels: Path | None = None, language: str | None = None, **given: Any
+) -> Design:
     """The study of a folder: as it was begun, or a new one, with scenarios that are drawn and rehearsed.
 
     Args:
         folder: made where it is missing.
         labels: words for scenarios of the study's own.
+        language: of the page, where the folder's file does not say it; None: as begun, or English.
         **given: ``rounds``, ``seed``, ``discount``, ``view``, ``deadline``; None: as begun, or as usual.
 
     Raises:
@@ -88,11 +92,12 @@ def open_design(folder: Path, labels: Path | None = None, **given: Any) -> Desig
     made(folder, "--study")
     file = folder / _TEXTS
     texts = read_settings(file, StudyFile) if file.exists() else StudyFile.model_validate({})
-    spoken = language(texts.language, folder)
+    kept = _read(folder / _KEPT)
+    texts = texts.model_copy(update={"language": _language(folder, texts, kept, language)})
+    spoken = language_of(texts.language, folder)
     texts = texts.said_in(spoken)
     if texts.scenarios and given.get("rounds") not in (None, len(texts.scenarios)):
         raise UsageError(f"--rounds: {file} has {len(texts.scenarios)} scenarios of its own")
-    kept = _read(folder / _KEPT)
     if kept is None:
         kept = _begin(folder, texts, labels, given) | {"language": spoken.model_dump()}
         _write(folder / _KEPT, kept)
@@ -104,6 +109,18 @@ def open_design(folder: Path, labels: Path | None = None, **given: Any) -> Desig
     if StudyFile.model_validate(kept["texts"]).model_dump() != texts.model_dump() or begun_in != spoken:
         raise InputError(f"is not what the study was begun with ({_KEPT}): take another folder", file)
     return _design(folder, texts, labels, kept, spoken)
+
+
+def _language(folder: Path, texts: StudyFile, kept: Mapping[str, Any] | None, asked: str | None) -> str:
+    """What language the page has: the folder's file says it, or the command line, or how it was begun."""
+    if "language" in texts.model_fields_set:
+        if asked not in (None, texts.language):
+            raise UsageError(f"--language: {folder / _TEXTS} says {texts.language}")
+        return texts.language
+    begun = texts.language if kept is None else str(kept["texts"].get("language", texts.language))
+    if kept is not None and asked not in (None, begun):
+        raise UsageError(f"--language: the study in {folder} was begun with {begun}; take another folder")
+    return asked or begun
 
 
 def _begin(folder: Path, texts: StudyFile, labels: Path | None, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -190,9 +207,7 @@ def _design(
     return Design(
         texts,
         scenarios,
-        None
-        if trial is None
-        else replace(_said_in(trial, spoken, labels), name="practice", condition="none"),
+        trial,
         kept["settings"]["seed"],
         kept["secret"],
         kept["completion_code"],
