@@ -61,7 +61,9 @@ class Unbound:
         return None
 
     def _planned(self, promise: HumanPlan, now: DecisionPoint, deadline: Deadline) -> Why | None:
-        """Help as the semantics have it."""
+        """Help as the semantics have it; who has nothing to do needs none."""
+        if not promise:
+            return None
         models: tuple[HumanModel, ...] = (
             ("omniscient",) if self._companion is not None else (self._model, "omniscient")
         )
