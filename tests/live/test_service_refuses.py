@@ -163,7 +163,7 @@ def test_names_of_other_hosts_and_pages_of_other_sites(server: Server) -> None:
 def test_a_token_where_there_is_one() -> None:
     with serving("--workers", "1", env={"SERENDIPITY_TOKEN": "secret word"}) as server:
         asked = {"task": ROOM2}
-        assert server.client.get("/health").status_code == 200
+        assert {server.client.get(path).status_code for path in ("/health", "/ready")} == {200}
         for given in ({}, {"authorization": "Bearer other"}, {"authorization": "Basic secret word"}):
             assert server.post("/plan", asked, headers=given).status_code == 401
             assert server.client.get("/metrics", headers=given).status_code == 401

@@ -1,5 +1,6 @@
 """Servers side by side: whoever ends hands on, and whoever asks again is answered once."""
 
+import asyncio
 import signal
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -7,7 +8,9 @@ from typing import Any
 
 import httpx
 import pytest
+from starlette.responses import PlainTextResponse
 
+from serendipity.live.service.repeats import Repeats
 from tests.live.server import Server, serving, until
 
 ROOM2 = {"task": {"example": "room2"}, "options": {"discount": 0.6}}
@@ -55,9 +58,39 @@ def test_what_is_sent_again_is_answered_once(server: Server) -> None:
     assert "idempotency-replayed" not in first.headers
     assert again.headers["idempotency-replayed"] == "true"
     assert again.content == first.content  # with the seconds that it took
-    other = server.post("/verify", ROOM2, headers=KEY)
-    assert (other.status_code, other.json()["error"][:16]) == (422, "Idempotency-Key:")
+    for path, body in (("/plan", {**ROOM2, "options": {"discount": 0.7}}), ("/verify", ROOM2)):
+        other = server.post(path, body, headers=KEY)
+        assert (other.status_code, other.json()["error"][:16]) == (422, "Idempotency-Key:")
     assert server.post("/plan", ROOM2, headers={"Idempotency-Key": "x" * 201}).status_code == 422
+
+
+@pytest.mark.parametrize(
+    ("most", "size", "seconds", "keys", "worked"),
+    [
+        (3, 100, 60, "abcabc", "abc"),
+        (3, 100, 60, "abcdbcda", "abcda"),  # who asks for the fourth sends the first away
+        (3, 100, 60, "abcadab", "abcdb"),  # who was asked for again stays
+        (9, 2, 60, "abcda", "abcda"),
+        (9, 100, 0, "aab", "aab"),
+    ],
+)
+def test_answers_are_kept_while_there_is_room(
+    most: int, size: int, seconds: float, keys: str, worked: str
+) -> None:
+    seen = []
+
+    async def noted(scope: Any, receive: Any, send: Any) -> None:
+        seen.append((await receive())["body"].decode())
+        await PlainTextResponse("x")(scope, receive, send)
+
+    async def asked() -> None:
+        repeats = httpx.ASGITransport(Repeats(noted, most, size, seconds))
+        async with httpx.AsyncClient(transport=repeats, base_url="http://server") as client:
+            for key in keys:
+                await client.post("/", content=key, headers={"Idempotency-Key": key})
+
+    asyncio.run(asked())
+    assert "".join(seen) == worked
 
 
 def test_a_step_is_taken_once_however_often_it_is_sent(server: Server) -> None:

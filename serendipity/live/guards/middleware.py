@@ -14,7 +14,7 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-_OPEN: Final = ("/health", "/docs", "/openapi.json", "/static-offline-docs/")
+_OPEN: Final = ("/health", "/ready", "/docs", "/openapi.json", "/static-offline-docs/")
 """Paths that need no token: nothing of what is asked or answered is there."""
 
 

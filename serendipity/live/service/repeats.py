@@ -81,7 +81,7 @@ class Repeats:
         await self._answer(key, digest, body, scope, send)
 
     async def _answer(self, key: str, digest: bytes, body: bytes, scope: Scope, send: Send) -> None:
-        known = self._forget().get(key)
+        known = self._forget(key).get(key)
         if known is not None and known.digest != digest:
             line = "Idempotency-Key: was given to another request before"
             await JSONResponse({"error": line}, 422)(scope, _nothing_more, send)
@@ -126,14 +126,16 @@ class Repeats:
                 self._kept.pop(key, None)
             kept.done.set()
 
-    def _forget(self) -> OrderedDict[str, _Kept]:
-        """What is kept, without what is too old or too much; nothing that is worked on is forgotten."""
+    def _forget(self, asked: str) -> OrderedDict[str, _Kept]:
+        """What is kept, with room for a key that is asked; nothing that is worked on is forgotten."""
         oldest = time.monotonic() - self._seconds
+        most = self._most if asked in self._kept else self._most - 1
         done = [key for key, kept in self._kept.items() if kept.done.is_set()]
         size = sum(self._kept[key].size for key in done)
         for key in done:
             kept = self._kept[key]
-            if kept.used < oldest or size > self._bytes or len(self._kept) >= self._most:
+            much = size > self._bytes or len(self._kept) > most
+            if kept.used < oldest or (much and key != asked):
                 size -= kept.size
                 del self._kept[key]
         return self._kept
