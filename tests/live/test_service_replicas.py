@@ -134,8 +134,10 @@ def test_a_session_goes_on_at_another_server() -> None:
         path = "/sessions/" + one.post("/sessions", ROOM2).json()["id"]
         plan = one.post(f"{path}/plan", {}).json()["plan"]
         now = [step["action"] for step in plan if step["epoch"] == 1]
-        one.post(f"{path}/execute", {"actions": now})
-        snapshot = one.client.get(f"{path}/snapshot").json()
+        moved = one.post(f"{path}/execute?snapshot=true", {"actions": now}).json()
+        snapshot = moved.pop("snapshot")
+        assert snapshot == one.client.get(f"{path}/snapshot").json()
+        assert moved == one.client.get(path).json()
         expected = one.post(f"{path}/plan", {}).json()
         one.process.kill()
         begun = other.post("/sessions", {"snapshot": snapshot})

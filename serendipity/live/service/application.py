@@ -3,10 +3,10 @@
 from collections.abc import AsyncIterator, Sequence
 from contextlib import aclosing, asynccontextmanager
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import prometheus_client as prometheus
-from fastapi import APIRouter, FastAPI, Request, Response
+from fastapi import APIRouter, FastAPI, Query, Request, Response
 from fastapi_offline import FastAPIOffline
 from prometheus_client.core import CounterMetricFamily
 from prometheus_client.process_collector import ProcessCollector
@@ -25,6 +25,8 @@ from serendipity.live.service.sessions import Remembered, SessionStore
 from serendipity.live.workers.pool import Pool, PoolLimits
 
 Described = dict[int | str, dict[str, Any]]
+
+WithSnapshot = Annotated[bool, Query(alias="snapshot", description="whether all of it comes, too")]
 
 
 def _says(description: str, kind: str = "application/json") -> Described:
@@ -84,23 +86,29 @@ def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
                 async for body in bodies:
                     yield body
 
-    async def moved(request: Request, name: str, call: str, given: asked.RequestPart) -> dict[str, Any]:
+    async def moved(
+        request: Request, name: str, call: str, given: asked.RequestPart, whole: bool
+    ) -> dict[str, Any]:
         with sessions.calling(name) as session:
             await answering.all_of(request, _said(pool, session, call, given.model_dump()))
-            return session.stands
+            return session.told(whole=whole)
 
-    @router.post("", status_code=201, response_model=asked.SessionState)
-    async def begin(call: asked.SessionRequest, request: Request) -> dict[str, Any]:
+    moves: dict[str, Any] = {"response_model": asked.SessionMoved, "response_model_exclude_unset": True}
+
+    @router.post("", status_code=201, **moves)
+    async def begin(
+        call: asked.SessionRequest, request: Request, whole: WithSnapshot = False
+    ) -> dict[str, Any]:
         """Begin a session."""
         session = sessions.begin(*call.parts())
         await answering.all_of(request, _said(pool, session, "begin", {}))
         sessions.add(session)
-        return session.stands
+        return session.told(whole=whole)
 
     @router.get("/{name}", response_model=asked.SessionState)
     async def state(name: str) -> dict[str, Any]:
         """Where a session stands."""
-        return sessions.named(name).stands
+        return sessions.named(name).told()
 
     @router.delete("/{name}", status_code=204)
     async def end(name: str) -> None:
@@ -117,20 +125,26 @@ def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
         """The same with answers on the way, as server-sent events; the last one stands."""
         return await answering.as_events(request, said(name, "plan_anytime", call))
 
-    @router.post("/{name}/execute", response_model=asked.SessionState)
-    async def execute(name: str, call: asked.ExecuteRequest, request: Request) -> dict[str, Any]:
+    @router.post("/{name}/execute", **moves)
+    async def execute(
+        name: str, call: asked.ExecuteRequest, request: Request, whole: WithSnapshot = False
+    ) -> dict[str, Any]:
         """Move on by one epoch in which these actions were executed (none: everybody waited)."""
-        return await moved(request, name, "execute", call)
+        return await moved(request, name, "execute", call, whole)
 
-    @router.post("/{name}/change", response_model=asked.SessionState)
-    async def change(name: str, call: asked.ChangeRequest, request: Request) -> dict[str, Any]:
+    @router.post("/{name}/change", **moves)
+    async def change(
+        name: str, call: asked.ChangeRequest, request: Request, whole: WithSnapshot = False
+    ) -> dict[str, Any]:
         """Set facts to true or false, as they were seen."""
-        return await moved(request, name, "change", call)
+        return await moved(request, name, "change", call, whole)
 
-    @router.post("/{name}/goal", response_model=asked.SessionState)
-    async def set_goal(name: str, call: asked.GoalRequest, request: Request) -> dict[str, Any]:
+    @router.post("/{name}/goal", **moves)
+    async def set_goal(
+        name: str, call: asked.GoalRequest, request: Request, whole: WithSnapshot = False
+    ) -> dict[str, Any]:
         """Give the human another goal: facts, with ``!`` in front of those to be false."""
-        return await moved(request, name, "set_goal", call)
+        return await moved(request, name, "set_goal", call, whole)
 
     return router
 

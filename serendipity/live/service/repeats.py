@@ -77,7 +77,8 @@ class Repeats:
         except HTTPException as error:
             await JSONResponse({"error": error.detail}, error.status_code)(scope, receive, send)
             return
-        digest = sha256(scope["path"].encode() + b"\0" + body).digest()
+        asked = scope["path"].encode() + b"?" + scope["query_string"]
+        digest = sha256(asked + b"\0" + body).digest()
         await self._answer(key, digest, body, scope, send)
 
     async def _answer(self, key: str, digest: bytes, body: bytes, scope: Scope, send: Send) -> None:

@@ -170,6 +170,12 @@ class SessionState(BaseModel):
     human_plan: list[str] | None = Field(description="what the human is going to do, where it is known")
 
 
+class SessionMoved(SessionState):
+    """Where a session stands after a call that began or moved it."""
+
+    snapshot: SessionSnapshot | None = Field(None, description="all of it, with `?snapshot=true`")
+
+
 class Refusal(BaseModel):
     """What is wrong, in the line that the command line says."""
 

@@ -48,10 +48,10 @@ class Remembered:
         self.state = state
         self.version += 1
 
-    @property
-    def stands(self) -> dict[str, Any]:
-        """What callers see of it."""
-        return {"id": self.name, **(json.loads(self.state) or {})}
+    def told(self, *, whole: bool = False) -> dict[str, Any]:
+        """What callers see of it; with all of it for another server, if they ask for that."""
+        snapshot = {"snapshot": self.snapshot} if whole else {}
+        return {"id": self.name, **(json.loads(self.state) or {}), **snapshot}
 
     @property
     def snapshot(self) -> dict[str, Any]:
