@@ -2,6 +2,7 @@
 
     python -m benchmarks.replicas [--replicas 4] [--homes 40] [--seconds 60] [--clients 8]
 
+Homes have shipped examples, and the smaller breakfasts of ``home``, where those are there.
 Behind one address a balancer sends each home to the replica that its name leads to, or, where that does not
 answer, to the next one, under the same ``Idempotency-Key``.  Each answer is compared with the library's.
 """
@@ -12,6 +13,7 @@ import subprocess
 import sys
 import time
 from collections import Counter
+from collections.abc import Iterator
 from itertools import cycle
 from typing import Any, Final
 from zlib import crc32
@@ -25,10 +27,12 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 import serendipity
+from benchmarks.problems import PROBLEMS
 from serendipity.evaluation.measuring.figures import percentile
 from serendipity.live.guards.connections import listening, url
 
 EXAMPLES: Final = ("room2", "room5", "flights", "parcels", "morning", "office")
+BREAKFASTS: Final = ("p4", "p6")
 DISCOUNTS: Final = ("0.5", "0.6", "0.7", "0.8", "0.9")
 
 
@@ -52,10 +56,10 @@ def _started() -> tuple[subprocess.Popen[str], str]:
 async def _measured(
     replicas: list[tuple[subprocess.Popen[str], str]], homes: int, seconds: float, clients: int
 ) -> None:
-    calls = list(zip(cycle(EXAMPLES), cycle(DISCOUNTS), range(homes), strict=False))
+    tasks = dict(_tasks())
+    calls = list(zip(cycle(tasks), cycle(DISCOUNTS), range(homes), strict=False))
     expected = {
-        (name, discount): serendipity.plan(serendipity.example(name), discount=discount)
-        for name, discount, _ in calls
+        (name, discount): serendipity.plan(tasks[name][1], discount=discount) for name, discount, _ in calls
     }
     listener = listening("127.0.0.1", 0)
     async with httpx.AsyncClient(timeout=60) as behind:
@@ -71,7 +75,7 @@ async def _measured(
                     turn = next(turns)
                     name, discount, home = calls[turn % len(calls)]
                     begun = time.perf_counter()
-                    body = {"task": {"example": name}, "options": {"discount": float(discount)}}
+                    body = {"task": tasks[name][0], "options": {"discount": float(discount)}}
                     head = {"X-Home": str(home), "Idempotency-Key": f"{home} {turn}"}
                     answer = await front.post("/plan", json=body, headers=head)
                     times.append(time.perf_counter() - begun)
@@ -87,14 +91,25 @@ async def _measured(
         drained = await asyncio.to_thread(replicas[1][0].wait, 40)
         server.should_exit = True
         await serving
-    print(f"{len(times)} calls in {seconds:g} s, {len(times) / seconds:.0f} a second: {dict(found)}")
+    told = ", ".join(f"{found[kind]} {kind}" for kind in ("right", "wrong", "lost"))
+    print(f"{len(times)} calls in {seconds:g} s, {len(times) / seconds:.0f} a second: {told}")
     print(f"p50 {1000 * percentile(times, 0.5):.1f} ms, p99 {1000 * percentile(times, 0.99):.1f} ms")
     print(f"longest {1000 * max(times):.0f} ms; the one that was asked to end did with {drained}")
 
 
+def _tasks() -> Iterator[tuple[str, tuple[dict[str, str], serendipity.Task]]]:
+    """Tasks by name, each as it is sent, and as the library has it."""
+    for name in EXAMPLES:
+        yield name, ({"example": name}, serendipity.example(name))
+    domain = PROBLEMS / "home" / "domain.pddl"
+    for problem in (domain.with_name(f"{name}.pddl") for name in BREAKFASTS if domain.exists()):
+        sent = {"domain": domain.read_text(), "problem": problem.read_text(), "human": "ann"}
+        yield problem.stem, (sent, serendipity.load_pddl(domain, problem, "ann"))
+
+
 def _judged(answer: httpx.Response, expected: serendipity.Result) -> str:
     if answer.status_code != 200:
-        return f"lost ({answer.status_code})"
+        return "lost"
     told: dict[str, Any] = answer.json()
     same = (told["cost"], told["objective"]) == (expected.cost, expected.objective)
     return "right" if same else "wrong"
