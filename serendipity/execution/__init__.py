@@ -17,6 +17,7 @@ from serendipity.execution.persons import (  # noqa: E402
     Recorded,
     Replanner,
     moment_of,
+    person_of,
 )
 from serendipity.execution.runs import Run, Runs  # noqa: E402
 from serendipity.execution.series import execute  # noqa: E402
@@ -46,6 +47,7 @@ __all__ = [
     "learn",
     "log_lines",
     "moment_of",
+    "person_of",
     "read_logs",
     "replay",
 ]

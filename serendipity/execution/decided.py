@@ -116,6 +116,7 @@ class Passed:
         human_cost: what the person has paid up to now, undiscounted.
         cost: what the team has paid up to now.
         done: whether the person's goal holds now.
+        going: in time, what had begun before and went on, with the epochs that were left.
     """
 
     epoch: int
@@ -129,12 +130,14 @@ class Passed:
     human_cost: float
     cost: float
     done: bool
+    going: tuple[PlanStep, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object: a line of a log."""
         return {
             **written(self, ("epoch", "human", "in_vain", "steps", "unfinished")),
             **written(self, ("reports",) if self.reports else ()),
+            **written(self, ("going",) if self.going else ()),
             **written(self, ("changes", "human_cost", "cost", "done")),
             "decision": self.decided.to_dict(),
         }
@@ -173,13 +176,17 @@ def event_lines(event: Mapping[str, Any], human: str) -> Iterator[str]:
     elif "drop" in event:
         yield f"out of order: {', '.join(event['drop'])}"
     else:
-        deed = event["human"] or "waits"
+        going = {agent: step["action"] for step in event.get("going", ()) for agent in step["agents"]}
+        deed = event["human"] or (f"goes on with {going[human]}" if human in going else "waits")
         yield f"epoch {event['epoch']}: {human} {f'tries {deed}, in vain' if event['in_vain'] else deed}"
         told = {(*one["agents"], one["action"]): one for one in event.get("reports", ())}
         for step in event["steps"]:
             report = told.get((*step["agents"], step["action"]))
             if human not in step["agents"] or report is not None:
                 yield f"  {', '.join(step['agents'])}: {step['action']}{_reported(report)}"
+        for robot, action in going.items():
+            if robot != human:
+                yield f"  {robot}: goes on with {action}"
         for missed in event["unfinished"]:
             report = told.get((*missed["agents"], missed["action"]))
             yield f"  does not happen: {missed['action']} ({WHY[missed['why']]}){_reported(report)}"

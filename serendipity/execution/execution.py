@@ -6,6 +6,8 @@ from fractions import Fraction
 from typing import Any, Final, Literal
 
 from serendipity.execution.beliefs import Beliefs
+from serendipity.execution.clock.robots import RobotsInTime
+from serendipity.execution.clock.world import WorldInTime
 from serendipity.execution.decided import COLUMNS, Decided, Outlook, Passed, Reported, Robots
 from serendipity.execution.leftovers import tidying
 from serendipity.execution.robot_policy import RobotPolicy
@@ -13,7 +15,7 @@ from serendipity.execution.why import Why
 from serendipity.execution.world import Unfinished, World
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, HumanModel, Options, PlanStep, Step, Table, Task, UsageError
-from serendipity.model.arguments import BY_NAME, TASK, TEXT, expect, expect_or_none
+from serendipity.model.arguments import BY_NAME, TASK_IN_TIME, TEXT, expect, expect_or_none
 from serendipity.model.errors import LIMITS
 from serendipity.model.keywords import Interference
 from serendipity.model.numbers import Number
@@ -101,37 +103,46 @@ class Execution(Tabular):
         adapter: Adapter | None = None,
         robots: Robots | None = None,
     ) -> None:
-        expect(TASK, task=task)
+        expect(TASK_IN_TIME, task=task)
         if mode != "serendipity" and not (told and mode == "communication"):
             expected = "serendipity or communication" if told else "serendipity, where nobody is told"
             raise UsageError(f"mode: expected {expected}, got '{mode}'")
         if plans is not None:
             _require_alone(task, goals, mode)
+        if task.needs_time:
+            _require_known(task, goals=goals, plans=plans, leave_free=leave_free, human_model=human_model)
         if leave_free is not None:
             if goals is not None or plans is not None:
                 raise UsageError("leave_free: goes with a known goal only")
             task = tidying(task, leave_free)
-        given: dict[str, Any] = {"mode": mode, "discount": discount, "human_model": human_model}
+        given: dict[str, Any] = {"discount": discount, "human_model": human_model}
         options = Options(**given, interference=interference)
         if told or plans is not None:
-            options = options.but(human_model="omniscient")
+            options = options.but(human_model="omniscient", mode=mode)
         self.task = task
         self.options = options
         self.events: list[dict[str, Any]] = []
         self._deadline = None if deadline is None else limit_of("deadline", deadline, "seconds")
-        self._world = World(task, options.discount, strict=options.strict)
+        world = WorldInTime if task.needs_time else World
+        self._world = world(task, options.discount, strict=options.strict)
         library = () if plans is None else plan_library(task, plans)
         candidates = [one.aim for one in library] if goals is None else candidate_goals(task, goals)
         if noise is not None and not candidates:
             raise UsageError("noise: goes with goals only")
         habits = [one.plan for one in library]
         beliefs = Beliefs(task, candidates, beta, noise) if candidates else None
-        self._robots: Robots = robots or RobotPolicy(
-            task, options, beliefs, told=told, surely=adapter is None, habits=habits
-        )
+        self._robots: Robots
+        if robots is not None:
+            self._robots = robots
+        elif task.needs_time:
+            self._robots = RobotsInTime(task, options, told=told, surely=adapter is None)
+        else:
+            self._robots = RobotPolicy(
+                task, options, beliefs, told=told, surely=adapter is None, habits=habits
+            )
         self.goal = None if library and not told else _name_of(task, candidates)
         self._adapter = adapter
-        self._failures: Counter[Order] = Counter()
+        self._failures: Counter[tuple[tuple[str, ...], str]] = Counter()
         self._reports: tuple[Reported, ...] = ()
         self._running: list[PlanStep] = []
         self._decided: Decided | None = None
@@ -163,14 +174,25 @@ class Execution(Tabular):
         return self._world.state
 
     @property
+    def now(self) -> Task:
+        """The task as it stands; in time with the rest of the script, and of what goes on."""
+        return self._world.now
+
+    @property
+    def going(self) -> tuple[PlanStep, ...]:
+        """What has begun and goes on in the epoch that is to come, with the epochs that are left."""
+        return self._world.going
+
+    @property
     def facts(self) -> tuple[str, ...]:
         """Names of the facts that are true."""
         return tuple(self.task.facts[fact] for fact in sorted(self._world.state))
 
     @property
     def done(self) -> bool:
-        """Whether the person's goal holds."""
-        return self.task.goal.holds(self._world.state)
+        """Whether the person's goal holds, and they are at nothing."""
+        busy = any(self.human in step.agents for step in self._world.going)
+        return not busy and self.task.goal.holds(self._world.state)
 
     @property
     def passed(self) -> tuple[Passed, ...]:
@@ -259,6 +281,7 @@ class Execution(Tabular):
             human_cost=float(self._paid),
             cost=float(self._team),
             done=self.done,
+            going=happened.going,
         )
         self._passed.append(passed)
         self.events.append(passed.to_dict())
@@ -288,7 +311,9 @@ class Execution(Tabular):
             if name not in self.task.agents or self.task.agents.index(name) == self.task.human:
                 known = ", ".join(self.task.agents[i] for i in self.task.robots)
                 raise UsageError(f"robot: expected one of {known}, got '{name}'")
-        self._robots.drop(self.task.agents.index(name) for name in names)
+        gone = [self.task.agents.index(name) for name in names]
+        self._robots.drop(gone)
+        self._world.drop(gone)
         self._running = [step for step in self._running if not set(step.agents).intersection(names)]
         self.events.append({"drop": names})
         self._decided = None
@@ -327,16 +352,16 @@ class Execution(Tabular):
         """What fails again and again is not counted on any more."""
         for missed in unfinished:
             if missed.why == "failed":
-                order = Order(missed.step.agents, missed.step.action)
+                order = missed.step.agents, missed.step.action
                 self._failures[order] += 1
                 if self._failures[order] == _TRIES:
-                    self._robots.unable(actions_named(self.task, order.action, order.agents))
+                    self._robots.unable(actions_named(self.task, missed.step.action, missed.step.agents))
 
     def _carry_out(self, his: int | None, steps: Sequence[PlanStep]) -> Sequence[Outcome]:
         if self._adapter is None:
             return ["done"] * len(steps)
         human = None if his is None else self.task.actions[his].name
-        orders = tuple(Order(step.agents, step.action) for step in steps)
+        orders = tuple(map(self._order, steps))
         reports = self._adapter.execute(Epoch(self.epoch, self._world.state, human, orders))
         if len(reports) != len(orders):
             raise UsageError(f"adapter: expected {len(orders)} reports, got {len(reports)}")
@@ -346,6 +371,10 @@ class Execution(Tabular):
         self._reports = tuple(Reported(*pair) for pair in zip(orders, reports, strict=True))
         return [report.outcome for report in reports]
 
+    def _order(self, step: PlanStep) -> Order:
+        action = self.task.actions[actions_named(self.task, step.action, step.agents)[0]]
+        return Order(step.agents, step.action, action.duration)
+
 
 def _require_alone(task: Task, goals: GoalsGiven | None, mode: str) -> None:
     """Raise UsageError where a library of plans goes with something else that it knows nothing of."""
@@ -353,6 +382,16 @@ def _require_alone(task: Task, goals: GoalsGiven | None, mode: str) -> None:
         raise UsageError("plans: go without goals, each plan can name its own")
     if task.robot_goal or mode != "serendipity":
         raise UsageError("plans: go without robots' own goals, and without communication")
+
+
+def _require_known(task: Task, **given: Any) -> None:
+    """Raise UsageError where something is asked for that is not known in time."""
+    if task.robot_goal:
+        raise UsageError("time: robots with goals of their own are not known here yet")
+    model = given.pop("human_model")
+    name = next((name for name, value in given.items() if value is not None), None)
+    if model == "local" or name is not None:
+        raise UsageError(f"{name or 'human_model local'}: in time, which is not known here yet")
 
 
 def _name_of(task: Task, candidates: Sequence[CandidateGoal]) -> str | None:

@@ -14,6 +14,7 @@ from search import PreparedTask
 from search.modes.simulation.human import Human
 from search.packed.operators import applicable
 from serendipity.model import Deadline, HumanPlan, InputError, Options, PlanStep, Task, UsageError
+from serendipity.model.arguments import TASK, expect
 from serendipity.model.rates import probability
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named
@@ -32,12 +33,14 @@ class Moment(NamedTuple):
         offers: joint actions that robots are ready for.
         planned: whether robots have a plan.
         wish: the name of what it has the person do, None: wait; only who is told of it may look.
+        now: in time, the task as it stands; None without.
     """
 
     state: frozenset[int]
     offers: tuple[PlanStep, ...]
     planned: bool
     wish: str | None
+    now: Task | None = None
 
 
 class Person(Protocol):
@@ -58,10 +61,11 @@ def moment_of(run: "Execution") -> Moment:
     """What a person has before them."""
     decided = run.decided
     name, wishes = run.goal or "", decided.wishes
+    now = run.now if run.task.needs_time else None
     if decided.goals:  # whose part is theirs is for them to know
-        return Moment(run.state, decided.offers, name in wishes, wishes.get(name))
+        return Moment(run.state, decided.offers, name in wishes, wishes.get(name), now)
     wish = None if decided.expected is None else decided.expected.action
-    return Moment(run.state, decided.offers, decided.plan is not None, wish)
+    return Moment(run.state, decided.offers, decided.plan is not None, wish, now)
 
 
 class Replanner:
@@ -83,6 +87,7 @@ class Replanner:
         prepared: PreparedTask | None = None,
         plan: HumanPlan = (),
     ) -> None:
+        expect(TASK, task=task)
         self._dice = dice
         self._human_model = human_model
         self._joint = [i for i, a in enumerate(task.actions) if a.joint and task.human in a.participants]
@@ -301,6 +306,8 @@ class Persona:
             drawn: whether that includes which of their optimal plans they follow.
             prepared: the task made ready, whose tables they go on with; None: it is made ready.
         """
+        if task.needs_time:
+            return self._in_time(task, dice, drawn=drawn)
         if self.name == "omniscient":
             return Omniscient(task)
         if self.name == "noisy":
@@ -308,6 +315,19 @@ class Persona:
         if self.name == "recorded":
             return Recorded(task, self.actions)
         return Replanner(task, self.name, dice if drawn else None, prepared)
+
+    def _in_time(self, task: Task, dice: Random, *, drawn: bool) -> Person:
+        from serendipity.execution.clock import persons  # only here: most tasks have no time
+
+        if self.name == "local":
+            raise UsageError("human: in time, 'local' is not known: what is noticed of what goes on")
+        if self.name == "omniscient":
+            return persons.Told(task)
+        if self.name == "noisy":
+            return persons.Unsteady(task, self.probability, dice, drawn=drawn)
+        if self.name == "recorded":
+            return persons.Record(task, self.actions)
+        return persons.Free(task, dice if drawn else None)
 
 
 def persona_from(task: Task, text: str) -> Persona:
@@ -330,6 +350,22 @@ def persona_from(task: Task, text: str) -> Persona:
     if name in ("omniscient", "observant", "local") and not rest:
         return Persona(name)
     raise UsageError(f"human: expected one of {', '.join(PERSONAS)}, got '{text:.50}'")
+
+
+def person_of(task: Task, text: str = "observant", dice: Random | None = None) -> Person:
+    """Somebody who acts as a text says, in a task with time or without.
+
+    Args:
+        task: where they begin; its goal is theirs.
+        text: as in ``PERSONAS``.
+        dice: draw which of their optimal plans they follow, and what they leave to chance; None: the
+            canonical ones, and dice of their own.
+
+    Raises:
+        UsageError: there is no such persona.
+        InputError: the file of ``recorded`` is wrong; it says where.
+    """
+    return persona_from(task, text).person(task, dice or Random(), drawn=dice is not None)
 
 
 def recorded_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:

@@ -18,13 +18,14 @@ from serendipity.execution.persons import Person, Persona, moment_of, persona_fr
 from serendipity.execution.robot_policy import RobotPolicy
 from serendipity.execution.runs import Run, Runs
 from serendipity.facade.planning import plan
-from serendipity.model import HumanModel, HumanPlan, PlanError, Task, UsageError
-from serendipity.model.arguments import FUNCTION, TASK, WHOLE, expect, expect_or_none
+from serendipity.model import HumanModel, HumanPlan, PlanError, Result, Task, UsageError
+from serendipity.model.arguments import FUNCTION, TASK_IN_TIME, WHOLE, expect, expect_or_none
 from serendipity.model.keywords import CHOICES, Interference, listing
 from serendipity.model.numbers import Number
 from serendipity.model.resources.processes import in_processes
-from serendipity.model.task.actions import apply
+from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.execution import variant_named
+from serendipity.model.task.passing import epoch_later
 from serendipity.recognition import GoalsGiven, LibraryGiven, Noise, plan_library
 from serendipity.robot import Durations
 
@@ -104,7 +105,7 @@ def execute(
         InputError: a file is wrong; it says where.
         PlanError: one of ``plans`` is not possible.
     """
-    expect(TASK, task=task)
+    expect(TASK_IN_TIME, task=task)
     expect(WHOLE, runs=runs, seed=seed, jobs=jobs)
     expect_or_none(WHOLE, epochs=epochs)
     expect_or_none(FUNCTION, on_progress=on_progress)
@@ -134,7 +135,7 @@ def execute(
         name=name,
         drawn=ties == "drawn",
         adapters=adapters,
-        epochs=epochs or 100 + 10 * len(alone.human_plan or ()),
+        epochs=epochs or 100 + 10 * _length(alone),
         alone=alone.human_cost,
         arguments={"human_model": model, "goals": goals, "plans": plans, "told": persona.told, **options},
     )
@@ -157,6 +158,12 @@ def _all_run(
         if on_progress is not None:
             on_progress(len(done), len(assignments))
     return sorted(done, key=lambda pair: pair[0].run)
+
+
+def _length(alone: Result) -> int:
+    """The length of a human plan in epochs."""
+    times = alone.human_plan_times
+    return len(alone.human_plan or ()) if times is None else times.epochs
 
 
 def _run(assignment: tuple["_Series", int, int]) -> _Finished:
@@ -216,7 +223,7 @@ class _Series:
         adapter, faults = self.adapters.adapter(task, luck), self.adapters.faults
         person = self.persona.person(task, dice, drawn=self.drawn, prepared=self._prepared)
         given = {**self.arguments, "adapter": adapter}
-        known = given["goals"] is None and given["plans"] is None
+        known = given["goals"] is None and given["plans"] is None and not task.needs_time
         if given.get("deadline") is not None and known:
             given |= {"setup": 0, "robots": self._ready.again()}
         run, spoilt = Execution(task, **given), 0
@@ -259,19 +266,23 @@ class _Series:
 
 def _spoils(run: Execution, person: Person) -> bool:
     """Play an epoch; whether it is robots who made what the person had in mind impossible."""
-    before = run.state
+    before = run.now
     passed = run.step(person.choose(moment_of(run)))
-    plan, task = person.plan, run.task
+    plan = person.plan
     own = [step for step in passed.steps if run.human in step.agents]
     if plan is None or any(len(step.agents) > 1 for step in own):
         return False
-    done = [task.actions[variant_named(task, step.action, step.agents, before)] for step in own]
-    return _works(task, plan, apply(before, *done)) and not _works(task, plan, run.state)
-
-
-def _works(task: Task, plan: HumanPlan, state: frozenset[int]) -> bool:
+    done = [before.actions[variant_named(before, step.action, step.agents, before.init)] for step in own]
     try:
-        task.at(state).variants_of(plan)
+        alone = epoch_later(before, done)
+    except BrokenPlanError:
+        return False
+    return _works(alone, plan) and not _works(run.now, plan)
+
+
+def _works(task: Task, plan: HumanPlan) -> bool:
+    try:
+        task.variants_of(plan)
     except PlanError:
         return False
     return True

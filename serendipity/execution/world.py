@@ -18,6 +18,7 @@ WHY: Final = {
     "refused": "the person did something else",
     "failed": "the robot did not manage",
     "running": "it takes longer",
+    "broken": "it could not go on",
 }
 """Why something that robots meant to do did not take place, in words."""
 
@@ -39,12 +40,14 @@ class Happened:
     """What took place in an epoch, by action ids.
 
     Attributes:
-        executed: the human's action first, if any.
-        unfinished: what robots meant to do and did not.
+        executed: the human's action first, if any; in time what began.
+        unfinished: what robots meant to do and did not; in time also what was broken off.
+        going: in time, what had begun before and went on.
     """
 
     executed: tuple[int, ...]
     unfinished: tuple[Unfinished, ...]
+    going: tuple[PlanStep, ...] = ()
 
 
 class World:
@@ -63,6 +66,16 @@ class World:
         self.state = task.init
         self._discount = discount
         self._strict = strict
+
+    @property
+    def now(self) -> Task:
+        """The task as it stands."""
+        return self.task.at(self.state)
+
+    @property
+    def going(self) -> tuple[PlanStep, ...]:
+        """What has begun and goes on: nothing, unless in time."""
+        return ()
 
     def his(self, name: str) -> int:
         """The human's own action of that name, in the variant that is applicable where one is.
@@ -123,6 +136,9 @@ class World:
             UsageError: there is no such fact.
         """
         self.state = fitted(Facts(self.task.facts).seen(self.state, facts), self.task.disjunctions)
+
+    def drop(self, robots: Iterable[int]) -> None:
+        """Robots, by agent ids, are out of order, and what they are at is broken off."""
 
     def cost(self, actions: Iterable[int]) -> tuple[Fraction, Fraction]:
         """What actions cost the human, undiscounted, and the team."""

@@ -18,10 +18,12 @@ class Order(NamedTuple):
     Attributes:
         agents: everybody who takes part, the person included where they do.
         action: its name.
+        epochs: that are planned for it.
     """
 
     agents: tuple[str, ...]
     action: str
+    epochs: int = 1
 
 
 class Epoch(NamedTuple):

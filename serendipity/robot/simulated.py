@@ -72,7 +72,7 @@ class Simulated:
 
     Args:
         dice: draw durations and failures.
-        durations: of actions.
+        durations: of actions; None: a second for each epoch that is planned.
         epoch: how many seconds an epoch is long.
         fail: the probability that an action fails, when its time is over.
         slow: the probability that an action takes one to three epochs longer.
@@ -93,7 +93,7 @@ class Simulated:
         if epoch <= 0:
             raise UsageError(f"epoch_seconds: expected more than 0, got {epoch:g}")
         self._dice = dice
-        self._durations = durations or Durations()
+        self._durations = durations
         self._epoch = epoch
         self._fail = fail
         self._slow = slow
@@ -110,7 +110,8 @@ class Simulated:
         """See :class:`serendipity.robot.Adapter`."""
 
     def _begin(self, order: Order) -> "_Deed":
-        seconds = self._durations.draw(order.action, self._dice)
+        planned = Durations(others=(order.epochs, order.epochs))
+        seconds = (self._durations or planned).draw(order.action, self._dice)
         if self._dice.random() < self._slow:
             seconds += self._epoch * self._dice.randint(1, _LONGEST)
         return _Deed(seconds, fails=self._dice.random() < self._fail)

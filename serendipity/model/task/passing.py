@@ -32,15 +32,21 @@ def epoch_later(task: Task, begun: Iterable[GroundAction], *, strict: bool = Fal
         tuple(replace(one, epoch=one.epoch - 1) for one in script.facts if one.epoch > 1),
         (
             *(replace(deed, epoch=deed.epoch - 1) for deed in script.deeds if deed.epoch > 1),
-            *(Deed(1, _doer(task, action), (_rest(action, epochs),)) for action, epochs in course.going),
+            *(Deed(1, doer(task, action), (_rest(action, epochs),)) for action, epochs in course.going),
         ),
         script.people,
     )
     return replace(moved, script=left, known_variables=moved.variables)
 
 
-def _doer(task: Task, action: GroundAction) -> int:
-    """Of those who take part the human, if they do."""
+def at_work(task: Task) -> frozenset[int]:
+    """Ids of those who can begin nothing in the epoch that is to come: they are at something, or will be."""
+    deeds = task.script.begun(1)
+    return frozenset(agent for deed in deeds for agent in deed.variants[0].participants)
+
+
+def doer(task: Task, action: GroundAction) -> int:
+    """Of those who take part in an action the human, if they do, else the first."""
     return task.human if task.human in action.participants else action.participants[0]
 
 

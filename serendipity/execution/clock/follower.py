@@ -1,0 +1,122 @@
+"""Somebody who follows a plan of their own, and looks up whenever they are free (semantics 6, 10.6)."""
+
+from collections.abc import Sequence
+from copy import copy
+from random import Random
+from typing import Self
+
+from serendipity.execution.clock.ways import Way, Ways
+from serendipity.model import Deadline, HumanPlan, PlanError, PlanStep, Task
+from serendipity.model.task.actions import NOOP
+from serendipity.model.task.course import BrokenPlanError
+from serendipity.model.task.execution import actions_named
+from serendipity.model.task.passing import at_work, epoch_later
+from serendipity.model.task.plans import TimedPlan
+
+Entries = list[tuple[int, str]]
+"""What somebody means to begin, and in which epochs from now."""
+
+
+class Follower:
+    """The rest of what the person means to do, epoch by epoch.
+
+    Args:
+        ways: what they could do alone.
+        dice: draw which of their optimal plans they follow; None: the canonical one.
+
+    Attributes:
+        rest: what they mean to do; None where nobody knows.
+    """
+
+    def __init__(self, ways: Ways, dice: Random | None = None) -> None:
+        self.rest: Entries | None = None
+        self._ways = ways
+        self._dice = dice
+
+    def copy(self) -> Self:
+        """Another one who means to do the same."""
+        return copy(self)
+
+    def look(self, now: Task, deadline: Deadline) -> Way | None:
+        """They look up: they keep their plan, or make another that is cheaper, or where theirs does not work.
+
+        Args:
+            now: the task as it stands; they are free.
+
+        Returns:
+            Their plan; None where they have none, and wait.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        best = self._ways.of(now, deadline)
+        kept = self._working(now)
+        if kept is not None and (best is None or now.cost_of(kept) <= best.cost):
+            return Way(kept, now.cost_of(kept))
+        if best is None:
+            self.rest = []
+            return None
+        plan = best.plan if self._dice is None else self._ways.drawn(now, self._dice)
+        self.rest = [*zip(now.starts_of(plan), (now.actions[i].name for i in plan), strict=True)]
+        return Way(plan, best.cost)
+
+    def choose(self, now: Task, offers: Sequence[PlanStep], deadline: Deadline) -> PlanStep | str | None:
+        """What they begin: an offer that pays as much as their own plan, what that says, or None to wait.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        if now.human in at_work(now):
+            return None
+        mine = self.look(now, deadline)
+        for offer in offers:
+            if self._accepts(now, offer, mine, deadline):
+                return offer
+        return self.next
+
+    @property
+    def next(self) -> str | None:
+        """What they mean to begin in the epoch that is to come."""
+        return next((name for epoch, name in self.rest or () if epoch == 1 and name != NOOP), None)
+
+    def passed(self, begun: str | None) -> None:
+        """An epoch is over, in which they began something alone, or nothing."""
+        if self.rest is None:
+            return
+        if begun != self.next:
+            self.rest = None
+        else:
+            self.rest = [(epoch - 1, name) for epoch, name in self.rest if epoch > 1]
+
+    def plan(self, task: Task) -> HumanPlan | None:
+        """What they mean to do, by the ids of a task, its epochs counted from now."""
+        rest = [(epoch, name) for epoch, name in self.rest or () if name in task.named]
+        if not rest:
+            return None
+        ids = [task.named[name][0] for _, name in rest]
+        end = rest[-1][0] + task.actions[ids[-1]].duration - 1
+        return TimedPlan(ids, [epoch for epoch, _ in rest], end)
+
+    def _working(self, now: Task) -> HumanPlan | None:
+        """What they mean to do, if it works."""
+        if self.rest is None:
+            return None
+        try:
+            return now.plan_from_names(self.rest)
+        except PlanError:
+            return None
+
+    def _accepts(self, now: Task, offer: PlanStep, mine: Way | None, deadline: Deadline) -> bool:
+        """Whether a joint action is as good as going on alone (semantics 6, step 2)."""
+        for action in (now.actions[i] for i in actions_named(now, offer.action, offer.agents)):
+            if not action.applicable(now.init):
+                continue
+            try:
+                later = epoch_later(now, [action])
+            except BrokenPlanError:
+                continue
+            if mine is None:
+                return True
+            left = self._ways.of(later, deadline)
+            return left is not None and action.cost + left.cost <= mine.cost
+        return False

@@ -1,0 +1,329 @@
+"""The robots' policy in time: what they begin in an epoch, while other things go on (semantics 10.6)."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import combinations
+from typing import Final
+
+from serendipity.execution.clock.follower import Follower
+from serendipity.execution.clock.ways import Way, Ways
+from serendipity.execution.clock.world import WorldInTime
+from serendipity.execution.decided import Decided, Outlook
+from serendipity.execution.history import HelpHistory
+from serendipity.execution.why import Why
+from serendipity.facade.session import Session
+from serendipity.model import INFINITE, Deadline, Options, PlanError, PlanStep, Task, UsageError, Window
+from serendipity.model.errors import LimitReachedError
+from serendipity.model.numbers import as_written, total
+from serendipity.model.task.actions import GroundAction
+from serendipity.model.task.course import BrokenPlanError
+from serendipity.model.task.execution import actions_named, variant_named
+from serendipity.model.task.passing import at_work, epoch_later
+
+_TIME_TO_PLAN: Final = 0.6
+"""The share of the time for plans; the rest is for what they mean for somebody who is not told."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Help:
+    """A plan that pays, from the epoch that is to come.
+
+    Attributes:
+        plan: what everybody does.
+        window: where the person is met, as far as it says so.
+        cost: what it costs the team, or, beside somebody who is not told, what it will come to.
+        proved: whether nothing is better.
+    """
+
+    plan: tuple[PlanStep, ...]
+    window: Window | None
+    cost: Fraction
+    proved: bool
+
+
+class RobotsInTime:
+    """Plans anew in each epoch, and leaves alone what the person may need.
+
+    Beside somebody who is told, robots follow the best plan of their mode, or finish the last one.  Somebody
+    else is taken to follow a plan of their own, and to look up when they are free.  For them robots do what
+    the best plan says, if it pays with such a person, and whatever they begin makes no way dearer that the
+    person may be on.
+
+    Args:
+        told: the person keeps to the robots' plan.
+        surely: whether robots manage whatever is possible.
+    """
+
+    goals: Mapping[str, float] = {}
+
+    def __init__(self, task: Task, options: Options, *, told: bool, surely: bool = True) -> None:
+        self._task = task
+        self._options = options
+        self._told = told
+        self._surely = surely
+        self._ways = Ways(options)
+        self._theirs = Follower(self._ways)
+        self._history = HelpHistory(task)
+        self._session: Session | None = None
+        self._gone: frozenset[int] = frozenset()
+        self._unable: frozenset[int] = frozenset()
+        self._human = task.agents[task.human]
+
+    # -- what robots learn
+
+    def saw(self, own: int | None, executed: Sequence[int], tried: int | None = None) -> None:
+        """See :class:`serendipity.execution.Robots`."""
+        self._history.saw(executed)
+        actions = self._task.actions
+        self._theirs.passed(None if own is None else actions[own].name)
+        joined = any(self._task.human in actions[i].participants for i in executed if i != own)
+        if tried is not None or joined:
+            self._theirs.rest = None
+        if self._session is not None:
+            try:
+                self._session.execute([actions[i].name for i in executed])
+            except UsageError:
+                self._session = None  # something did not go on
+
+    def surprised(self) -> None:
+        """See :class:`serendipity.execution.Robots`."""
+        self._history.broken("changed")
+
+    def drop(self, robots: Iterable[int]) -> None:
+        """See :class:`serendipity.execution.Robots`."""
+        gone = frozenset(robots)
+        self._history.broken("out-of-order", ", ".join(self._task.agents[i] for i in sorted(gone)))
+        self._gone |= gone
+        self._session = None
+
+    def unable(self, actions: Iterable[int]) -> None:
+        """See :class:`serendipity.execution.Robots`."""
+        self._unable |= frozenset(actions)
+        self._session = None
+
+    # -- what they decide
+
+    def decide(self, outlook: Outlook, deadline: Deadline) -> Decided:
+        """See :class:`serendipity.execution.Robots`."""
+        return self._history.told(self._decided(outlook, deadline), outlook.running)
+
+    def _decided(self, outlook: Outlook, deadline: Deadline) -> Decided:
+        now, going = self._able(outlook.world.now), outlook.world.going
+        robots = [step for step in going if self._human not in step.agents]
+        if self._gone.issuperset(self._task.robots):
+            gone = tuple(self._task.agents[i] for i in sorted(self._gone))
+            return self._idle(outlook, Why("out-of-order", robots=gone), robots)
+        alone = self._ways.of(now, deadline)
+        if alone is not None and not alone.plan and now.human not in at_work(now):
+            return self._idle(outlook, Why("no-help"), robots)  # they have what they want
+        if now.human not in at_work(now):
+            self._theirs.look(now, deadline)
+        found = self._best(now, alone, deadline.sooner(_TIME_TO_PLAN))
+        if found is None:
+            why = self._none_pays(alone)
+            return self._idle(outlook, why, robots)
+        if not self._told:
+            found, why = self._safe(now, found, alone, deadline)
+            if found is None:
+                return self._idle(outlook, why, robots)
+        return self._following(outlook, now, found, alone, robots, deadline)
+
+    def _able(self, now: Task) -> Task:
+        """The task as it stands, without what robots can't do any more."""
+        gone, actions = self._gone, now.actions
+        kept = tuple(
+            a for i, a in enumerate(actions) if i not in self._unable and gone.isdisjoint(a.participants)
+        )
+        if len(kept) == len(actions):
+            return now
+        return replace(now, actions=kept, known_variables=now.variables)
+
+    def _asked(self, now: Task) -> Session:
+        """The session where things stand."""
+        session = self._session
+        if session is None or (session.task.init, session.task.script) != (now.init, now.script):
+            options = self._options
+            session = self._session = Session(
+                now,
+                mode=options.mode,
+                discount=options.discount,
+                interference=options.interference,
+                window_weight=options.window_weight,
+            )
+        known = self._theirs.rest
+        try:
+            working = None if known is None else session.task.plan_from_names(known)
+        except PlanError:
+            working = None
+        session.follow(known if working else None)
+        return session
+
+    def _best(self, now: Task, alone: Way | None, deadline: Deadline) -> _Help | None:
+        """The best plan of the mode that pays, or the rest of the last one; None where none does.
+
+        Raises:
+            LimitReachedError: the deadline came before it was known.
+        """
+        session = self._asked(now)
+        rest = self._rest(session, alone)
+        if alone is None:
+            answer = session.plan(mode="composite", horizon=INFINITE, deadline=deadline)
+        else:
+            answer = session.plan(deadline=deadline)
+        if answer.plan is None or (alone is not None and not answer.opportunity):
+            if rest is None and answer.status not in ("optimal", "infeasible"):
+                raise LimitReachedError("time-limit")
+            return rest
+        cost = total(as_written(step.cost) for step in answer.plan)
+        if rest is not None and rest.cost <= cost:
+            return replace(rest, proved=answer.status == "optimal")
+        return _Help(answer.plan, answer.window, cost, answer.status == "optimal")
+
+    def _rest(self, session: Session, alone: Way | None) -> _Help | None:
+        """What is left of the last plan, if robots have a part in it and it still pays."""
+        steps = session.rest
+        if not steps or all(step.agents == (self._human,) for step in steps):
+            return None
+        cost = total(as_written(step.cost) for step in steps)
+        return _Help(steps, None, cost, proved=False) if alone is None or cost < alone.cost else None
+
+    def _none_pays(self, alone: Way | None) -> Why:
+        if alone is None:
+            return Why("out-of-reach")
+        return Why("done" if self._history.helped else "no-help", float(alone.cost), float(alone.cost))
+
+    # -- beside somebody who is not told
+
+    def _safe(
+        self, now: Task, found: _Help, alone: Way | None, deadline: Deadline
+    ) -> tuple[_Help | None, Why]:
+        """The plan as it will come out with such a person; None, and why, where it does not pay or spoils."""
+        cost, before = found.cost, None if alone is None else alone.cost
+        will_be = self._outcome(now, found.plan, deadline)
+        figures = float(cost), None if before is None else float(before)
+        if will_be is None or (before is not None and will_be >= before):
+            return None, Why("untold" if before is not None else "only-told", *figures)
+        first = [step for step in found.plan if step.epoch == 1]
+        robots = [self._variant(now, step) for step in first if self._human not in step.agents]
+        offers = [self._variant(now, s) for s in first if self._human in s.agents and len(s.agents) > 1]
+        if robots and before is not None and self._spoils(now, robots, offers, before, deadline):
+            return None, Why("spoils", *figures)
+        return replace(found, cost=will_be, window=None, proved=False), Why("pays", *figures)
+
+    def _outcome(self, now: Task, plan: Sequence[PlanStep], deadline: Deadline) -> Fraction | None:
+        """What the team will pay if robots do their part of a plan, as far as that goes; None: no end."""
+        world = WorldInTime(now, self._options.discount, strict=self._options.strict)
+        person, spent = self._theirs.copy(), Fraction(0)
+        for epoch in range(1, max(step.epoch for step in plan) + 1):
+            steps = [step for step in plan if step.epoch == epoch]
+            offers = [s for s in steps if self._human in s.agents and len(s.agents) > 1]
+            robots = [step for step in steps if self._human not in step.agents]
+            choice = person.choose(world.now, offers, deadline)
+            taken = [choice] if isinstance(choice, PlanStep) else []
+            own = world.his(choice) if isinstance(choice, str) else None
+            if own is not None and not world.applicable(own):
+                own = None
+            happened = world.play(own, [*taken, *robots], lambda asked: ["done"] * len(asked))
+            person.passed(None if own is None else now.actions[own].name)
+            if taken:
+                person.rest = None
+            spent += world.cost(happened.executed)[1]
+        left = self._ways.of(world.now, deadline)
+        return None if left is None else spent + left.cost
+
+    def _spoils(
+        self,
+        now: Task,
+        robots: Sequence[GroundAction],
+        offers: Sequence[GroundAction],
+        least: Fraction,
+        deadline: Deadline,
+    ) -> bool:
+        """Whether what robots begin may make a way dearer that the person is on, whichever it is."""
+        sizes = (len(robots),) if self._surely else range(1, len(robots) + 1)
+        teams = [team for size in sizes for team in combinations(robots, size)]
+        for own in self._next_steps(now, offers):
+            try:
+                left = self._ways.of(epoch_later(now, own, strict=self._options.strict), deadline)
+            except BrokenPlanError:
+                continue
+            if left is None or sum((a.cost for a in own), left.cost) > least:
+                continue
+            if any(self._worse(now, [*own, *team], left, deadline) for team in teams):
+                return True
+        return False
+
+    def _next_steps(self, now: Task, offers: Sequence[GroundAction]) -> Iterable[Sequence[GroundAction]]:
+        """What the person may do in the epoch that is to come: go on or wait, or begin something."""
+        yield ()
+        if now.human not in at_work(now):
+            own = (now.actions[i] for i in now.human_actions)
+            yield from ([action] for action in (*own, *offers) if action.applicable(now.init))
+
+    def _worse(self, now: Task, begun: Sequence[GroundAction], left: Way, deadline: Deadline) -> bool:
+        try:
+            then = self._ways.of(epoch_later(now, begun, strict=self._options.strict), deadline)
+        except BrokenPlanError:
+            return True
+        return then is None or then.cost > left.cost
+
+    def _variant(self, now: Task, step: PlanStep) -> GroundAction:
+        return now.actions[variant_named(now, step.action, step.agents, now.init)]
+
+    # -- in words
+
+    def _following(
+        self,
+        outlook: Outlook,
+        now: Task,
+        found: _Help,
+        alone: Way | None,
+        robots: Sequence[PlanStep],
+        deadline: Deadline,
+    ) -> Decided:
+        """A decision that follows a plan that pays."""
+        first = [replace(step, epoch=outlook.epoch) for step in found.plan if step.epoch == 1]
+        own = tuple(step for step in first if self._human not in step.agents)
+        offers = tuple(step for step in first if self._human in step.agents and len(step.agents) > 1)
+        his = next((step for step in first if self._human in step.agents), None)
+        if not self._told:
+            his = self._expected(now, offers, deadline)
+        cost, before = float(found.cost), None if alone is None else float(alone.cost)
+        later = min((s.epoch for s in found.plan if s.agents != (self._human,)), default=None)
+        verdict, why = "helps", Why("pays" if alone is not None else "only-way", cost, before)
+        if not (own or offers):
+            if robots:
+                why = Why("goes-on", action=robots[0].action)
+            elif later is None:
+                verdict, why = "aside", self._none_pays(alone)
+            else:
+                verdict, why = "waits", Why("later", cost, before, epoch=outlook.epoch + later - 1)
+        return Decided(
+            outlook.epoch,
+            verdict,
+            "",
+            actions=own,
+            offers=offers,
+            expected=None if his is None else replace(his, epoch=1),
+            plan=found.plan,
+            window=found.window,
+            cost=cost,
+            alone=before,
+            proved=found.proved,
+            because=why,
+        )
+
+    def _expected(self, now: Task, offers: Sequence[PlanStep], deadline: Deadline) -> PlanStep | None:
+        """What the person is going to begin, as robots take them to be."""
+        choice = self._theirs.copy().choose(now, offers, deadline)
+        if not isinstance(choice, str):
+            return choice
+        action = now.actions[actions_named(now, choice, [self._human])[0]]
+        return PlanStep(1, (self._human,), choice, float(action.cost), action.duration)
+
+    def _idle(self, outlook: Outlook, why: Why, robots: Sequence[PlanStep]) -> Decided:
+        """No plan: at most something goes on."""
+        if robots:
+            return Decided(outlook.epoch, "helps", "", because=Why("goes-on", action=robots[0].action))
+        return Decided(outlook.epoch, "aside", "", because=why)

@@ -1,0 +1,72 @@
+"""What the person pays alone from where things stand, in time; kept, as moments are looked at often."""
+
+from collections.abc import Hashable
+from fractions import Fraction
+from itertools import islice
+from random import Random
+from typing import Final, NamedTuple
+
+from search import PreparedTask, optimal_plans_in_time
+from serendipity.facade.planning import planned
+from serendipity.model import Deadline, HumanPlan, Options, Task
+from serendipity.model.errors import LimitReachedError
+from serendipity.model.task.script import Deed, TimedFact
+from serendipity.model.task.unit_steps import unit_steps
+
+_MOST: Final = 4_096
+"""Moments that are remembered."""
+
+_DRAWN: Final = 100
+"""Of so many optimal plans one is drawn."""
+
+
+class Way(NamedTuple):
+    """A plan of the person alone, its epochs counted from now, and what it costs."""
+
+    plan: HumanPlan
+    cost: Fraction
+
+
+class Ways:
+    """The person's optimal plans alone, beside what goes on and the script.
+
+    Args:
+        interference: which actions may share an epoch.
+    """
+
+    def __init__(self, options: Options) -> None:
+        self._options = Options(mode="individual", interference=options.interference)
+        self._known: dict[Hashable, Way | None] = {}
+
+    def of(self, now: Task, deadline: Deadline) -> Way | None:
+        """The canonical one; None where they have no plan.
+
+        Raises:
+            LimitReachedError: the deadline came first.
+        """
+        key: tuple[frozenset[int], tuple[TimedFact, ...], tuple[Deed, ...]]
+        key = now.init, now.script.facts, now.script.deeds
+        if key not in self._known:
+            found = self._found(now, deadline)
+            if len(self._known) >= _MOST:
+                self._known.clear()
+            self._known[key] = found
+        return self._known[key]
+
+    def _found(self, now: Task, deadline: Deadline) -> Way | None:
+        interference = self._options.interference
+        answer = planned(
+            PreparedTask(now), None, None, mode="individual", interference=interference, deadline=deadline
+        )
+        if answer.status not in ("optimal", "infeasible"):
+            raise LimitReachedError("time-limit")
+        if answer.human_plan is None or answer.human_entries is None:
+            return None
+        plan = now.plan_from_names(answer.human_entries)
+        return Way(plan, now.cost_of(plan))
+
+    def drawn(self, now: Task, dice: Random) -> HumanPlan:
+        """One of their optimal plans, of which there are some."""
+        units = unit_steps(now)
+        found = optimal_plans_in_time(PreparedTask(units.task), Deadline(), self._options)
+        return dice.choice([units.begun(plan) for plan in islice(found, _DRAWN)])

@@ -1,0 +1,236 @@
+"""Executions in time: actions go on, a script goes by, and nobody pays for help (semantics 10.6)."""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import serendipity
+from serendipity.execution import Execution, log_lines, moment_of, person_of, replay
+from serendipity.model import Condition, Script, Task, UsageError
+from serendipity.robot import Epoch, Report, Simulated
+from serendipity.testing.builders import Builder
+from serendipity.testing.oracle import human_plans
+from serendipity.testing.strategies.time import tasks_in_time
+from tests.execution.living import as_lines, lived, verdicts
+
+DISCOUNTS = st.sampled_from(["0", "0.5", "0.9", "1"])
+SEEDS = st.integers(0, 2**32)
+
+
+def _without_robot_goals(task: Task) -> Task:
+    return task.with_goal(task.goal, Condition())
+
+
+def _arrives(task: Task, run: Execution, human: str = "observant", dice: Random | None = None) -> None:
+    """Go on to the goal; nobody pays more than alone, and no bystander is disturbed."""
+    plan = next(human_plans(task), None)
+    lived(run, person_of(task, human, dice))
+    if plan is None:
+        return
+    assert run.done and run.human_cost <= task.cost_of(plan)
+    assert not any(missed.why == "broken" for passed in run.passed for missed in passed.unfinished)
+    if human == "omniscient":
+        assert run.cost <= task.cost_of(plan)
+
+
+@pytest.mark.long
+@given(tasks_in_time(), DISCOUNTS)
+def test_who_follows_the_plan_that_robots_expect_never_pays_more(task: Task, discount: str) -> None:
+    task = _without_robot_goals(task)
+    _arrives(task, Execution(task, discount=discount))
+
+
+@pytest.mark.long
+@given(tasks_in_time(), DISCOUNTS, SEEDS)
+def test_who_follows_any_optimal_plan_never_pays_more(task: Task, discount: str, seed: int) -> None:
+    task = _without_robot_goals(task)
+    _arrives(task, Execution(task, discount=discount), dice=Random(seed))
+
+
+@pytest.mark.long
+@given(tasks_in_time(), DISCOUNTS)
+def test_who_is_told_and_the_team_never_pay_more(task: Task, discount: str) -> None:
+    task = _without_robot_goals(task)
+    _arrives(task, Execution(task, discount=discount, told=True), "omniscient")
+
+
+@pytest.mark.long
+@given(tasks_in_time(), DISCOUNTS, SEEDS)
+def test_a_log_of_robots_that_fail_replays(task: Task, discount: str, seed: int) -> None:
+    task, dice = _without_robot_goals(task), Random(seed)
+    run = Execution(task, discount=discount, adapter=Simulated(dice, fail=0.3, slow=0.3))
+    person = person_of(task, "noisy:0.2", dice)
+    for epoch in range(6):
+        run.step(person.choose(moment_of(run)))
+        if epoch == 3:
+            run.drop([task.agents[task.robots[0]]])
+    again = replay(task, as_lines(run))
+    assert (again.state, again.cost, again.human_cost) == (run.state, run.cost, run.human_cost)
+
+
+@pytest.mark.parametrize("human", ["observant", "omniscient"])
+@pytest.mark.parametrize(("name", "team", "hers"), [("morning", 35, 28), ("office", 30, 26)])
+def test_the_days_of_the_guide_happen(name: str, team: int, hers: int, human: str) -> None:
+    runs = serendipity.execute(serendipity.example(name), human, discount="0.5")
+    (row,) = runs.rows
+    assert (row.reached, row.cost, row.human_cost, row.spoilt) == (True, team, hers, 0)
+    told = "\n".join(runs.story())
+    assert "goes on with" in told and "helps:" in told
+
+
+def _two_days() -> Builder:
+    """Ann needs a box that she may carry up in 4 epochs, or that a robot brings within 3."""
+    made = Builder(("ann", "bot", "carol"))
+    made.named("carry ann", (0,), "below free / below / ", "above !below", "4", 4)
+    made.named("bring bot", (1,), "below free / free / free", "above !below", "2", 3)
+    made.named("rest ann", (0,), "", "rested", "0")
+    made.named("block ann", (0,), "free", "!free", "0")
+    made.named("sweep carol", (2,), "free / free /", "clean", "1", 3)
+    made.named("leave carol", (2,), "clean", "gone", "1")
+    return made
+
+
+def _box(script: Script | None = None) -> Task:
+    built = _two_days().task("below free", "above")
+    return built if script is None else built.with_script(script)
+
+
+class _Reporting:
+    """Robots that report, epoch by epoch, what they are told to."""
+
+    def __init__(self, outcomes: Sequence[str]) -> None:
+        self.outcomes = list(outcomes)
+        self.asked: list[tuple[str, int]] = []
+
+    def execute(self, epoch: Epoch) -> list[Report]:
+        if not epoch.orders:
+            return []
+        (order,) = epoch.orders
+        self.asked.append((order.action, order.epochs))
+        return [Report(self.outcomes.pop(0))]  # type: ignore[arg-type]
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+
+def _brought(adapter: _Reporting | None = None) -> Execution:
+    """A run in which the robot brings the box, and Ann is told so."""
+    return Execution(_box(), discount="0.5", told=True, mode="communication", adapter=adapter)
+
+
+def _to_the_end(run: Execution) -> Execution:
+    while not run.done and run.epoch < 20:
+        run.step(None)
+    return run
+
+
+def test_an_action_ends_when_its_time_is_over() -> None:
+    run = _to_the_end(_brought())
+    assert len(run.passed) == 3 and (run.human_cost, run.cost) == (0, 1)
+    assert [passed.going[0].duration for passed in run.passed[1:]] == [2, 1]
+    assert verdicts(run) == ["helps"] * 3
+
+
+def test_who_is_late_ends_later() -> None:
+    adapter = _Reporting(["running", "running", "running", "running", "done"])
+    run = _to_the_end(_brought(adapter))
+    assert len(run.passed) == 5 and adapter.asked == [("bring bot", 3)] * 5
+    assert [missed.why for passed in run.passed for missed in passed.unfinished] == ["running"] * 2
+
+
+def test_who_is_early_waits_for_the_end() -> None:
+    adapter = _Reporting(["done"])
+    run = _to_the_end(_brought(adapter))
+    assert len(run.passed) == 3
+
+
+def test_what_fails_has_no_more_effect_and_robots_begin_again() -> None:
+    adapter = _Reporting(["running", "failed", "running", "running", "done"])
+    run = _to_the_end(_brought(adapter))
+    assert len(run.passed) == 5 and run.cost == 2
+
+
+def test_what_the_person_makes_impossible_is_broken_off() -> None:
+    run = _brought()
+    run.step(None)
+    run.step("block ann")
+    run.step(None)
+    assert [missed.why for missed in run.passed[-1].unfinished] == ["broken"]
+    assert "above" not in run.facts and not run.going
+    assert "could not go on" in "\n".join(run.passed[-1].lines("ann"))
+
+
+def test_the_person_is_not_asked_while_they_are_at_something() -> None:
+    run = Execution(_box(), discount="0", told=False)
+    run.drop(["bot", "carol"])
+    run.step("carry ann")
+    assert run.possible() == () and run.step("rest ann").in_vain
+    person = person_of(run.task)
+    assert person.choose(moment_of(run)) is None
+    assert "goes on with carry ann" in "\n".join(run.passed[-1].lines("ann")) or run.passed[-1].in_vain
+
+
+def test_nobody_gets_in_the_way_of_a_bystander() -> None:
+    run = Execution(_box(Script(people={"carol": [(2, "sweep carol"), (5, "leave carol")]})), told=True)
+    assert "block ann" in run.possible()
+    run.step("rest ann")
+    run.step("rest ann")
+    assert run.step("block ann").unfinished == ()  # she does it after she has looked
+    assert "gone" not in run.facts
+
+
+def test_a_robot_that_drops_out_leaves_what_it_is_at() -> None:
+    run = _brought()
+    run.step(None)
+    run.drop(["bot"])
+    for _ in range(3):
+        run.step(None)
+    assert "above" not in run.facts
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"goals": [{"name": "up", "goal": ["above"]}]},
+        {"plans": [{"plan": ["carry ann"], "probability": 1}]},
+        {"leave_free": "free"},
+        {"human_model": "local"},
+    ],
+    ids=lambda asked: next(iter(asked)),
+)
+def test_what_is_not_known_in_time_is_refused(asked: dict[str, object]) -> None:
+    with pytest.raises(UsageError, match="in time"):
+        Execution(_box(), **asked)  # type: ignore[arg-type]
+    with pytest.raises(UsageError):
+        person_of(_box(), "local")
+
+
+def test_robots_with_goals_of_their_own_are_refused() -> None:
+    with pytest.raises(UsageError, match="goals of their own"):
+        Execution(_box().with_goal(_box().goal, _box().goal))
+
+
+def test_records_and_strays(tmp_path: Path) -> None:
+    record = tmp_path / "ann.plan"
+    record.write_text("noop\nrest ann\ncarry ann\n")
+    runs = serendipity.execute(_box(), f"recorded:{record}", discount="0")
+    assert runs.rows[0].reached
+    strays = serendipity.execute(
+        _box(), "noisy:0.5", runs=5, ties="drawn", faults="fail=0.2,slow=0.2", jobs=2
+    )
+    again = serendipity.execute(_box(), "noisy:0.5", runs=5, ties="drawn", faults="fail=0.2,slow=0.2")
+    assert [(row.cost, row.epochs) for row in strays.rows] == [(row.cost, row.epochs) for row in again.rows]
+
+
+def test_a_log_names_what_goes_on() -> None:
+    run = _brought()
+    run.step(None)
+    run.step(None)
+    lines = json.loads(json.dumps(list(log_lines(run))))
+    assert [step["action"] for step in lines[2]["going"]] == ["bring bot"]
+    assert "going" not in lines[1]
