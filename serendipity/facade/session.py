@@ -14,14 +14,13 @@ from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned,
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_plan, named_steps
 from serendipity.model import HumanPlan, InputError, Options, PlanError, PlanStep, Result, Task, UsageError
-from serendipity.model.arguments import BY_NAME, TASK, TASK_IN_TIME, expect
+from serendipity.model.arguments import BY_NAME, TASK_IN_TIME, expect
 from serendipity.model.keywords import listing
 from serendipity.model.schemas import schema_fault
 from serendipity.model.task.actions import NOOP, GroundAction, apply, conflicting
 from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.facts import Facts
-from serendipity.model.task.gate import refuse_time
-from serendipity.model.task.passing import epoch_later
+from serendipity.model.task.passing import epoch_later, going_on, taken_up
 from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries
 from serendipity.model.task.plans_in_time import times_of
 from serendipity.model.task.task import canonical_name, several
@@ -61,6 +60,8 @@ class Session:
         """Whether it is not the caller who has said so."""
         self._is_outdated = False
         """Whether it is known not to be what a human would do who looks up."""
+        self._passed = 0
+        """Epochs that are over."""
         self._cancelled = threading.Event()
         self._memory = SessionMemory()
 
@@ -110,18 +111,21 @@ class Session:
         """Where it stands, as a JSON object: schema ``serendipity.session/1``, for :meth:`restore`.
 
         Raises:
-            UsageError: in time, or where what the human sees is a function.
+            UsageError: what the human sees is a function.
         """
         other = self._options.keys() - Options.__dataclass_fields__.keys()
         if other:
             raise UsageError(f"snapshot: {min(other)} is no plain value; give it to each call")
         task, chosen = self.task, options_from(dict(self._options))
-        refuse_time(task, options=chosen, plan=self._human_plan)
-        asked = chosen.to_dict()
+        asked, begun = chosen.to_dict(), self._begun
+        time = {}
+        if begun.needs_time:
+            time = {"time": {"passed": self._passed, "going": going_on(begun, self._passed, task)}}
         return {
             "schema": SNAPSHOT,
-            "task": self._begun.digest,
-            "options": {name: asked[name] for name in self._options},
+            "task": begun.digest,
+            **time,
+            "options": {name: asked[name] for name in self._options if name in asked},
             "facts": [task.facts[fact] for fact in sorted(task.init)],
             "goal": list(task.goal.literals(task.facts)),
             "human_plan": None if self.human_plan is None else list(self.human_plan),
@@ -141,7 +145,7 @@ class Session:
         Raises:
             InputError: the snapshot is of another task, or none.
         """
-        expect(TASK, task=task)
+        expect(TASK_IN_TIME, task=task)
         expect(BY_NAME, snapshot=snapshot)
         if fault := schema_fault(snapshot.get("schema"), SNAPSHOT):
             raise InputError(f"snapshot: {fault}")
@@ -149,7 +153,9 @@ class Session:
             raise InputError("snapshot: it is of another task")
         try:
             asked: dict[str, Any] = {**snapshot["options"], **options}
-            session, true = cls(task, **asked), frozenset(snapshot["facts"])
+            time, true = snapshot.get("time", {"passed": 0, "going": ()}), frozenset(snapshot["facts"])
+            session = cls(taken_up(task, time["passed"], time["going"]) if task.needs_time else task, **asked)
+            session._begun, session._passed = task, time["passed"]
             session.set_goal(snapshot["goal"])
             session.change({fact: fact in true for fact in task.facts})
             session.follow(snapshot["human_plan"])
@@ -270,6 +276,7 @@ class Session:
 
     def _move(self, now: PreparedTask, *, epochs: int) -> None:
         before, self._prepared = self.task, now
+        self._passed += epochs
         self._memory.moved(before, self.task, epochs=epochs)
 
     def _follow(self, his: list[GroundAction]) -> None:

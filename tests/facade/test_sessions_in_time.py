@@ -1,5 +1,6 @@
 """A session in time: each moment is a task of its own, and is asked about as such."""
 
+import json
 from dataclasses import replace
 from random import Random
 from typing import Final
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity import PlanError, Result, Script, Session, Task, UsageError
+from serendipity.model import Condition
 from serendipity.testing.builders import task
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
@@ -181,3 +183,37 @@ def test_what_takes_effect_at_other_times_shares_an_epoch() -> None:
     session.execute(["walk h", "rest r"])
     with pytest.raises(UsageError, match=r"epoch: .*change the same fact"):
         session.execute(["rest r"])
+
+
+@pytest.mark.long
+@given(calls_in_time(modes=("serendipity", "composite")), st.randoms(use_true_random=False))
+def test_a_restored_session_goes_on_in_the_middle_of_actions(call: Call, dice: Random) -> None:
+    changes = {"head_start": 0, "waiting_cost": 0, "horizon": None}
+    options = {**call.keywords(), **changes}
+    options.pop("human_plan", None)
+    begun = call.task.with_goal(call.task.goal, Condition())
+    session = Session(begun, **options)
+    for _ in range(4):
+        answer = session.plan()
+        own = [name for name in now(answer) if dice.random() < 0.8]
+        try:
+            session.execute(own)
+        except UsageError:
+            return  # without the others it is not possible
+        other = Session.restore(replace(begun), json.loads(json.dumps(session.snapshot())))
+        assert (other.task.init, other.task.script) == (session.task.init, session.task.script)
+        assert (other.human_plan, other.rest or ()) == (session.human_plan, session.rest or ())
+        one, again = session.plan(), other.plan()
+        assert [getattr(one, name) for name in _FIGURES] == [getattr(again, name) for name in _FIGURES]
+
+
+def test_what_is_no_snapshot_in_time_is_refused() -> None:
+    session = Session(serendipity.example("morning"))
+    session.execute([])
+    whole = session.snapshot()
+    wrong = ({"passed": 1}, {"passed": "x", "going": []}, {"passed": 1, "going": [{}]}, 3)
+    for bad in wrong:
+        with pytest.raises(serendipity.InputError, match="snapshot: expected"):
+            Session.restore(serendipity.example("morning"), {**whole, "time": bad})
+    with pytest.raises(serendipity.InputError, match="another task"):
+        Session.restore(serendipity.example("morning").with_script(Script(facts=[(3, "coffee")])), whole)

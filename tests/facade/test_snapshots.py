@@ -7,7 +7,6 @@ import pytest
 
 import serendipity
 from serendipity import InputError, Session, UsageError
-from serendipity.model import Script
 from serendipity.testing.builders import task as build
 
 
@@ -71,5 +70,3 @@ def test_what_can_not_be_written_is_refused() -> None:
     task = build(goal="done", actions={"do h": "-> done", "help r": "-> done"})
     with pytest.raises(UsageError, match="snapshot: visible is no plain value"):
         Session(task, visible=lambda *_: True).snapshot()
-    with pytest.raises(UsageError, match="time: the task has a script"):
-        Session(task.with_script(Script(facts=[(2, "done")]))).snapshot()

@@ -22,7 +22,6 @@ def plain() -> Task:
 
 
 CALLS: dict[str, Callable[[Task], Any]] = {
-    "execute": lambda one: serendipity.execute(one),
     "recognise": lambda one: serendipity.recognise(one, [{"name": "g", "goal": ["done"]}]),
     "solve": lambda one: solve(one, Options()),
 }

@@ -121,3 +121,30 @@ def test_a_session_goes_on_as_one_of_the_library(server: Server) -> None:
     assert facts(last) == facts(ours.plan(mode="composite").to_dict())
     assert server.client.delete(path).status_code == 204
     assert server.client.get(path).status_code == 404
+
+
+@pytest.mark.long
+def test_a_session_in_time_goes_on_by_what_begins(server: Server) -> None:
+    task, options = {"example": "morning"}, {"discount": 0.5}
+    session = serendipity.Session(serendipity.example("morning"), **options)
+    begun = server.post("/sessions", {"task": task, "options": options}).json()
+    for epoch in range(1, 8):
+        path = f"/sessions/{begun['id']}"
+        answer, own = server.post(f"{path}/plan", {}).json(), session.plan()
+        assert (answer["cost"], answer["human_plan"]) == (own.cost, list(own.human_plan or ()))
+        now = [step.action for step in own.plan or () if step.epoch == 1]
+        session.execute(now)
+        moved = server.post(f"{path}/execute?snapshot=true", {"actions": now}).json()
+        assert moved["time"]["passed"] == epoch
+        if epoch % 3 == 0:
+            begun = server.post("/sessions", {"snapshot": moved["snapshot"]}).json()
+            assert {**begun, "id": ""} == {name: moved[name] for name in begun} | {"id": ""}
+    assert [one["action"] for one in moved["time"]["going"]] == []
+
+
+def test_a_plan_with_times(server: Server) -> None:
+    plan = [[epoch, name] for epoch, name in serendipity.plan(serendipity.example("morning")).human_entries]
+    asked = {"task": {"example": "morning"}, "options": {"discount": 0.5}, "human_plan": plan}
+    assert server.post("/plan", asked).json()["cost"] == 35
+    wrong = server.post("/plan", {**asked, "human_plan": [[1, 2, 3]]})
+    assert wrong.status_code == 422 and "human_plan" in wrong.json()["error"]

@@ -105,7 +105,7 @@ def session_router(pool: Pool, sessions: SessionStore) -> APIRouter:
         sessions.add(session)
         return session.told(whole=whole)
 
-    @router.get("/{name}", response_model=asked.SessionState)
+    @router.get("/{name}", response_model=asked.SessionState, response_model_exclude_unset=True)
     async def state(name: str) -> dict[str, Any]:
         """Where a session stands."""
         return sessions.named(name).told()

@@ -65,12 +65,16 @@ _OPTIONS: Final[Any] = Field(
 )
 
 
+GivenPlan = list[str | tuple[int, str]]
+"""Names of actions, or the epochs in which they begin, from 1, with their names."""
+
+
 class AnytimeRequest(RequestPart):
     """A planning call whose answers get better."""
 
     task: GivenTask
     options: dict[str, Any] = _OPTIONS
-    human_plan: list[str] | None = Field(None, description="what the human will do; None predicts it")
+    human_plan: GivenPlan | None = Field(None, description="what the human will do; None predicts it")
 
 
 class PlanRequest(AnytimeRequest):
@@ -89,7 +93,7 @@ class SessionSnapshot(RequestPart):
 
     task: GivenTask
     options: dict[str, Any] = _OPTIONS
-    human_plan: list[str] | None = None
+    human_plan: GivenPlan | None = None
     state: dict[str, Any] | None = Field(description="as `Session.snapshot` writes it; null at the beginning")
 
 
@@ -98,7 +102,7 @@ class SessionRequest(RequestPart):
 
     task: GivenTask | None = None
     options: dict[str, Any] = _OPTIONS
-    human_plan: list[str] | None = Field(None, description="what the human will do; None predicts it")
+    human_plan: GivenPlan | None = Field(None, description="what the human will do; None predicts it")
     snapshot: SessionSnapshot | None = Field(None, description="what another server's `/snapshot` said")
 
     @model_validator(mode="after")
@@ -161,13 +165,29 @@ class GoalRequest(RequestPart):
     goal: list[str]
 
 
+class GoingOn(BaseModel):
+    """An action that has begun and not ended."""
+
+    action: str
+    agents: list[str]
+    epochs: int = Field(description="that it still takes")
+
+
+class SessionTime(BaseModel):
+    """How far a session in time has come."""
+
+    passed: int = Field(description="epochs that are over")
+    going: list[GoingOn] = Field(description="what has begun and goes on")
+
+
 class SessionState(BaseModel):
     """Where a session stands."""
 
     id: str
     facts: list[str] = Field(description="the true ones")
     goal: list[str]
-    human_plan: list[str] | None = Field(description="what the human is going to do, where it is known")
+    human_plan: GivenPlan | None = Field(description="what the human is going to do, where it is known")
+    time: SessionTime | None = Field(None, description="where actions take time, or there is a script")
 
 
 class SessionMoved(SessionState):

@@ -13,7 +13,6 @@ import serendipity
 from serendipity.facade.call import options_from
 from serendipity.facade.session import Session
 from serendipity.model import Deadline, Result, Task, UsageError
-from serendipity.model.task.gate import refuse_time
 
 GivenTask = Mapping[str, Any]
 """``example``; or ``domain``, ``problem``, ``human``, ``robots``; or ``agents``, ``team``, ``human``."""
@@ -142,7 +141,6 @@ class HeldSessions:
             return held
         begun = remembered["begun"]
         task = self._tasks.task(begun["task"], deadline)
-        refuse_time(task)
         options = begun["options"]
         options_from(dict(options))
         state = remembered["state"]

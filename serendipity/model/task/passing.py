@@ -4,9 +4,11 @@ What is left of the script counts from there, and what has begun is part of it: 
 on with what is left of it, and nobody chooses anything about that, or pays for it again.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from fractions import Fraction
+from itertools import chain
+from typing import Any
 
 from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.course import PlayedPlan
@@ -27,16 +29,53 @@ def epoch_later(task: Task, begun: Iterable[GroundAction], *, strict: bool = Fal
     """
     course = PlayedPlan(task.facts, task.init, task.script, strict=strict)
     course.begin(begun)
-    moved, script = task.at(course.state), task.script
-    left = Timeline(
-        tuple(replace(one, epoch=one.epoch - 1) for one in script.facts if one.epoch > 1),
-        (
-            *(replace(deed, epoch=deed.epoch - 1) for deed in script.deeds if deed.epoch > 1),
-            *(Deed(1, doer(task, action), (_rest(action, epochs),)) for action, epochs in course.going),
-        ),
-        script.people,
-    )
-    return replace(moved, script=left, known_variables=moved.variables)
+    going = (Deed(1, doer(task, action), (_rest(action, epochs),)) for action, epochs in course.going)
+    moved = task.at(course.state)
+    return replace(moved, script=_left(task.script, 1, going), known_variables=moved.variables)
+
+
+def _left(script: Timeline, passed: int, going: Iterable[Deed] = ()) -> Timeline:
+    """What is left of a script after some epochs, and what has begun in them."""
+    facts = tuple(replace(one, epoch=one.epoch - passed) for one in script.facts if one.epoch > passed)
+    deeds = (replace(deed, epoch=deed.epoch - passed) for deed in script.deeds if deed.epoch > passed)
+    return Timeline(facts, (*deeds, *going), script.people)
+
+
+def going_on(begun: Task, passed: int, now: Task) -> list[dict[str, Any]]:
+    """What goes on in a task as it stands some epochs later, as plain values for :func:`taken_up`."""
+    known = {(deed.agent, deed.variants) for deed in _left(begun.script, passed).begun(1)}
+    rests = [deed.variants[0] for deed in now.script.begun(1) if (deed.agent, deed.variants) not in known]
+    return [
+        {
+            "action": rest.name,
+            "agents": [begun.agents[i] for i in rest.participants],
+            "variant": [_rest(one, rest.duration) for one in _alike(begun, rest)].index(rest),
+            "epochs": rest.duration,
+        }
+        for rest in rests
+    ]
+
+
+def taken_up(begun: Task, passed: int, going: Iterable[Mapping[str, Any]]) -> Task:
+    """A task some epochs later, still in its first state: what is left of its script, and what goes on.
+
+    Raises:
+        IndexError, KeyError, TypeError, ValueError: that is not what :func:`going_on` has told of it.
+    """
+    deeds = list[Deed]()
+    for one in going:
+        agents = tuple(sorted(begun.agents.index(name) for name in one["agents"]))
+        like = GroundAction(one["action"], agents, (), (), (), ())
+        action = _alike(begun, like)[one["variant"]]
+        deeds.append(Deed(1, doer(begun, action), (_rest(action, one["epochs"]),)))
+    return replace(begun, script=_left(begun.script, passed, deeds), known_variables=begun.variables)
+
+
+def _alike(task: Task, action: GroundAction) -> list[GroundAction]:
+    """The actions of several epochs of which one of that name may be what is left."""
+    every = chain(task.actions, *(deed.variants for deed in task.script.deeds))
+    found = (one for one in every if (one.name, one.participants) == (action.name, action.participants))
+    return [one for one in dict.fromkeys(found) if one.timing is not None]
 
 
 def at_work(task: Task) -> frozenset[int]:

@@ -150,12 +150,14 @@ class Task(Told):
 
     @cached_property
     def digest(self) -> str:
-        """A hash of agents, facts and actions: the same in every state and for every goal."""
+        """A hash of agents, facts, actions and script: the same in every state and for every goal."""
         from hashlib import sha256  # only here: few callers write a task's sessions down
 
         found = sha256(repr((self.agents, self.human, self.facts)).encode())
         for action in self.actions:
             found.update(repr(action).encode())
+        if self.script:
+            found.update(repr((self.script.facts, self.script.deeds)).encode())
         return found.hexdigest()
 
     @cached_property
