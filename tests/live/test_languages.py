@@ -16,7 +16,7 @@ PAGE = files("serendipity.live.play").joinpath("page")
 CODE = ("play.js", "study.js")
 SAID = [
     files("serendipity.live").joinpath(*where)
-    for where in (("play", "round.py"), ("play", "labels.py"), ("study", "design.py"))
+    for where in (("play", "clock.py"), ("play", "labels.py"), ("play", "round.py"), ("study", "design.py"))
 ]
 GERMAN = language("de", Path())
 

@@ -339,3 +339,28 @@ def test_what_changes_nothing_is_no_choice() -> None:
     task = build(init="at_h_a", goal="at_h_b", actions={**there, "wave r": "-> waved"})
     view = SharedRounds(RoundSetting("here", task, Fraction(1, 2))).view()
     assert [choice["text"] for choice in view["can"]] == ["go to b", "wait"]
+
+
+def test_a_day_with_a_clock() -> None:
+    table = SharedRounds(setting(task=serendipity.example("morning"), name="morning"))
+    view = table.view()
+    assert (view["clock"], view["busy"], [choice["kind"] for choice in view["can"]]) == ("0", False, ["wait"])
+    for _ in range(3):
+        view = go(table, "wait")
+    assert "now: awake ann" in view["log"][0]["others"] and view["going"]
+    view = go(table, next(choice["text"] for choice in view["can"] if "(2 epochs)" in choice["text"]))
+    assert view["busy"] and (view["clock"], len(view["can"])) == ("8", 1)
+    view = go(table, view["can"][0]["text"])
+    assert not view["busy"] and view["log"][0]["you"].startswith("went on: ")
+
+
+def test_bystanders_are_seen_once_they_begin() -> None:
+    table = SharedRounds(setting(task=serendipity.example("office"), name="office"))
+    seen = [line for _ in range(3) for line in go(table, "wait")["log"][0]["others"]]
+    assert seen == ["Carl: walk to the lobby", "Carl: take the lift to the landing"]
+
+
+@pytest.mark.parametrize(("changes", "said"), [({"view": "local"}, "local"), ({"goals": []}, "goals")])
+def test_what_is_not_played_in_time_is_said(changes: dict[str, Any], said: str) -> None:
+    with pytest.raises((UsageError, InputError), match=said):
+        SharedRounds(setting(task=serendipity.example("morning"), **changes)).view()

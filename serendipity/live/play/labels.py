@@ -181,6 +181,10 @@ class Phrases:
         human = self._task.agents[self._task.human]
         return self._say(" and ").join(self._labels.thing(agent) for agent in step.agents if agent != human)
 
+    def fact(self, fact: int) -> str:
+        """A fact, in words."""
+        return " ".join(parts(self._task.facts[fact])).replace("_", " ").replace("-", " ")
+
     def goal(self, known: frozenset[int]) -> list[dict[str, str | bool]]:
         """What the person wants, fact by fact, and what of it they know to hold."""
         goal = self._task.goal

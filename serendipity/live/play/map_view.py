@@ -115,7 +115,7 @@ class MapView:
         colours = agent_colours(len(self._task.agents), self._task.human)
         letters = initials(self._task.agents)
         human = self._task.human
-        order = [human, *self._task.robots]
+        order = [human, *self._task.robots, *sorted(self._task.script.people)]
         return [
             {
                 "name": self._task.agents[agent],

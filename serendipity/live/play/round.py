@@ -9,6 +9,7 @@ import serendipity
 from serendipity.execution import Decided, Passed, moment_of
 from serendipity.execution.decided import account
 from serendipity.execution.log import decision_of
+from serendipity.live.play.clock import ClockView
 from serendipity.live.play.labels import DomainLabels, Phrases
 from serendipity.live.play.language import ENGLISH, Language
 from serendipity.live.play.map_view import Knowledge, MapView
@@ -104,6 +105,7 @@ class Round:
         self._known = Knowledge(task, setting.view)
         self._map = MapView(task, places, self._known)
         self._seen: list[dict[str, Any]] = []
+        self._clock = ClockView(task, self._words, setting.say)
         self.human = task.agents[task.human]
 
     @property
@@ -172,12 +174,14 @@ class Round:
             raise InputError(f"epoch {event.get('epoch')}: comes out otherwise than it is recorded", file)
 
     def _step(self, action: str | None) -> Passed:
-        near, before = self._map.here, self.run.state
+        near, before, now = self._map.here, self.run.state, self.run.now
         passed = self.run.step(action)
         own = next((step for step in passed.steps if self.human in step.agents), None)
         self._known.look(self.run.state, None if own is None else self._ground(own, before))
         self._map.look()
-        self._seen.insert(0, self._told(passed, near))
+        told = self._told(passed, near)
+        told["others"] += self._clock.happened(now)
+        self._seen.insert(0, told)
         return passed
 
     # -- what the page shows
@@ -193,6 +197,7 @@ class Round:
             "human": self.human,
             "goal": self._words.goal(self._known.belief),
             "epoch": run.epoch,
+            **self._clock.view(run),
             "map": self._map.picture(),
             "legend": self._map.legend(),
             "facts": None if self._map.here else [names[fact] for fact in known if fact not in hidden],
@@ -237,10 +242,14 @@ class Round:
     def _choices(self, decided: Decided) -> list[dict[str, Any]]:
         """What the person can do, as far as they know: what robots offer first, waiting last."""
         task, belief = self.setting.task, self._known.belief
+        lasting = self._clock.lasting
+        if (busy := self._clock.busy(self.run.going)) is not None:
+            text = self._say("go on: {action}", action=lasting(self._words.step(busy), busy.duration))
+            return [{**_WAITING, "text": text}]
         choices = [
             {
                 "action": step.action,
-                "text": self._words.step(step),
+                "text": lasting(self._words.step(step), step.duration),
                 "with": self._words.robots(step),
                 "kind": "offer",
                 "cost": step.cost,
@@ -251,12 +260,12 @@ class Round:
         known: dict[str, dict[str, Any]] = {}
         for i in task.human_actions:
             action = task.actions[i]
-            changes = action.applicable(belief) and apply(belief, action) != belief
-            if changes and action.name not in known:
+            changes = any(apply(belief, moment) != belief for moment in action.moments)
+            if changes and action.applicable(belief) and action.name not in known:
                 place = self._words.target(action)
                 known[action.name] = {
                     "action": action.name,
-                    "text": self._words.action(action),
+                    "text": lasting(self._words.action(action), action.duration),
                     "kind": "do" if place is None else "go",
                     "cost": float(action.cost),
                     "place": place,
@@ -323,6 +332,8 @@ class Round:
             did = self._say("{action}, with {robots}", action=did, robots=robots) if robots else did
         elif passed.in_vain:
             did = self._say("tried to {action}, in vain", action=passed.human)
+        elif (busy := self._clock.busy(passed.going)) is not None:
+            did = self._say("went on: {action}", action=self._words.step(busy))
         else:
             did = self._say("waited")
         seen = (s for s in passed.steps if self.human not in s.agents and self._noticed(s, near))

@@ -11,6 +11,7 @@
   const money = (value) => String(Math.round(value * 1000) / 1000);
   const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
   const token = location.pathname.startsWith("/s/") ? location.pathname.slice(2) : "";
+  const going = 700; // milliseconds that an epoch is shown in which there is nothing to choose
   const settling = 250; // milliseconds in which a click was meant for what stood there before
   let socket = null;
   let view = null; // what the server said last
@@ -78,6 +79,8 @@
     if (next.study) theStudy.show(next, fresh);
     if (next.stage === "play") showPlay(fresh);
     if (fresh) scrollTo({ top: 0 });
+    // Who is at something goes on with it.
+    if (next.stage === "play" && next.busy && !next.done) setTimeout(() => view === next && act(null), going);
   }
 
   // Whoever uses the keyboard stays where they are, although the choices are new.
@@ -110,6 +113,10 @@
       return item;
     }));
     id("epoch").textContent = view.done ? view.epoch - 1 : view.epoch;
+    id("clock").hidden = view.clock === null;
+    id("clock").textContent = view.clock === null ? "" : t("time {time}", { time: view.clock });
+    id("going-on").hidden = view.done || !view.going.length;
+    id("going").replaceChildren(...view.going.map((text) => make("li", text)));
     theMap.show(view.map, view.can, act, fresh);
     showLegend();
     showFacts();
