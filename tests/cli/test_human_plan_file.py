@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import serendipity
-from serendipity.cli.files.plans import checked_plan
+from serendipity.cli.files.plans import timed_plan
 from tests.cli.conftest import Runs, assert_one_line
 
 
@@ -84,4 +84,4 @@ def test_half_a_bracket_or_no_list_of_names_is_named(text: str, said: str, tmp_p
     path = tmp_path / "plan.txt"
     path.write_text(text)
     with pytest.raises(serendipity.InputError, match=said):
-        checked_plan(path, serendipity.example("room2"))
+        timed_plan(path, serendipity.example("room2"))

@@ -8,7 +8,6 @@ import pytest
 import serendipity
 from serendipity.model import Options, Script, Task, UsageError
 from serendipity.testing.builders import task
-from verify.calls.solve import solve
 
 
 def slow() -> Task:
@@ -23,7 +22,6 @@ def plain() -> Task:
 
 CALLS: dict[str, Callable[[Task], Any]] = {
     "recognise": lambda one: serendipity.recognise(one, [{"name": "g", "goal": ["done"]}]),
-    "solve": lambda one: solve(one, Options()),
 }
 
 

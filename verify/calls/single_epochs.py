@@ -5,11 +5,22 @@ tasks in single epochs are the planner's, too; that they say what section 10 doe
 played twice, and by the brute force of the tests, which knows of no such task.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from itertools import chain
 
-from serendipity.model import Claim, Condition, Deadline, HumanPlan, PlanError, PlanStep, Result, Task
+from serendipity.model import (
+    Claim,
+    Condition,
+    Deadline,
+    HumanPlan,
+    Options,
+    PlanError,
+    PlanStep,
+    Result,
+    Task,
+)
 from serendipity.model.answers.result_parts import GoalAnswer, TiedAnswer
 from serendipity.model.numbers import agrees
 from serendipity.model.task.actions import GroundAction
@@ -57,11 +68,16 @@ def examined_in_time(
     return tuple(map(epochs.told, examine(epochs.task, said)))
 
 
+def knows(task: Task, options: Options) -> bool:
+    """Whether such calls are known in time: nobody is in the middle of an action, no state is preserved."""
+    in_the_middle = any(deed.agent not in task.script.people for deed in task.script.deeds)
+    return not in_the_middle and not (options.windowed and options.preservation == "state")
+
+
 def _is_known(task: Task, result: Result) -> bool:
     """Whether such a result is examined in time; over ties only where all optimal plans begin at once."""
-    options, script = result.options, task.script
-    in_the_middle = any(deed.agent not in script.people for deed in script.deeds)
-    if in_the_middle or (options.windowed and options.preservation == "state"):
+    options = result.options
+    if not knows(task, options):
         return False
     if result.recognition is not None and result.recognition.observed:
         return False
@@ -131,8 +147,8 @@ class SingleEpochs:
         """A claim whose counter-example is a plan of the task in time."""
         if claim.counterexample is None:
             return claim
-        begun = tuple(self._begun(step) for step in claim.counterexample if self._begins(step))
-        return replace(claim, counterexample=begun)
+        discount = self._result.options.discount
+        return replace(claim, counterexample=begun_steps(self._original, claim.counterexample, discount))
 
     def _agent_costs(self) -> dict[str, float]:
         """What each agent pays; the clock nothing."""
@@ -149,18 +165,9 @@ class SingleEpochs:
             times = None if plan is None else times_of(self._original, plan)
             if None not in (times, said.human_plan_times) and said.human_plan_times != times:
                 return Violation("times", "replay", "10.2", "the times of pi_H are not those of its actions")
-        if self._result.bystanders != self._bystanders():
+        if self._result.bystanders != bystanders_of(self._original):
             return Violation("bystanders", "replay", "10.3", "bystanders do not what the task's script says")
         return None
-
-    def _bystanders(self) -> dict[str, tuple[PlanStep, ...]]:
-        """What bystanders do, by name; it costs nobody anything."""
-        task, script = self._original, self._original.script
-        found: dict[str, list[PlanStep]] = {task.agents[i]: [] for i in sorted(script.people)}
-        for deed in script.deeds:
-            who = task.agents[deed.agent]
-            found[who].append(PlanStep(deed.epoch, (who,), deed.name, 0.0, deed.end - deed.epoch + 1))
-        return {who: tuple(steps) for who, steps in found.items()}
 
     def _played(self) -> Violation | None:
         """The first step that can't be done when a plan says, durations and script beside it."""
@@ -274,15 +281,25 @@ class SingleEpochs:
         begins = [self.units.chains[i][0] for i in ids]
         return next((i for i in begins if applicable(task.actions[i], state)), begins[0])
 
-    # -- back
 
-    def _begins(self, step: PlanStep) -> bool:
-        return step.action in self._original.named
+def bystanders_of(task: Task) -> dict[str, tuple[PlanStep, ...]]:
+    """What bystanders do, by name; it costs nobody anything."""
+    script = task.script
+    found: dict[str, list[PlanStep]] = {task.agents[i]: [] for i in sorted(script.people)}
+    for deed in script.deeds:
+        who = task.agents[deed.agent]
+        found[who].append(PlanStep(deed.epoch, (who,), deed.name, 0.0, deed.end - deed.epoch + 1))
+    return {who: tuple(steps) for who, steps in found.items()}
 
-    def _begun(self, step: PlanStep) -> PlanStep:
-        action = meant_by(self._original, step.action, step.agents)[0]
-        found = plan_step(self._original, Step(step.epoch, action), self._result.options.discount)
-        return replace(found, duration=self._original.actions[action].duration)
+
+def begun_steps(task: Task, steps: Iterable[PlanStep], discount: Fraction) -> tuple[PlanStep, ...]:
+    """Those of some steps in single epochs with which an action of a task in time begins, as steps of it."""
+    begun = [(step, meant_by(task, step.action, step.agents)[:1]) for step in steps]
+    return tuple(
+        replace(plan_step(task, Step(step.epoch, action), discount), duration=task.actions[action].duration)
+        for step, meant in begun
+        for action in meant
+    )
 
 
 def _violation(rule: str, words: str, section: str, epoch: int, action: str) -> Violation:

@@ -9,13 +9,15 @@ from serendipity.model import Deadline, HumanPlan, Options, Result, Task, UsageE
 from serendipity.model.answers.result_parts import TiedAnswer
 from serendipity.model.numbers import figure
 from serendipity.model.resources.collection import no_collection
-from serendipity.model.task.gate import refuse_time
+from serendipity.model.task.gate import is_bound, needs_time
+from serendipity.model.task.plans import PlanEntry
 from verify.base.individual import IndividualOptimum
 from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
 from verify.calls.answer import CallAnswer, answer, calls
 from verify.calls.results import to_result
+from verify.calls.solve_in_time import solved_in_time
 from verify.limits import limits
 from verify.programs.effort import Effort
 from verify.solvers.mip import solver_version
@@ -25,7 +27,7 @@ def solve(
     task: Task,
     options: Options,
     *,
-    human_plan: Iterable[str] | None = None,
+    human_plan: Iterable[PlanEntry] | None = None,
     encoding: str = "automata",
     solver: str = "highs",
     method: str = "pruned",
@@ -36,7 +38,7 @@ def solve(
     Args:
         options: mode and options; ``time_limit`` (seconds) and ``memory_limit`` (MiB, the solver's
             included) bound the whole call.
-        human_plan: names of the actions that the human is going to do; None predicts them.
+        human_plan: what the human is going to do, as :func:`serendipity.plan` takes it; None predicts it.
         encoding: ``automata`` or ``paper``.
         solver: ``highs`` or ``cbc``.
         method: ``pruned``: programs alone; the others as :class:`verify.programs.effort.Effort` has them.
@@ -52,7 +54,11 @@ def solve(
     """
     if options.mode == "assistance" or options.human_model != "omniscient":
         raise UsageError("solve: expected a mode other than 'assistance' and the omniscient human model")
-    refuse_time(task, options=options)
+    if is_bound(task, options):
+        raise UsageError(
+            "solve: knows no rules of help (semantics 12 to 14); "
+            "beside bystanders expected nobody_pays=False (--somebody-pays)"
+        )
     started = perf_counter()
     end = (deadline or Deadline()).within(options.time_limit, options.memory_limit)
     effort = Effort(encoding, solver, end.sooner(limits().end_share), method)
@@ -61,7 +67,8 @@ def solve(
         options = options.but(ties="fixed")  # there is but one plan
     with no_collection():  # beside a large task a collection takes longer than a short limit
         try:
-            result = _solve(task, options, given, effort)
+            solved = solved_in_time if needs_time(task, options=options, plan=given) else _solve
+            result = solved(task, options, given, effort)
         except UNDECIDED as error:
             human = task.agents[task.human]
             result = Result(options.mode, "unknown", human, options, reason=why(error))

@@ -10,27 +10,11 @@ from serendipity.model import PlanError, PlanStep, Result, Task
 from serendipity.model.numbers import plain
 from serendipity.model.printable import printable
 from serendipity.model.task.actions import NOOP, in_turn
-from serendipity.model.task.gate import refuse_time
 from serendipity.model.task.plans import PlanEntry
 from serendipity.model.telling import team
 from serendipity.pddl.parsing.timed_plans import PlanLine, entries, plan_lines, timed_line
 
 _PLAN: Final = "human plan: "
-
-
-def checked_plan(path: Path | None, task: Task) -> tuple[str, ...] | None:
-    """The names of the actions in a file, if there is one, for what does not know waiting.
-
-    Raises:
-        InputError: ``file:line`` and what was expected.
-        PlanError: ``file:line`` and the first action that is wrong in the task, or the goal missed.
-        UsageError: the human waits in it.
-    """
-    listed = None if path is None else timed_plan(path, task)
-    if listed is None:
-        return None
-    refuse_time(plan=task.plan_from_names(listed))
-    return tuple(entry if isinstance(entry, str) else entry[1] for entry in listed)
 
 
 def timed_plan(path: Path, task: Task) -> tuple[PlanEntry, ...]:

@@ -96,8 +96,8 @@ FRONT: Final = tuple(
 )
 """What a front of saving against disturbance is asked with."""
 _UNKNOWN: Final = (
-    *("human_model", "no_block", "waiting_cost", "head_start", "policy", "risk"),
-    *("nobody_pays", "leave_free", "leave_price", "disturbance", "max_disturbance", "noticed", "strategies"),
+    *("human_model", "no_block", "policy", "risk", "leave_free", "leave_price"),
+    *("disturbance", "max_disturbance", "noticed", "strategies"),
 )
 PROGRAMS: Final = tuple(name for name in _ALL if name not in _UNKNOWN)
 """What integer programs know."""

@@ -1,0 +1,69 @@
+"""The verifier as a planner, in time: what it answers by itself is what the search answers."""
+
+import pytest
+from hypothesis import assume, given
+
+import serendipity
+from serendipity.model import Options, Script, Task, UsageError
+from serendipity.testing.builders import task as build
+from serendipity.testing.call import Call
+from serendipity.testing.strategies import calls_in_time
+from verify.calls.solve import solve
+
+FIGURES = (
+    *("status", "reason", "cost", "objective", "lower_bound", "opportunity", "saving", "saving_alone"),
+    *("horizon", "human_cost", "human_plan", "human_plan_times", "bystanders"),
+)
+
+
+@pytest.mark.long
+@given(calls_in_time())
+def test_it_answers_what_the_search_does(call: Call) -> None:
+    assume(call.options.preservation == "kernel")
+    keywords = {**call.keywords(), "nobody_pays": False}
+    given_plan = keywords.pop("human_plan", None)
+    try:
+        expected = serendipity.plan(call.task, human_plan=given_plan, **keywords)
+    except UsageError:  # what it reaches does not last
+        with pytest.raises(UsageError):
+            solve(call.task, call.options.but(nobody_pays=False), human_plan=given_plan)
+        return
+    found = solve(call.task, call.options.but(nobody_pays=False), human_plan=given_plan)
+    assert [getattr(found, name) for name in FIGURES] == [getattr(expected, name) for name in FIGURES]
+    if found.plan is not None:
+        assert serendipity.check(call.task, found).verdict != "refuted"
+
+
+def slow() -> Task:
+    return build(goal="done", actions={"do h": " -> done @ 1 [2]", "help r": " -> done"})
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"ties": "robust"}, "ties: solved in time for 'fixed' only"),
+        ({"preservation": "state"}, "states are not preserved"),
+        ({"nobody_pays": True}, "no rules of help"),
+        ({"leave_free": "done"}, "no rules of help"),
+    ],
+)
+def test_what_it_does_not_know_is_refused(options: dict[str, object], said: str) -> None:
+    with pytest.raises(UsageError, match=said):
+        solve(slow(), Options(**options))  # type: ignore[arg-type]
+    with pytest.raises(UsageError, match="equations know no time"):
+        solve(slow(), Options(), encoding="paper")
+
+
+def test_who_is_in_the_middle_of_something_is_not_asked_about() -> None:
+    session = serendipity.Session(slow())
+    session.execute(["do h"])
+    with pytest.raises(UsageError, match="in the middle"):
+        solve(session.task, Options())
+
+
+def test_beside_bystanders_the_rule_has_to_be_left_out() -> None:
+    made = build(agents="h r c", goal="done", actions={"do h": " -> done", "look c": " -> seen"})
+    beside = made.with_script(Script(people={"c": [(2, "look c")]}))
+    with pytest.raises(UsageError, match="--somebody-pays"):
+        solve(beside, Options())
+    assert solve(beside, Options(nobody_pays=False)).bystanders["c"][0].epoch == 2
