@@ -4,8 +4,9 @@ from collections.abc import Collection
 from itertools import compress
 
 from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.script import UNDER_WAY
 from serendipity.model.task.task import Task
-from serendipity.model.task.unit_steps import CLOCK, UNDER_WAY
+from serendipity.model.task.unit_steps import CLOCK
 
 
 def deeds_of(task: Task) -> list[int]:

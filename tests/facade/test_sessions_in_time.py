@@ -170,11 +170,30 @@ def test_what_is_left_of_the_last_answer() -> None:
 def test_a_session_says_what_it_does_not_know() -> None:
     with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
         Session(lane().task, head_start=2).plan()
-    session = lane()
-    answer = session.plan()
-    session.execute(["walk h"])
-    assert serendipity.verify(session.task, session.plan()).verdict == "undecided"
-    assert answer.status == "optimal"
+
+
+@pytest.mark.long
+@given(calls_in_time(modes=(*MODES, "communication")), st.randoms(use_true_random=False))
+def test_answers_in_the_middle_of_actions_are_proved(call: Call, dice: Random) -> None:
+    changes = {"head_start": 0, "waiting_cost": 0, "horizon": None, "nobody_pays": False}
+    options = {**call.keywords(), **changes, "preservation": "kernel", "human_plan": None}
+    session = Session(call.task.with_goal(call.task.goal, Condition()), **options)
+    for _ in range(3):
+        try:
+            answer = session.plan()
+        except UsageError:
+            return  # it needs a horizon
+        task = replace(session.task)
+        assert serendipity.verify(task, answer).verdict == "proved"
+        if answer.lower_bound:
+            dearer = replace(answer, lower_bound=answer.lower_bound + 1, objective=answer.lower_bound + 1)
+            assert serendipity.verify(task, dearer).verdict == "refuted"
+        possible = [action.name for action in task.actions if action.applicable(task.init)]
+        own = [dice.choice(possible)] if possible and dice.random() < 0.4 else now(answer)
+        try:
+            session.execute(own)
+        except UsageError:
+            return  # what goes on is in its way
 
 
 def test_what_takes_effect_at_other_times_shares_an_epoch() -> None:

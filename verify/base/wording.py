@@ -43,7 +43,7 @@ NEEDS_MORE_THAN_A_WALK: Final = (
 )
 NOT_IN_TIME: Final = (
     "not examined in time: actions observed, suffixes of pi_H over scenarios, humans who replan, preserved "
-    "states, ties beside a script, somebody in the middle of an action"
+    "states, ties beside a script"
 )
 NOTHING_TO_EXAMINE: Final = "there is no answer to examine"
 RESULT_BREAKS_RULE: Final = "the result breaks a rule already"

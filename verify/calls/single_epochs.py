@@ -68,16 +68,15 @@ def examined_in_time(
     return tuple(map(epochs.told, examine(epochs.task, said)))
 
 
-def knows(task: Task, options: Options) -> bool:
-    """Whether such calls are known in time: nobody is in the middle of an action, no state is preserved."""
-    in_the_middle = any(deed.agent not in task.script.people for deed in task.script.deeds)
-    return not in_the_middle and not (options.windowed and options.preservation == "state")
+def knows(options: Options) -> bool:
+    """Whether such calls are known in time: those that preserve no states."""
+    return not (options.windowed and options.preservation == "state")
 
 
 def _is_known(task: Task, result: Result) -> bool:
     """Whether such a result is examined in time; over ties only where all optimal plans begin at once."""
     options = result.options
-    if not knows(task, options):
+    if not knows(options):
         return False
     if result.recognition is not None and result.recognition.observed:
         return False
@@ -287,8 +286,9 @@ def bystanders_of(task: Task) -> dict[str, tuple[PlanStep, ...]]:
     script = task.script
     found: dict[str, list[PlanStep]] = {task.agents[i]: [] for i in sorted(script.people)}
     for deed in script.deeds:
-        who = task.agents[deed.agent]
-        found[who].append(PlanStep(deed.epoch, (who,), deed.name, 0.0, deed.end - deed.epoch + 1))
+        if deed.agent in script.people:
+            who = task.agents[deed.agent]
+            found[who].append(PlanStep(deed.epoch, (who,), deed.name, 0.0, deed.end - deed.epoch + 1))
     return {who: tuple(steps) for who, steps in found.items()}
 
 

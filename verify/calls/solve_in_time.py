@@ -29,8 +29,8 @@ def solved_in_time(task: Task, options: Options, given: HumanPlan | None, effort
         raise UsageError(f"ties: solved in time for 'fixed' only, not for '{options.ties}'")
     if effort.encoding != "automata":
         raise UsageError("encoding: the paper's equations know no time; expected automata")
-    if not knows(task, options):
-        raise UsageError("solve: in time, states are not preserved, and nobody is in the middle of an action")
+    if not knows(options):
+        raise UsageError("preservation: solved in time for 'kernel' only, not for 'state'")
     units = unit_steps(task, effort.deadline, options.waiting_cost)
     plans = OptimalPlans(units.task, alone_of(units.task, effort.deadline, options))
     if given is None or options.mode == "individual":

@@ -5,7 +5,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import groupby
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from serendipity.model.errors import UsageError
 from serendipity.model.options import MAX_EPOCH
@@ -15,6 +15,10 @@ from serendipity.model.task.plans import PlanEntry, checked_entries
 
 if TYPE_CHECKING:
     from serendipity.model.task.task import Task
+
+
+UNDER_WAY: Final = "~going"
+"""Before the name of what somebody is in the middle of at first, who is no bystander, in single epochs."""
 
 
 @dataclass(frozen=True, slots=True, order=True)

@@ -16,7 +16,7 @@ from serendipity.model.task.names import ActionNames
 from serendipity.model.task.names import canonical_name as canonical_name
 from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries
 from serendipity.model.task.plans_in_time import plan_in_time, replayed
-from serendipity.model.task.script import Script, Timeline, moments, resolved
+from serendipity.model.task.script import UNDER_WAY, Script, Timeline, moments, resolved
 from serendipity.model.task.variables import Variable, find_variables
 from serendipity.model.telling import Grid, Line, Told, team
 
@@ -177,10 +177,15 @@ class Task(Told):
 
     @cached_property
     def of_bystanders(self) -> frozenset[int]:
-        """Ids of the actions of bystanders, who choose nothing."""
-        people = self.script.people
+        """Ids of the actions of bystanders, who choose nothing, and of what robots are in the middle of."""
+        people, human = self.script.people, self.human
         actions = enumerate(self.actions) if people else ()
-        return frozenset(i for i, action in actions if not people.isdisjoint(action.participants))
+        return frozenset(
+            i
+            for i, one in actions
+            if not people.isdisjoint(one.participants)
+            or (one.name.startswith(UNDER_WAY) and human not in one.participants)
+        )
 
     @property
     def named(self) -> Mapping[str, tuple[int, ...]]:

@@ -20,9 +20,9 @@ from itertools import chain, combinations, pairwise
 from typing import Final
 
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.actions import Condition, GroundAction, apply, conflicting
+from serendipity.model.task.actions import Condition, GroundAction, Timing, apply, conflicting
 from serendipity.model.task.plans import Step, TimedPlan
-from serendipity.model.task.script import Timeline, moments
+from serendipity.model.task.script import UNDER_WAY, Timeline, moments
 from serendipity.model.task.task import HumanPlan, Task
 from serendipity.model.task.variables import Variable, find_variables
 
@@ -32,8 +32,8 @@ CLOCK: Final = "~clock"
 WAITING: Final = "~noop"
 """The human's waiting as an action: after all others, as who can act does."""
 
-UNDER_WAY: Final = "~going"
-"""Before the name of what somebody is in the middle of at first, who is no bystander: before waiting."""
+BESIDE: Final = "~beside"
+"""Before the name of what others are in the middle of with the human: for them it is nothing but time."""
 
 RESTING: Final = "~rest"
 """The human's waiting from their last action on, which is free where other waiting costs: the last of all."""
@@ -246,7 +246,7 @@ class _Steps:
             self._due.append((before, tick))
             self._others.append(tick)
         for deed in script.deeds:
-            for action in deed.variants:
+            for action in chain.from_iterable(map(self._by_person, deed.variants)):
                 free = [self._free[agent] for agent in action.participants if agent in self._free]
                 name = f"{UNDER_WAY} {action.name}" if free else action.name
                 epochs = self._epochs(replace(action, name=name, cost=_FREE), [clock[deed.epoch - 1]], [])
@@ -258,6 +258,15 @@ class _Steps:
                 self._busy = epochs if task.human in action.participants else self._busy
                 self._due.append((clock[deed.epoch - 1], epochs[0]))
                 self._others += epochs
+
+    def _by_person(self, action: GroundAction) -> list[GroundAction]:
+        """What somebody does; where the human does it with others, their part, and that others are busy."""
+        others = tuple(agent for agent in action.participants if agent != self._task.human)
+        if not others or len(others) == len(action.participants):
+            return [action]
+        longer = None if action.timing is None else Timing(action.duration)
+        beside = GroundAction(f"{BESIDE} {action.name}", others, (), (), (), (), _FREE, longer)
+        return [replace(action, participants=(self._task.human,)), beside]
 
     def _variables(self, found: Iterable[Variable]) -> tuple[Variable, ...]:
         """Variables, with the clock as one of them."""
