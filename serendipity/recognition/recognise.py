@@ -16,13 +16,14 @@ from search import PreparedTask
 from search.modes.goals import Explainer, Likelihood, Prices, Reading
 from serendipity.model import Condition, Deadline, InputError, Task, UsageError, exact
 from serendipity.model.answers.recognition import Errors, GoalPosterior, Recognition
-from serendipity.model.arguments import LIST, TASK, Kind, expect, expect_or_none
+from serendipity.model.arguments import LIST, TASK_IN_TIME, Kind, expect, expect_or_none
 from serendipity.model.numbers import Number, as_written
 from serendipity.model.rates import Rates
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.task.names import no_fact
 from serendipity.model.task.task import canonical_name, several
+from serendipity.model.task.whole_actions import in_whole_actions
 from serendipity.pddl.parsing.files import read_text
 from serendipity.pddl.parsing.lists import FileItem, actions_in, json_items, lines_of, starts_json
 
@@ -232,7 +233,8 @@ def recognise(
 
     ``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``.  Where only one of the costs
     is finite it is exactly 0 or 1.  Observations are actions of theirs in their order, from the
-    task's initial state on; they may have done more between them.
+    task's initial state on; they may have done more between them.  Where actions take time it is what
+    they began.
 
     Args:
         task: the task; its own goal plays no part.
@@ -247,12 +249,15 @@ def recognise(
 
     Raises:
         InputError: a file or an entry in it is wrong; it says where, and what was expected.
-        UsageError: ``beta`` or a limit is not a number of at least 0.
+        UsageError: ``beta`` or a limit is not a number of at least 0, or there is a script.
         LimitReachedError: a limit came first.  A posterior takes the costs of all goals, so
             there is none then.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
-    expect(TASK, task=task)
+    expect(TASK_IN_TIME, task=task)
+    if task.script:
+        raise UsageError("time: the task has a script, beside which it is not known what an observation says")
+    task = in_whole_actions(task) if task.needs_time else task
     candidates = candidate_goals(task, goals)
     names = observed_actions(task, observed)
     noisy, strict = noise_from(noise), strictness(beta)

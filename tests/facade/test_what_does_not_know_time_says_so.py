@@ -1,8 +1,5 @@
 """Calls that can't be answered in time yet say so in one line."""
 
-from collections.abc import Callable
-from typing import Any
-
 import pytest
 
 import serendipity
@@ -18,21 +15,6 @@ def slow() -> Task:
 def plain() -> Task:
     """The same in one epoch."""
     return task(goal="done", actions={"do h": " -> done", "help r": " -> done"})
-
-
-CALLS: dict[str, Callable[[Task], Any]] = {
-    "recognise": lambda one: serendipity.recognise(one, [{"name": "g", "goal": ["done"]}]),
-}
-
-
-@pytest.mark.parametrize("name", CALLS)
-def test_tasks_that_need_time_are_refused(name: str) -> None:
-    with pytest.raises(UsageError) as caught:
-        CALLS[name](slow())
-    expected = "time: the task has actions of more than one epoch, which is not known here yet"
-    assert str(caught.value) == expected
-    with pytest.raises(UsageError, match="time: the task has a script"):
-        CALLS[name](plain().with_script(Script(facts=[(2, "done")])))
 
 
 def test_waiting_is_refused_elsewhere() -> None:

@@ -21,6 +21,11 @@ def whole_actions(task: Task) -> Task | None:
     rates = {action.cost / action.duration for action in own}
     if task.script or (len(alike) > 1 and (len(rates) > 1 or 0 in rates)):
         return None
+    return in_whole_actions(task)
+
+
+def in_whole_actions(task: Task) -> Task:
+    """The same for a task without a script, where only costs matter."""
     return replace(task, actions=tuple(map(whole, task.actions)))
 
 
