@@ -11,7 +11,7 @@ from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Result, Step, Task, Visible
 from serendipity.model.answers.trace import WHY, Trace, TraceEpoch, TraceSkip
-from serendipity.model.arguments import FUNCTION, RESULT, TASK, expect, expect_or_none, shown
+from serendipity.model.arguments import FUNCTION, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none, shown
 from serendipity.model.errors import LIMITS, InputError, UsageError
 from serendipity.model.keywords import Horizon
 from serendipity.model.numbers import plain, rounded
@@ -51,8 +51,8 @@ def simulate(
         LimitReachedError: a limit came before the first epoch was over.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
-    expect(TASK, task=task)
-    expect(RESULT, result=result)
+    expect(TASK_IN_TIME, task=task)
+    expect(RESULT_IN_TIME, result=result)
     expect_or_none(FUNCTION, visible=visible)
     if human_model not in HUMAN_MODELS:
         got = shown(human_model)
@@ -61,9 +61,18 @@ def simulate(
         raise InputError("result: has no plan to simulate")
     if result.human != task.agents[task.human]:
         raise InputError(f"result: is for another task: its human is '{result.human}'")
-    plan = task.plan_from_names(result.human_plan) if result.human_plan else ()
     horizon = result.horizon if isinstance(result.horizon, int) else None
     steps = [Step(step.epoch, _action(task, step)) for step in result.plan]
+    if task.needs_time or result.in_time:
+        from serendipity.facade.person.played import (
+            played_in_time,  # it plans, and plans say what is realised
+        )
+
+        _require_known(result, human_model)
+        entries = result.human_entries or ()
+        simulated = played_in_time(task, result.options, entries, steps, horizon=horizon, deadline=limits)
+        return _Story(task, result, human_model, simulated).trace()
+    plan = task.plan_from_names(result.human_plan) if result.human_plan else ()
     with HELD.taken(task) as prepared:
         simulated = play(
             prepared,
@@ -76,6 +85,14 @@ def simulate(
             deadline=limits,
         )
     return _Story(task, result, human_model, simulated).trace()
+
+
+def _require_known(result: Result, human_model: str) -> None:
+    """Raise UsageError where a result in time is not played beside such a person."""
+    if human_model != "observant":
+        raise UsageError(f"human_model: in time, expected observant, got {human_model}")
+    if result.options.waiting_cost:
+        raise UsageError("waiting_cost: people who replan are not known to pay for waiting")
 
 
 def realised(

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from random import Random
 from typing import TYPE_CHECKING
 
-from serendipity.execution.clock.follower import Follower
-from serendipity.execution.clock.ways import Ways
+from serendipity.facade.person.follower import Follower
+from serendipity.facade.person.ways import Ways
 from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Task, UsageError
 from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.passing import at_work, epoch_later

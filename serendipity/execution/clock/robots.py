@@ -6,12 +6,12 @@ from fractions import Fraction
 from itertools import combinations
 from typing import Final
 
-from serendipity.execution.clock.follower import Follower
-from serendipity.execution.clock.ways import Way, Ways
 from serendipity.execution.clock.world import WorldInTime
 from serendipity.execution.decided import Decided, Outlook
 from serendipity.execution.history import HelpHistory
 from serendipity.execution.why import Why
+from serendipity.facade.person.follower import Follower
+from serendipity.facade.person.ways import Way, Ways
 from serendipity.facade.session import Session
 from serendipity.model import INFINITE, Deadline, Options, PlanError, PlanStep, Task, UsageError, Window
 from serendipity.model.errors import LimitReachedError

@@ -136,8 +136,14 @@ class Trace(Output):
 
     def _deed(self, epoch: TraceEpoch) -> str:
         if epoch.did is None:
-            return "waits"
+            going = self._going(epoch.epoch)
+            return "waits" if going is None else f"goes on with {going}"
         return f"tries {epoch.did}, in vain" if epoch.failed else epoch.did
+
+    def _going(self, epoch: int) -> str | None:
+        """What the human began earlier and goes on with."""
+        steps = (step for before in self.epochs for step in before.steps if self.human in step.agents)
+        return next((step.action for step in steps if step.epoch < epoch <= step.end), None)
 
     def _verdict(self) -> str:
         costs = f"cost {plain(self.cost)}, promised {plain(self.promised_cost)}"

@@ -5,7 +5,7 @@ from copy import copy
 from random import Random
 from typing import Self
 
-from serendipity.execution.clock.ways import Way, Ways
+from serendipity.facade.person.ways import Way, Ways
 from serendipity.model import Deadline, HumanPlan, PlanError, PlanStep, Task
 from serendipity.model.task.actions import NOOP
 from serendipity.model.task.course import BrokenPlanError
@@ -50,7 +50,7 @@ class Follower:
             LimitReachedError: the deadline came first.
         """
         best = self._ways.of(now, deadline)
-        kept = self._working(now)
+        kept = self.working(now)
         if kept is not None and (best is None or now.cost_of(kept) <= best.cost):
             return Way(kept, now.cost_of(kept))
         if best is None:
@@ -97,7 +97,7 @@ class Follower:
         end = rest[-1][0] + task.actions[ids[-1]].duration - 1
         return TimedPlan(ids, [epoch for epoch, _ in rest], end)
 
-    def _working(self, now: Task) -> HumanPlan | None:
+    def working(self, now: Task) -> HumanPlan | None:
         """What they mean to do, if it works."""
         if self.rest is None:
             return None

@@ -1,0 +1,79 @@
+"""A plan in time played beside somebody observant is what an execution makes of it."""
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import pytest
+from hypothesis import assume, given
+
+import serendipity
+from serendipity.execution import Decided, Execution, Outlook, moment_of, person_of
+from serendipity.model import Condition, Deadline, PlanStep, Task, UsageError
+from serendipity.testing.call import Call
+from serendipity.testing.strategies import calls_in_time
+
+
+class _Stubborn:
+    """Robots that do their part of a plan, whatever the person does."""
+
+    goals: Mapping[str, float] = {}
+
+    def __init__(self, plan: Sequence[PlanStep], human: str) -> None:
+        self._plan, self._human = plan, human
+
+    def decide(self, outlook: Outlook, _deadline: Deadline) -> Decided:
+        steps = [step for step in self._plan if step.epoch == outlook.epoch]
+        own = tuple(step for step in steps if self._human not in step.agents)
+        offers = tuple(step for step in steps if self._human in step.agents and len(step.agents) > 1)
+        return Decided(outlook.epoch, "helps", "", actions=own, offers=offers)
+
+    def saw(self, own: int | None, executed: Sequence[int], tried: int | None = None) -> None:
+        """Nothing is learnt."""
+
+    def surprised(self) -> None:
+        """Nothing is."""
+
+    def drop(self, robots: Iterable[int]) -> None:
+        """Nobody does."""
+
+    def unable(self, actions: Iterable[int]) -> None:
+        """They are."""
+
+
+@pytest.mark.long
+@given(calls_in_time(modes=("serendipity", "composite")))
+def test_it_goes_as_in_an_execution(call: Call) -> None:
+    keywords = {**call.keywords(), "head_start": 0, "waiting_cost": 0, "horizon": None, "human_plan": None}
+    task = call.task.with_goal(call.task.goal, Condition())
+    assume(task.needs_time and not call.options.strict)
+    try:
+        result = serendipity.plan(task, **keywords)
+    except UsageError:
+        return
+    if result.plan is None or result.human_plan is None:
+        return
+    trace = serendipity.simulate(task, result)
+    run = Execution(task, discount=call.options.discount, robots=_Stubborn(result.plan, result.human))
+    person = person_of(task)
+    while not run.done and run.epoch <= len(trace.epochs):
+        run.step(person.choose(moment_of(run)))
+    assume(not any(missed.why == "broken" for passed in run.passed for missed in passed.unfinished))
+    assert [{*epoch.steps} for epoch in trace.epochs] == [{*passed.steps} for passed in run.passed]
+    assert trace.goals_hold == run.done and trace.cost == float(run.cost)
+    if trace.realised:
+        assert trace.goals_hold and trace.cost <= result.cost
+
+
+def test_the_talk_is_realised_and_told() -> None:
+    task = serendipity.example("office")
+    trace = serendipity.simulate(task, serendipity.plan(task, discount=0.5))
+    assert trace.realised and (trace.cost, trace.promised_cost) == (30, 30)
+    told = trace.text()
+    assert "eve replans: 8 instead of 16" in told and "eve: goes on with ride eve lobby landing" in told
+
+
+def test_what_is_not_known_in_time_is_refused() -> None:
+    task: Task = serendipity.example("morning")
+    with pytest.raises(UsageError, match="in time, expected observant"):
+        serendipity.simulate(task, serendipity.plan(task), human_model="local")
+    with pytest.raises(UsageError, match="waiting_cost"):
+        serendipity.simulate(task, serendipity.plan(task, waiting_cost=1))
