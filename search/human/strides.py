@@ -251,7 +251,7 @@ class StridingPlanner(IndividualPlanner):
             in_order: of the best ones the one of fewest actions, and then the canonical one.
         """
         outside = ~(self._script.fields | self._script.clock)
-        course = self._script.course(start)
+        course, left = self._script.course(start), self._script.last - self._script.epoch(start)
         fronts: dict[int, list[_Label]] = {}
         ticket = count()
         label = _Label(0, 0, (), start)
@@ -280,20 +280,24 @@ class StridingPlanner(IndividualPlanner):
                 if bound >= limit:
                     continue
                 front = fronts.get(after.state & outside, [])
-                if any(self._covers(known, after, in_order=in_order) for known in front):
+                if any(self._covers(known, after, left, in_order=in_order) for known in front):
                     continue
-                kept = [known for known in front if not self._covers(after, known, in_order=in_order)]
+                kept = [known for known in front if not self._covers(after, known, left, in_order=in_order)]
                 fronts[after.state & outside] = [*kept, after]
                 heappush(queue, (bound, next(ticket), after))
         return best
 
-    def _covers(self, known: _Label, other: _Label, *, in_order: bool) -> bool:
-        """Whether whatever comes of another label may as well come of a known one."""
+    def _covers(self, known: _Label, other: _Label, left: int, *, in_order: bool) -> bool:
+        """Whether whatever comes of another label may as well come of a known one.
+
+        Args:
+            left: epochs after which nothing depends on the epoch any more, so that nobody waits for one.
+        """
         caught_up = known.weight
         if self._script.clock:
             if known.epochs > other.epochs:
                 return False
-            caught_up += (other.epochs - known.epochs) * self._waiting_weight
+            caught_up += max(0, min(other.epochs, left) - known.epochs) * self._waiting_weight
         if caught_up != other.weight or not in_order:
             return caught_up <= other.weight
         return len(known.begun) <= len(other.begun) and known.begun <= other.begun

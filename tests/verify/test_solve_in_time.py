@@ -66,3 +66,17 @@ def test_beside_bystanders_the_rule_has_to_be_left_out() -> None:
     with pytest.raises(UsageError, match="--somebody-pays"):
         solve(beside, Options())
     assert solve(beside, Options(nobody_pays=False)).bystanders["c"][0].epoch == 2
+
+
+def test_a_head_start_is_over_when_the_plan_is_predicted() -> None:
+    """Who waits for a head start pays for it, though resting until the script does it would be free.
+
+    The verifier took the dearer plan for no optimal one, and refuted the answer.
+    """
+    made = build(goal="f", actions={"do h": " -> f @ 0", "look r": " -> seen"})
+    made = made.with_script(Script(facts=[(5, "f")]))
+    for mode, cost in (("serendipity", 0), ("individual", 1)):
+        answer = serendipity.plan(made, mode=mode, waiting_cost="0.5", head_start=2)
+        assert (answer.human_cost, answer.cost) == (1, cost)
+        assert serendipity.verify(made, answer).verdict == "proved"
+        assert solve(made, answer.options).cost == cost

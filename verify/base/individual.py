@@ -58,18 +58,23 @@ class IndividualOptimum:
         return self._task.init
 
     def predicted(self) -> tuple[Fraction, int] | None:
-        """:meth:`optimum` from there; None too where there is no such state.
+        """:meth:`optimum` from there, with what is paid before; None too where there is no such state."""
+        state = self.start
+        found = None if state is None else self.optimum(state)
+        return None if found is None else (found[0] + self.paid_before, found[1])
 
-        Who begins anything then has waited for it (semantics 10.2).
+    @property
+    def paid_before(self) -> Fraction:
+        """What the head start costs: who begins anything after it has waited for it (semantics 10.2).
+
+        It is over when the plan is predicted.  Of equal plans the one of fewer actions is, so that nobody
+        acts who gets as much by resting.
         """
         state = self.start
-        if state is None:
-            return None
-        found, resting = self.optimum(state), None
-        if found is not None and self.head_start_cost:
-            found = found[0] + self.head_start_cost, found[1]
-            resting = self.optimum(state - awake(self._task))
-        return min(filter(None, (found, resting)), default=None)
+        if state is None or not self.head_start_cost:
+            return Fraction(0)
+        acts = self.optimum(state) != self.optimum(state - awake(self._task))
+        return self.head_start_cost if acts else Fraction(0)
 
     def moves(self, state: State) -> Iterator[tuple[int, State]]:
         """What the human can begin alone, by ids, each with the state after the epoch."""

@@ -22,6 +22,7 @@ def solved_in_time(task: Task, options: Options, given: HumanPlan | None, effort
         given: the human's plan by ids of the task, or None to predict it.
 
     Raises:
+        PlanError: the human's plan can't be executed after the head start, or misses the goal.
         UndecidedError: it was not proved.
         UsageError: it is about several plans, by the paper's equations, or what the verifier does not know.
     """
@@ -32,6 +33,9 @@ def solved_in_time(task: Task, options: Options, given: HumanPlan | None, effort
     if not knows(options):
         raise UsageError("preservation: solved in time for 'kernel' only, not for 'state'")
     units = unit_steps(task, effort.deadline, options.waiting_cost)
+    if given is not None:  # it may come too late, or be in a bystander's way
+        late = units.after_waiting(units.plan(given), options.head_start)
+        task.replay_alone(units.begun(late), strict=options.strict)
     plans = OptimalPlans(units.task, alone_of(units.task, effort.deadline, options))
     if given is None or options.mode == "individual":
         start = plans.alone.start

@@ -6,7 +6,6 @@ from typing import Any, Final
 
 from serendipity.model import Options, Task
 from verify.base.beside_script import alone_of
-from verify.base.execution import awake
 from verify.base.operators import OwnActions
 from verify.base.subproblem import prices
 from verify.base.undecided import TooManyStatesError, UndecidedError, during
@@ -34,13 +33,8 @@ def least_alone(task: Task, options: Options, effort: Effort) -> Fraction | None
     with during("writing a program for what the human can do alone"):
         program = _Alone(task, options, effort)
     units = program.read(effort.proof) if isinstance(effort.proof, ProofReader) else program.solve()
-    return None if units is None else Fraction(units, program.scale)
+    return None if units is None else Fraction(units, program.scale) + program.alone.paid_before
 
-
-_WAITED, _RESTED = -1, -2
-"""In the place of actions: a head start in which the human waits, or rests for good."""
-
-_HEAD_START: Final = "the head start"
 
 _Graph = tuple[Any, Callable[[Any], bool], Callable[[Any], Iterable[tuple[int, Any]]]]
 
@@ -57,6 +51,7 @@ class _Alone:
         self._team = chosen.team
         self._options = options
         self._own: OwnActions | None = None
+        self.alone = alone_of(task, self._deadline, options)
         self._number: dict[Hashable, int] = {}
         self.model = Model(self._deadline)
         self._write()
@@ -108,8 +103,6 @@ class _Alone:
 
     def _paid(self, action: int) -> int:
         """What a move costs: an action with all that is due after it, where it is taken as one."""
-        if action < 0:
-            return self._head_start if action == _WAITED else 0
         if self._own is None:
             return self._team[action]
         return int(self._own.split(self._own.whole(action)[1])[0] * self.scale)
@@ -117,29 +110,15 @@ class _Alone:
     def _graph(self) -> "_Graph":
         """Where states begin, which end a plan, and what follows them: by bits, or as sets of facts."""
         task = self._task
-        alone = alone_of(task, self._deadline, self._options)
-        start = alone.start
+        start = self.alone.start
         if task.of_bystanders:
-            graph: _Graph = start, task.goal.holds, alone.moves
-            rested: Any = None if start is None else start - awake(task)
+            graph: _Graph = start, task.goal.holds, self.alone.moves
         else:
             own = self._own = OwnActions(task, self._deadline)
             wanted, unwanted = own.bits.of(task.goal.positive), own.bits.of(task.goal.negative)
             here = own.bits.of(task.init)
             graph = here, lambda state: state & wanted == wanted and not state & unwanted, own.steps
-            rested = here & ~own.bits.of(awake(task))
-        self._head_start = int(alone.head_start_cost * self.scale)
-        return self._after_waiting(graph, rested) if self._head_start and start is not None else graph
-
-    def _after_waiting(self, graph: "_Graph", rested: Any) -> "_Graph":
-        """A graph after a head start that costs: the human waits for it, or begins nothing any more."""
-        start, is_end, onward = graph
-        waits = [(_WAITED, start), (_RESTED, rested)]
-        return (
-            _HEAD_START,
-            lambda state: state is not _HEAD_START and is_end(state),
-            lambda state: waits if state is _HEAD_START else onward(state),
-        )
+        return graph
 
     def solve(self) -> int | None:
         """The least cost in units, by the solver; None: there is no plan.

@@ -10,6 +10,7 @@ from search import PreparedTask, canonical_human_plan
 from serendipity.model import Deadline, HumanPlan, Options, Script, Task
 from serendipity.model.task.unit_steps import unit_steps
 from serendipity.testing.builders import task
+from serendipity.testing.generator import random_call_in_time
 from serendipity.testing.oracle import optimal_human_plan
 from serendipity.testing.strategies.time import tasks_in_time
 
@@ -56,3 +57,10 @@ def test_a_building_of_84_rooms_with_slow_walks(robots: int) -> None:
     answer = serendipity.plan(slowed(building(84, 4, robots, 2), 1), discount="0.9")
     assert answer.status == "optimal"
     assert answer.statistics["expanded"] < 2_000
+
+
+def test_what_is_cheaper_than_waiting_is_not_done_for_ever() -> None:
+    """With a price of waiting the search for a plan went on without end where there is none."""
+    call = random_call_in_time(266)
+    answer = serendipity.plan(call.task, mode="individual", waiting_cost="0.5", time_limit=20)
+    assert (answer.status, answer.reason) == ("infeasible", "no-human-plan")
