@@ -88,7 +88,7 @@ def report(
     asked = ", ".join(f"{name}={value}" for name, value in call.options.items())
     lines += ["", f"  asked: {asked}"]
     if call.human_plan is not None:
-        lines.append(f"  human plan: {'; '.join(call.human_plan)}")
+        lines.append(f"  human plan: {'; '.join(map(str, call.human_plan))}")
     lines += [f"  {who}: {words}" for who, words in (*found.said.items(), *found.plans.items())]
     lines.append("")
     if folder is not None:

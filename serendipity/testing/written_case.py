@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Final
 
 from serendipity.model.numbers import exact
+from serendipity.model.task.plans import PlanEntry
 from serendipity.pddl.write import composite_files, task_files
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
@@ -36,7 +37,7 @@ def write_case(
         for name, text in zip(("domain.pddl", "problem.pddl"), pair, strict=True)
     }
     if call.human_plan is not None:
-        texts[folder / PLAN] = "".join(f"{_written(name)}\n" for name in call.human_plan)
+        texts[folder / PLAN] = "".join(map(_line, call.human_plan))
     if outside:
         files = composite_files(call.task, exact(call.options.get("discount", "0"), "discount"))
         texts |= {folder / "joint-domain.pddl": files.domain, folder / "joint-problem.pddl": files.problem}
@@ -70,6 +71,9 @@ def command_line(call: PlanCall, folder: Path, command: str = "plan") -> str:
     return shlex.join(words)
 
 
-def _written(name: str) -> str:
-    """An action's name as :func:`write_pddl` writes it."""
-    return name.replace(" ", "_")
+def _line(entry: PlanEntry) -> str:
+    """A line of a plan: an action's name as :func:`write_pddl` writes it, in time when it begins."""
+    if isinstance(entry, str):
+        return f"{entry.replace(' ', '_')}\n"
+    epoch, name = entry
+    return f"{epoch - 1}: ({name.replace(' ', '_')})\n"

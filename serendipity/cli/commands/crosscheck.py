@@ -25,13 +25,18 @@ def crosscheck(
     task: naming.TaskName,
     count: Annotated[int, option("--count N", "Random calls to check.", min=1)] = 100,
     seed: Annotated[int | None, option("--seed S", "Of the first random call; by default a new one.")] = None,
+    in_time: Annotated[
+        bool,
+        option("--in-time", "Random calls in time; judges that know it are search, automata, exhaustive."),
+    ] = False,
     judges: Annotated[
         str,
         option(
             "--judges NAME,...",
-            "Who answers: search, automata, paper, cbc, program, exhaustive; or false-certificates.",
+            "Who answers: search, automata, paper, cbc, program, exhaustive; or false-certificates. "
+            "By default search, automata, and without time paper.",
         ),
-    ] = "search,automata,paper",
+    ] = "",
     judge: Annotated[
         list[str] | None,
         option(
@@ -69,21 +74,28 @@ def crosscheck(
     """
     from serendipity.testing import crosscheck as checking
     from serendipity.testing import shrinking
-    from serendipity.testing.generator.calls import PlanCall, random_call
+    from serendipity.testing.generator import PlanCall, random_call, random_call_in_time
     from serendipity.testing.judges import by_command, by_name
     from serendipity.testing.written_case import write_case
 
-    names = judges.split(",")
+    names = (judges or ("search,automata" if in_time else "search,automata,paper")).split(",")
     for name in names:
         if name not in (*checking.JUDGES, checking.FALSE_CERTIFICATES):
             known = ", ".join((*checking.JUDGES, checking.FALSE_CERTIFICATES))
             raise UsageError(f"judges: expected some of {known}, got '{name}'")
+    if in_time and checking.FALSE_CERTIFICATES in names:
+        raise UsageError("judges: false-certificates knows no time")
     chosen = {name: checking.JUDGES[name] for name in names if name in checking.JUDGES}
     forged = checking.FalseCertificates(time_limit) if checking.FALSE_CERTIFICATES in names else None
 
     outside = [*map(by_name, judge or ()), *map(by_command, judge_command or ())]
     compared = partial(
-        checking.compare, judges=chosen, outside=outside, time_limit=time_limit, memory_limit=memory_limit
+        checking.compare,
+        judges=chosen,
+        laws={} if in_time else checking.LAWS,  # which are about sessions and limits without time
+        outside=outside,
+        time_limit=time_limit,
+        memory_limit=memory_limit,
     )
 
     def judged(call: PlanCall) -> "Disagreement | None":
@@ -96,7 +108,8 @@ def crosscheck(
         if first is None:
             first = secrets.randbelow(10**9)
             output.say(f"seed {first}\n")
-        calls, total = (random_call(first + k) for k in range(count)), count
+        drawn = random_call_in_time if in_time else random_call
+        calls, total = (drawn(first + k) for k in range(count)), count
     else:
         given = task.load(Deadline(time_limit, memory_limit))
         modes = ("composite",) if outside else _MODES
@@ -124,7 +137,10 @@ def crosscheck(
     words = [word for name in judge or () for word in ("--judge", name)]
     words += [word for text in judge_command or () for word in ("--judge-command", text)]
     words += ["--judges", checking.FALSE_CERTIFICATES] if found.law == checking.FALSE_CERTIFICATES else []
-    commands = write_case(found, folder, words)
+    again_in_time = (
+        f"serendipity crosscheck --in-time --count 1 --seed {found.call.seed}" if in_time else None
+    )
+    commands = write_case(found, folder, words, again=again_in_time)
     plans = "".join(f"{whose}: {steps}\n" for whose, steps in found.plans.items())
     output.say(f"after {checked} calls without, a disagreement: {found}\n{plans}reproduce: {commands}\n")
     return ExitCode.REFUTED

@@ -5,16 +5,13 @@ from copy import copy
 from random import Random
 from typing import Self
 
-from serendipity.facade.person.ways import Way, Ways
+from serendipity.facade.person.ways import Entries, Way, Ways, entries_of
 from serendipity.model import Deadline, HumanPlan, PlanError, PlanStep, Task
 from serendipity.model.task.actions import NOOP
 from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.passing import at_work, epoch_later
 from serendipity.model.task.plans import TimedPlan
-
-Entries = list[tuple[int, str]]
-"""What somebody means to begin, and in which epochs from now."""
 
 
 class Follower:
@@ -52,13 +49,13 @@ class Follower:
         best = self._ways.of(now, deadline)
         kept = self.working(now)
         if kept is not None and (best is None or now.cost_of(kept) <= best.cost):
-            return Way(kept, now.cost_of(kept))
+            return Way(entries_of(now, kept), now.cost_of(kept))
         if best is None:
-            self.rest = []
+            self.rest = ()
             return None
-        plan = best.plan if self._dice is None else self._ways.drawn(now, self._dice)
-        self.rest = [*zip(now.starts_of(plan), (now.actions[i].name for i in plan), strict=True)]
-        return Way(plan, best.cost)
+        dice = self._dice
+        self.rest = best.plan if dice is None else entries_of(now, self._ways.drawn(now, dice))
+        return Way(self.rest, best.cost)
 
     def choose(self, now: Task, offers: Sequence[PlanStep], deadline: Deadline) -> PlanStep | str | None:
         """What they begin: an offer that pays as much as their own plan, what that says, or None to wait.
@@ -86,7 +83,7 @@ class Follower:
         if begun != self.next:
             self.rest = None
         else:
-            self.rest = [(epoch - 1, name) for epoch, name in self.rest if epoch > 1]
+            self.rest = tuple((epoch - 1, name) for epoch, name in self.rest if epoch > 1)
 
     def plan(self, task: Task) -> HumanPlan | None:
         """What they mean to do, by the ids of a task, its epochs counted from now."""

@@ -14,7 +14,7 @@ from search.modes.simulation.simulator import (
     Skipped,
 )
 from serendipity.facade.person.follower import Follower
-from serendipity.facade.person.ways import Ways
+from serendipity.facade.person.ways import Ways, entries_of
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Step, Task
 from serendipity.model.errors import LIMITS, limit_reason
@@ -77,7 +77,7 @@ class _Game:
         self._ways = Ways(options)
         self._mind = Follower(self._ways)
         ids = task.plan_from_names(plan)
-        self._mind.rest = [*zip(task.starts_of(ids), (task.actions[i].name for i in ids), strict=True)]
+        self._mind.rest = entries_of(task, ids)
         self._left: dict[int, list[int]] = defaultdict(list)
         for step in steps:
             if task.actions[step.action].participants != (task.human,):

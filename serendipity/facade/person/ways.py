@@ -20,11 +20,20 @@ _DRAWN: Final = 100
 """Of so many optimal plans one is drawn."""
 
 
-class Way(NamedTuple):
-    """A plan of the person alone, its epochs counted from now, and what it costs."""
+Entries = tuple[tuple[int, str], ...]
+"""What somebody means to begin, and in which epochs from now: by names, which hold where ids are others."""
 
-    plan: HumanPlan
+
+class Way(NamedTuple):
+    """What the person begins alone, and in which epochs from now, and what it costs."""
+
+    plan: Entries
     cost: Fraction
+
+
+def entries_of(task: Task, plan: HumanPlan) -> Entries:
+    """A plan by names, with the epochs in which its actions begin."""
+    return tuple(zip(task.starts_of(plan), (task.actions[i].name for i in plan), strict=True))
 
 
 class Ways:
@@ -63,7 +72,7 @@ class Ways:
         if answer.human_plan is None or answer.human_entries is None:
             return None
         plan = now.plan_from_names(answer.human_entries)
-        return Way(plan, now.cost_of(plan))
+        return Way(entries_of(now, plan), now.cost_of(plan))
 
     def drawn(self, now: Task, dice: Random) -> HumanPlan:
         """One of their optimal plans, of which there are some."""

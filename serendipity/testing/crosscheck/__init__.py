@@ -2,10 +2,12 @@
 
 from serendipity.testing.crosscheck.false_certificates import FALSE_CERTIFICATES, FalseCertificates
 from serendipity.testing.crosscheck.judges import JUDGES, Figures, Judge, compare, shows_it_too
+from serendipity.testing.own_laws import LAWS
 
 __all__ = [
     "FALSE_CERTIFICATES",
     "JUDGES",
+    "LAWS",
     "FalseCertificates",
     "Figures",
     "Judge",

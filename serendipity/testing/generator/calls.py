@@ -5,6 +5,7 @@ from random import Random
 from typing import Any
 
 from serendipity.model import Task
+from serendipity.model.task.plans import PlanEntry
 from serendipity.testing.generator.families import FAMILIES
 from serendipity.testing.generator.human_plans import plan_after_detour, random_human_plan
 from serendipity.testing.generator.numbers import odd_options, oddly_priced
@@ -34,13 +35,13 @@ class PlanCall:
     """A task and the options of ``plan`` that are not the default, as text.
 
     Attributes:
-        human_plan: names of the actions of ``pi_H`` where it is given.
+        human_plan: names of the actions of ``pi_H`` where it is given, in time with their epochs.
         seed: what :func:`random_call` made it from, and what is asked beside it; None if nothing has.
     """
 
     task: Task
     options: dict[str, str] = field(default_factory=dict)
-    human_plan: tuple[str, ...] | None = None
+    human_plan: tuple[PlanEntry, ...] | None = None
     seed: int | None = None
 
     def keywords(self) -> dict[str, Any]:

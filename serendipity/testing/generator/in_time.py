@@ -1,0 +1,85 @@
+"""Seeded random calls in time: actions that take a while, facts that change by themselves (semantics 10)."""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from random import Random
+from typing import Final
+
+from serendipity.model import Condition, GroundAction, PlanError, Script, Task, Timing
+from serendipity.testing.generator.calls import PlanCall
+from serendipity.testing.generator.tasks import random_task
+from serendipity.testing.oracle import optimal_human_plan
+
+_DURATIONS: Final = (1, 1, 1, 2, 2, 3)
+_LAST_EPOCH: Final = 6
+_LONGEST: Final = 8
+"""Epochs of the human's plan: to prove what is best beside a longer one may take a minute."""
+
+_MODES: Final = ("serendipity", "serendipity", "communication", "composite", "individual")
+_CHOICES: Final[dict[str, tuple[str, ...]]] = {
+    "discount": ("0", "0.5", "0.9", "1"),
+    "window_weight": ("1000", "0", "0.25", "1"),
+    "max_window": ("", "", "1", "2"),
+    "suffix": ("", "", "subplan"),
+    "interference": ("", "", "strict"),
+    "waiting_cost": ("", "", "1", "0.5"),
+    "head_start": ("", "", "1", "2"),
+}
+
+
+def random_call_in_time(seed: int) -> PlanCall:
+    """A small random task in time with random options; equal seeds give equal calls."""
+    dice = Random(f"in time {seed}")
+    while True:
+        task = _in_time(dice, replace(random_task(dice), robot_goal=Condition()))
+        plan = optimal_human_plan(task)
+        if plan is None or task.epochs_of(plan) <= _LONGEST:
+            break
+    options = {"mode": dice.choice(_MODES)}
+    options |= {name: value for name, values in _CHOICES.items() if (value := dice.choice(values))}
+    if plan is None and options["mode"] in ("communication", "composite"):
+        options["horizon"] = dice.choice(("3", "4", "5"))
+    given = None
+    if plan is not None and dice.random() < 0.25:
+        gap = dice.choice((0, 0, 1, 2))
+        starts = (start + gap for start in task.starts_of(plan))
+        given = tuple(zip(starts, (task.actions[i].name for i in plan), strict=True))
+        try:
+            task.plan_from_names(given)
+        except PlanError:
+            given = None
+    return PlanCall(task, options, given, seed)
+
+
+def _in_time(dice: Random, task: Task) -> Task:
+    """The task with durations, or a script, or both."""
+    times = Counter((action.name, action.participants) for action in task.actions)
+    if (share := dice.random()) < 0.8:
+        # Which variant of one action is meant is known when it begins: they stay as they are.
+        actions = (
+            _longer(dice, one) if times[one.name, one.participants] == 1 else one for one in task.actions
+        )
+        task = replace(task, actions=tuple(actions))
+    if share > 0.5:
+        moments = {(dice.randint(1, _LAST_EPOCH), dice.choice(task.facts)) for _ in range(dice.randint(1, 3))}
+        facts = [(epoch, f"{dice.choice(('', '!'))}{fact}") for epoch, fact in sorted(moments)]
+        task = task.with_script(Script(facts=facts))
+    return task
+
+
+def _longer(dice: Random, action: GroundAction) -> GroundAction:
+    """The action with a duration, and some of its conditions and effects moved within it."""
+    duration = dice.choice(_DURATIONS)
+    if duration == 1:
+        return action
+    (pre, over, end), (neg, over_neg, end_neg) = _parted(dice, action.pre, 3), _parted(dice, action.neg, 3)
+    (add, begun), (delete, gone) = _parted(dice, action.add, 2), _parted(dice, action.delete, 2)
+    timing = Timing(duration, Condition(over, over_neg), Condition(end, end_neg), begun, gone)
+    return replace(action, pre=pre, neg=neg, add=add, delete=delete, timing=timing)
+
+
+def _parted(dice: Random, facts: Sequence[int], parts: int) -> list[tuple[int, ...]]:
+    """Facts in some parts, of which the first has most."""
+    place = {fact: dice.choice((0, *range(parts))) for fact in facts}
+    return [tuple(fact for fact in facts if place[fact] == part) for part in range(parts)]
