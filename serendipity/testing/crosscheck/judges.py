@@ -11,7 +11,6 @@ from serendipity.facade.certify import check, verify
 from serendipity.facade.planning import plan
 from serendipity.model import INFINITE, Deadline, Options, PlanError, Result, UsageError
 from serendipity.model.task.gate import needs_time
-from serendipity.model.task.plans import checked_entries
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.judges import OutsideJudge, fault
@@ -30,26 +29,14 @@ def may_be_refused(call: PlanCall) -> bool:
     except (UsageError, PlanError):
         return True
     if needs_time(call.task, options=options, plan=given):
-        return options.horizon is not None or not _works_later(call, options)
+        # By the end, or after a head start, there may be no plan any more, or not the one that is given.
+        return options.horizon is not None or bool(options.head_start)
     plans = OptimalPlans(call.task)
     plan = plans.canonical() if given is None else given
     tied = options.ties != "fixed" and given is None
     if tied and len(list(islice(plans.plans(), options.max_ties + 1))) > options.max_ties:
         return True
     return _lacks_horizon(call, options, None if plan is None else len(plan))
-
-
-def _works_later(call: PlanCall, options: Options) -> bool:
-    """Whether the plan that is given in time is one after the head start, too."""
-    entries = checked_entries(call.human_plan or (), "human plan")
-    timed = [entry for entry in entries if not isinstance(entry, str)]
-    if len(timed) < len(entries):
-        return not options.head_start
-    try:
-        call.task.plan_from_names([(epoch + options.head_start, name) for epoch, name in timed])
-    except PlanError:
-        return not timed
-    return True
 
 
 def _lacks_horizon(call: PlanCall, options: Options, length: int | None) -> bool:
