@@ -1,11 +1,12 @@
 """The robots' policy in time: what they begin in an epoch, while other things go on (semantics 10.6)."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
 from typing import Final
 
+from serendipity.execution.clock.course import Course, Help, after_going_on, after_helping
 from serendipity.execution.clock.world import WorldInTime
 from serendipity.execution.decided import Decided, Outlook
 from serendipity.execution.history import HelpHistory
@@ -13,8 +14,8 @@ from serendipity.execution.why import Why
 from serendipity.facade.person.follower import Follower
 from serendipity.facade.person.ways import Way, Ways
 from serendipity.facade.session import Session
-from serendipity.model import INFINITE, Deadline, Options, PlanError, PlanStep, Task, UsageError, Window
-from serendipity.model.errors import LimitReachedError
+from serendipity.model import INFINITE, Deadline, Options, PlanError, PlanStep, Task, UsageError
+from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.numbers import as_written, total
 from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.course import BrokenPlanError
@@ -23,23 +24,6 @@ from serendipity.model.task.passing import at_work, epoch_later
 
 _TIME_TO_PLAN: Final = 0.6
 """The share of the time for plans; the rest is for what they mean for somebody who is not told."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Help:
-    """A plan that pays, from the epoch that is to come.
-
-    Attributes:
-        plan: what everybody does.
-        window: where the person is met, as far as it says so.
-        cost: what it costs the team, or, beside somebody who is not told, what it will come to.
-        proved: whether nothing is better.
-    """
-
-    plan: tuple[PlanStep, ...]
-    window: Window | None
-    cost: Fraction
-    proved: bool
 
 
 class RobotsInTime:
@@ -66,6 +50,9 @@ class RobotsInTime:
         self._theirs = Follower(self._ways)
         self._history = HelpHistory(task)
         self._session: Session | None = None
+        self._course: Course | None = None
+        self._is_sure = False
+        """Whether it is proved that no help pays."""
         self._gone: frozenset[int] = frozenset()
         self._unable: frozenset[int] = frozenset()
         self._human = task.agents[task.human]
@@ -89,18 +76,19 @@ class RobotsInTime:
     def surprised(self) -> None:
         """See :class:`serendipity.execution.Robots`."""
         self._history.broken("changed")
+        self._course = None
 
     def drop(self, robots: Iterable[int]) -> None:
         """See :class:`serendipity.execution.Robots`."""
         gone = frozenset(robots)
         self._history.broken("out-of-order", ", ".join(self._task.agents[i] for i in sorted(gone)))
         self._gone |= gone
-        self._session = None
+        self._session = self._course = None
 
     def unable(self, actions: Iterable[int]) -> None:
         """See :class:`serendipity.execution.Robots`."""
         self._unable |= frozenset(actions)
-        self._session = None
+        self._session = self._course = None
 
     # -- what they decide
 
@@ -114,19 +102,27 @@ class RobotsInTime:
         if self._gone.issuperset(self._task.robots):
             gone = tuple(self._task.agents[i] for i in sorted(self._gone))
             return self._idle(outlook, Why("out-of-order", robots=gone), robots)
-        alone = self._ways.of(now, deadline)
-        if alone is not None and not alone.plan and now.human not in at_work(now):
-            return self._idle(outlook, Why("no-help"), robots)  # they have what they want
-        if now.human not in at_work(now):
-            self._theirs.look(now, deadline)
-        found = self._best(now, alone, deadline.sooner(_TIME_TO_PLAN))
+        course, self._course = self._course, None
+        if course is not None and (course.state, course.script) != (now.init, now.script):
+            course = None
+        if course is not None and course.found is None:
+            alone: Way | None = course.alone
+        else:
+            alone = self._ways.of(now, deadline)
+            if alone is not None and not alone.plan and now.human not in at_work(now):
+                return self._idle(outlook, Why("no-help"), robots)  # they have what they want
+            if now.human not in at_work(now):
+                self._theirs.look(now, deadline)
+        found = course.found if course is not None else self._best(now, alone, deadline.sooner(_TIME_TO_PLAN))
         if found is None:
-            why = self._none_pays(alone)
-            return self._idle(outlook, why, robots)
+            self._course = None if robots or alone is None else self._onward_alone(now, alone)
+            return self._idle(outlook, self._none_pays(alone), robots)
         if not self._told:
-            found, why = self._safe(now, found, alone, deadline)
+            foreseen = None if course is None else found
+            found, why = self._safe(now, found, alone, deadline, foreseen)
             if found is None:
                 return self._idle(outlook, why, robots)
+        self._course = self._onward(now, found, deadline)
         return self._following(outlook, now, found, alone, robots, deadline)
 
     def _able(self, now: Task) -> Task:
@@ -159,7 +155,7 @@ class RobotsInTime:
         session.follow(known if working else None)
         return session
 
-    def _best(self, now: Task, alone: Way | None, deadline: Deadline) -> _Help | None:
+    def _best(self, now: Task, alone: Way | None, deadline: Deadline) -> Help | None:
         """The best plan of the mode that pays, or the rest of the last one; None where none does.
 
         Raises:
@@ -174,19 +170,23 @@ class RobotsInTime:
         if answer.plan is None or (alone is not None and not answer.opportunity):
             if rest is None and answer.status not in ("optimal", "infeasible"):
                 raise LimitReachedError("time-limit")
+            self._is_sure = answer.status == "optimal"
             return rest
         cost = total(as_written(step.cost) for step in answer.plan)
         if rest is not None and rest.cost <= cost:
             return replace(rest, proved=answer.status == "optimal")
-        return _Help(answer.plan, answer.window, cost, answer.status == "optimal")
+        is_best = answer.status == "optimal"
+        return Help(answer.plan, answer.window, cost, proved=is_best, settled=is_best)
 
-    def _rest(self, session: Session, alone: Way | None) -> _Help | None:
+    def _rest(self, session: Session, alone: Way | None) -> Help | None:
         """What is left of the last plan, if robots have a part in it and it still pays."""
         steps = session.rest
         if not steps or all(step.agents == (self._human,) for step in steps):
             return None
         cost = total(as_written(step.cost) for step in steps)
-        return _Help(steps, None, cost, proved=False) if alone is None or cost < alone.cost else None
+        if alone is not None and cost >= alone.cost:
+            return None
+        return Help(steps, None, cost, proved=False, settled=False)
 
     def _none_pays(self, alone: Way | None) -> Why:
         if alone is None:
@@ -196,11 +196,15 @@ class RobotsInTime:
     # -- beside somebody who is not told
 
     def _safe(
-        self, now: Task, found: _Help, alone: Way | None, deadline: Deadline
-    ) -> tuple[_Help | None, Why]:
-        """The plan as it will come out with such a person; None, and why, where it does not pay or spoils."""
+        self, now: Task, found: Help, alone: Way | None, deadline: Deadline, foreseen: Help | None
+    ) -> tuple[Help | None, Why]:
+        """The plan as it will come out with such a person; None, and why, where it does not pay or spoils.
+
+        Args:
+            foreseen: the same, if all went as it was to go with them.
+        """
         cost, before = found.cost, None if alone is None else alone.cost
-        will_be = self._outcome(now, found.plan, deadline)
+        will_be = self._outcome(now, found.plan, deadline) if foreseen is None else cost
         figures = float(cost), None if before is None else float(before)
         if will_be is None or (before is not None and will_be >= before):
             return None, Why("untold" if before is not None else "only-told", *figures)
@@ -215,11 +219,17 @@ class RobotsInTime:
         """What the team will pay if robots do their part of a plan, as far as that goes; None: no end."""
         world = WorldInTime(now, self._options.discount, strict=self._options.strict)
         person, spent = self._theirs.copy(), Fraction(0)
+        is_news = True  # nobody changes their mind while robots do nothing
         for epoch in range(1, max(step.epoch for step in plan) + 1):
             steps = [step for step in plan if step.epoch == epoch]
             offers = [s for s in steps if self._human in s.agents and len(s.agents) > 1]
             robots = [step for step in steps if self._human not in step.agents]
-            choice = person.choose(world.now, offers, deadline)
+            busy = world.now.human in at_work(world.now)
+            if is_news or offers or person.rest is None:
+                choice = person.choose(world.now, offers, deadline)
+                is_news = is_news and busy
+            else:
+                choice = None if busy else person.next
             taken = [choice] if isinstance(choice, PlanStep) else []
             own = world.his(choice) if isinstance(choice, str) else None
             if own is not None and not world.applicable(own):
@@ -229,6 +239,12 @@ class RobotsInTime:
             if taken:
                 person.rest = None
             spent += world.cost(happened.executed)[1]
+            others = any(self._human not in step.agents for step in happened.going)
+            is_news = (
+                is_news
+                or others
+                or any(now.actions[i].participants != (now.human,) for i in happened.executed)
+            )
         left = self._ways.of(world.now, deadline)
         return None if left is None else spent + left.cost
 
@@ -271,13 +287,34 @@ class RobotsInTime:
     def _variant(self, now: Task, step: PlanStep) -> GroundAction:
         return now.actions[variant_named(now, step.action, step.agents, now.init)]
 
+    # -- what stands
+
+    def _onward_alone(self, now: Task, alone: Way) -> Course | None:
+        """What stands after an epoch in which the person goes on with their plan, and no help pays."""
+        if not self._is_sure:
+            return None
+        name = None if now.human in at_work(now) else self._theirs.next
+        return after_going_on(now, self._options, alone, name)
+
+    def _onward(self, now: Task, found: Help, deadline: Deadline) -> Course | None:
+        """What stands after an epoch that goes as planned."""
+        first = [step for step in found.plan if step.epoch == 1]
+        choice: PlanStep | str | None = next((s for s in first if self._human in s.agents), None)
+        if not self._told and found.settled:
+            offers = [s for s in first if self._human in s.agents and len(s.agents) > 1]
+            try:
+                choice = self._theirs.copy().choose(now, offers, deadline)
+            except LIMITS:
+                return None
+        return after_helping(now, self._options, found, choice)
+
     # -- in words
 
     def _following(
         self,
         outlook: Outlook,
         now: Task,
-        found: _Help,
+        found: Help,
         alone: Way | None,
         robots: Sequence[PlanStep],
         deadline: Deadline,
