@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any, Final, Literal
 
 from serendipity.execution.beliefs import Beliefs
-from serendipity.execution.clock.robots import RobotsInTime
+from serendipity.execution.clock.robots import RobotsInTime, require_known
 from serendipity.execution.clock.world import WorldInTime
 from serendipity.execution.decided import COLUMNS, Decided, Outlook, Passed, Reported, Robots
 from serendipity.execution.leftovers import tidying
@@ -110,7 +110,7 @@ class Execution(Tabular):
         if plans is not None:
             _require_alone(task, goals, mode)
         if task.needs_time:
-            _require_known(task, goals=goals, plans=plans, leave_free=leave_free, human_model=human_model)
+            require_known(task, goals=goals, plans=plans, leave_free=leave_free, human_model=human_model)
         if leave_free is not None:
             if goals is not None or plans is not None:
                 raise UsageError("leave_free: goes with a known goal only")
@@ -382,16 +382,6 @@ def _require_alone(task: Task, goals: GoalsGiven | None, mode: str) -> None:
         raise UsageError("plans: go without goals, each plan can name its own")
     if task.robot_goal or mode != "serendipity":
         raise UsageError("plans: go without robots' own goals, and without communication")
-
-
-def _require_known(task: Task, **given: Any) -> None:
-    """Raise UsageError where something is asked for that is not known in time."""
-    if task.robot_goal:
-        raise UsageError("time: robots with goals of their own are not known here yet")
-    model = given.pop("human_model")
-    name = next((name for name, value in given.items() if value is not None), None)
-    if model == "local" or name is not None:
-        raise UsageError(f"{name or 'human_model local'}: in time, which is not known here yet")
 
 
 def _name_of(task: Task, candidates: Sequence[CandidateGoal]) -> str | None:

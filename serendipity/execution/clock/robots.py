@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
-from typing import Final
+from typing import Any, Final
 
 from serendipity.execution.clock.course import Course, Help, after_going_on, after_helping
 from serendipity.execution.clock.world import WorldInTime
@@ -24,6 +24,20 @@ from serendipity.model.task.passing import at_work, epoch_later
 
 _TIME_TO_PLAN: Final = 0.6
 """The share of the time for plans; the rest is for what they mean for somebody who is not told."""
+
+
+def require_known(task: Task, **given: Any) -> None:
+    """Return if an execution in time knows all that is asked for.
+
+    Raises:
+        UsageError: it does not.
+    """
+    if task.robot_goal:
+        raise UsageError("time: robots with goals of their own are not known here yet")
+    model = given.pop("human_model")
+    name = next((name for name, value in given.items() if value is not None), None)
+    if model == "local" or name is not None:
+        raise UsageError(f"{name or 'human_model local'}: in time, which is not known here yet")
 
 
 class RobotsInTime:
