@@ -4,7 +4,6 @@
 
 #pragma once
 
-#include <stdint.h>
 #include <stdlib.h>
 #include "a_star.h"
 #include "cost_partitioning.h"

@@ -7,7 +7,6 @@
 
 #pragma once
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "a_star.h"

@@ -5,7 +5,6 @@
 
 #pragma once
 
-#include <stdint.h>
 #include <stdlib.h>
 #include "cost_partitioning.h"
 #include "intended_effects.h"

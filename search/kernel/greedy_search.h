@@ -7,7 +7,6 @@
 
 #pragma once
 
-#include <stdint.h>
 #include <stdlib.h>
 #include "heap.h"
 #include "lists.h"

@@ -4,7 +4,6 @@
 
 #pragma once
 
-#include <stdint.h>
 #include "lists.h"
 #include "problem.h"
 #include "state_table.h"

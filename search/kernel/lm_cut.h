@@ -6,7 +6,6 @@
 
 #pragma once
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "landmarks.h"

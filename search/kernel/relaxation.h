@@ -4,7 +4,6 @@
 
 #pragma once
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include "fact_queue.h"

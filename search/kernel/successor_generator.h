@@ -4,7 +4,6 @@
 
 #pragma once
 
-#include <stdint.h>
 #include <stdlib.h>
 #include "lists.h"
 #include "problem.h"
