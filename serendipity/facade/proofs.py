@@ -3,11 +3,16 @@
 from functools import partial
 from pathlib import Path
 from time import perf_counter
+from typing import Final
 
 from serendipity.model import Deadline, InputError, ProofCheck, RefutedProgram, Result, Task, UsageError
 from serendipity.model.arguments import PATH, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.resources.limits import limits_from
 from verify.proofs import checker
+
+
+_OF_VERIPB: Final = (".pbp", ".opb")
+"""How files end that another checker reads."""
 
 
 def check_proof(
@@ -45,6 +50,8 @@ def check_proof(
     file = Path(path)
     if (task is None) != (result is None):
         raise UsageError("check_proof: expected a task and a result, or neither")
+    if file.suffix in _OF_VERIPB:
+        raise InputError("is for VeriPB: expected a proof file in JSON; run 'veripb FILE.opb FILE.pbp'", file)
     limits = limits_from(time_limit, memory_limit, deadline)
     polled = partial(limits.each, batch=1)
     programs: tuple[RefutedProgram, ...] = ()

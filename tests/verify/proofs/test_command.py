@@ -78,3 +78,10 @@ def test_no_proof_no_file(answers: Path, tmp_path: Path, capsys: pytest.CaptureF
     assert not proof.exists()
     assert main(["verify", "--example", "room2", str(answers / "room2.json"), "--proof", "/none/x.json"]) == 2
     assert "--proof: there is no folder /none" in capsys.readouterr().err
+
+
+def test_a_proof_for_veripb_is_sent_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    proof = tmp_path / "help.pbp"
+    proof.write_text("pseudo-Boolean proof version 2.0\n")
+    assert main(["check-proof", str(proof)]) == 2
+    assert "is for VeriPB: expected a proof file in JSON; run 'veripb" in capsys.readouterr().err
