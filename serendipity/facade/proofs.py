@@ -10,7 +10,6 @@ from serendipity.model.arguments import PATH, RESULT_IN_TIME, TASK_IN_TIME, expe
 from serendipity.model.resources.limits import limits_from
 from verify.proofs import checker
 
-
 _OF_VERIPB: Final = (".pbp", ".opb")
 """How files end that another checker reads."""
 
