@@ -17,19 +17,15 @@ def plain() -> Task:
     return task(goal="done", actions={"do h": " -> done", "help r": " -> done"})
 
 
-def test_waiting_is_refused_elsewhere() -> None:
+def test_waiting_is_played_and_a_head_start_is_not_for_sessions() -> None:
     waiting = serendipity.plan(plain(), human_plan=[(3, "do h")])
     assert (waiting.status, waiting.horizon) == ("optimal", 3)
     assert serendipity.verify(plain(), waiting).verdict == "proved"
-    with pytest.raises(UsageError, match="time: the human waits in their plan"):
-        serendipity.simulate(plain(), waiting)
-
-
-def test_what_has_a_head_start_is_refused_elsewhere() -> None:
     begun = serendipity.plan(plain(), head_start=2)
     assert (begun.status, begun.horizon) == ("optimal", 3)
-    with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
-        serendipity.simulate(plain(), begun)
+    for answer in (waiting, begun):
+        played = serendipity.simulate(plain(), answer)
+        assert played.realised and [epoch.did for epoch in played.epochs] == [None, None, "do h"]
     with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
         serendipity.Session(plain(), head_start=2).plan()
 
