@@ -35,7 +35,6 @@ def duration(length: str) -> dict[str, str]:
 
 
 def plan(text: str) -> dict[str, str]:
-    """Another plan file."""
     return {"plan": text}
 
 

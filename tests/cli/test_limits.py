@@ -166,7 +166,6 @@ def test_what_is_loaded_in_the_middle_is_loaded_first_under_a_time_limit() -> No
 
 
 def imported_in_functions(room: Path) -> Iterator[str]:
-    """The modules that are imported in functions of a room."""
     for file in room.rglob("*.py"):
         for function in ast.walk(ast.parse(file.read_text())):
             if isinstance(function, ast.FunctionDef):

@@ -19,7 +19,6 @@ def modules_after(program: str) -> set[str]:
 
 
 def loaded_after(program: str) -> set[str]:
-    """Top-level modules that a program has loaded when it ends."""
     return {name.split(".")[0] for name in modules_after(program)}
 
 

@@ -99,7 +99,6 @@ def answer(**changes: object) -> Result:
 
 
 def reported(**changes: object) -> str:
-    """The text of such an answer."""
     task, result = serendipity.example("room2"), answer(**changes)
     return plan_report(task, result, serendipity.check(task, result))
 

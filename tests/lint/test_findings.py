@@ -151,8 +151,6 @@ def test_errors_come_first() -> None:
 
 @pytest.fixture
 def found(tmp_path: Path) -> Rules:
-    """Write a domain and a problem; the findings by rule."""
-
     def finds(domain_text: str, problem_text: str) -> dict[str, str]:
         files = pair(tmp_path, domain_text, problem_text)
         task = serendipity.load_pddl(*files, "h", ["r"])

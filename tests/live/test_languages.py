@@ -30,7 +30,6 @@ def said_by_code() -> set[str]:
 
 
 def on_page() -> set[str]:
-    """The texts of the page itself."""
     html = PAGE.joinpath("play.html").read_text(encoding="utf-8").partition("<body>")[2]
     found = {text.strip() for text in re.findall(r">([^<]+)<", html)}
     return {text for text in found if re.search(r"[a-z]{2}", text)} - {"Serendipity"}

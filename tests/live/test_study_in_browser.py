@@ -37,7 +37,6 @@ class Runner:
         return server.client.get(f"/experimenter/{self.design.secret}/{name}").text
 
     def number(self, server: Server, page: Any) -> int:
-        """Of the task that somebody plays."""
         who, place = page.inner_text("#participant").split(", ")
         if place == "practice":
             return self.practice

@@ -30,7 +30,6 @@ class Files(NamedTuple):
     robots: tuple[str, ...]
 
     def write(self, folder: Path) -> tuple[Path, Path]:
-        """Write both files."""
         texts = (text.encode("utf-8", "surrogateescape") for text in (self.domain, self.problem))
         return pair(folder, *texts)
 
@@ -153,7 +152,6 @@ def _new_number(text: str, random: Random) -> str:
 
 
 def _many_objects(text: str, random: Random) -> str:
-    """More of what there is: larger tasks."""
     typed = [*re.finditer(r"([\w-]+) - ([\w-]+)", text)]
     if not typed:
         return _instead(_word)(text, random)

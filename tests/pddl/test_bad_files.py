@@ -7,6 +7,7 @@ import pytest
 
 from serendipity import InputError, load, load_pddl
 from tests.pddl.texts import OFFICE, YARD, action, domain, one, pair, problem
+from tests.tables import table
 
 DOMAIN, PROBLEM = (path.read_text() for path in OFFICE)
 
@@ -33,73 +34,57 @@ def is_named_with_its_line(folder: Path, name: str, old: str, new: str, message:
     assert (error.file, error.line) == (str(folder / f"{name}.pddl"), line)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("(at ?who ?from)", "(att ?who ?from)", "action 'move': unknown predicate 'att'"),
-        ("(door ?from ?to)", "(door ?from)", "predicate 'door' takes 2 arguments, got 1"),
-        ("(at ?who ?from)", "(at ?from ?from)", "'?from' is of type 'room', expected type 'agent'"),
-        ("(at ?who ?from)", "(at ?who cellar)", "object 'cellar' is not declared"),
-        ("(at ?who ?from)", "(at ?who ?form)", "variable '?form' is not declared"),
-        ("?to - room", "?to - rooom", "unknown type 'rooom'"),
-        ("basement - lift", "basement - elevator", "object 'basement': unknown type 'elevator'"),
-        ("(steps ?to)", "(stairs ?to)", "unknown function 'stairs'"),
-        ("(:action fetch", "(:action move", "action 'move' is defined already in line 15"),
-        ("(door ?from ?to)", "(< (steps ?to) 3)", "numeric conditions are not supported"),
-        (
-            "(:functions",
-            "(:derived (p) (q)) (:functions",
-            "derived predicates (':derived') are not supported",
-        ),
-        ("(:action fetch", "(:process fetch", "processes (':process') are not supported"),
-        ("(has ?who ?what) (not (in", "(probabilistic 0.5 (read ?what)) (not (in", "probabilistic"),
-        ("(:requirements", "(:wishes", "expected a section of a domain, got ':wishes'"),
-        ("(:constants", "(:types", "':types' was given already in line 4"),
-        ("?from ?to - room", "?from ?to - (either room hall)", "unknown type 'hall'"),
-        (
-            "?from ?to - room",
-            "?from ?to - (or room thing)",
-            "expected a type or '(either TYPE ...)', got '(or",
-        ),
-        ("?from ?to - room", "?from ?to -", "expected a type, got ')'"),
-        ("?who - agent ?from", "?to - agent ?from", "parameter '?to' is declared twice"),
-        ("(read ?what - thing)", "(read ?what - thing) (read)", "predicate 'read' is declared twice"),
-        ("define (domain", "define (problem", "expected 'domain', got 'problem'"),
-    ],
-)
+BAD_DOMAINS = """
+(at ?who ?from) | (att ?who ?from) | action 'move': unknown predicate 'att'
+(door ?from ?to) | (door ?from) | predicate 'door' takes 2 arguments, got 1
+(at ?who ?from) | (at ?from ?from) | '?from' is of type 'room', expected type 'agent'
+(at ?who ?from) | (at ?who cellar) | object 'cellar' is not declared
+(at ?who ?from) | (at ?who ?form) | variable '?form' is not declared
+?to - room | ?to - rooom | unknown type 'rooom'
+basement - lift | basement - elevator | object 'basement': unknown type 'elevator'
+(steps ?to) | (stairs ?to) | unknown function 'stairs'
+(:action fetch | (:action move | action 'move' is defined already in line 15
+(door ?from ?to) | (< (steps ?to) 3) | numeric conditions are not supported
+(:functions | (:derived (p) (q)) (:functions | derived predicates (':derived') are not supported
+(:action fetch | (:process fetch | processes (':process') are not supported
+(has ?who ?what) (not (in | (probabilistic 0.5 (read ?what)) (not (in | probabilistic
+(:requirements | (:wishes | expected a section of a domain, got ':wishes'
+(:constants | (:types | ':types' was given already in line 4
+?from ?to - room | ?from ?to - (either room hall) | unknown type 'hall'
+?from ?to - room | ?from ?to - (or room thing) | expected a type or '(either TYPE ...)', got '(or
+?from ?to - room | ?from ?to - | expected a type, got ')'
+?who - agent ?from | ?to - agent ?from | parameter '?to' is declared twice
+(read ?what - thing) | (read ?what - thing) (read) | predicate 'read' is declared twice
+define (domain | define (problem | expected 'domain', got 'problem'
+"""
+
+
+@pytest.mark.parametrize(("old", "new", "message"), table(BAD_DOMAINS))
 def test_bad_domain(tmp_path: Path, old: str, new: str, message: str) -> None:
     is_named_with_its_line(tmp_path, "domain", old, new, message)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("(at ann room)", "(att ann room)", "initial state: unknown predicate 'att'"),
-        ("(at ann room)", "(at ann)", "predicate 'at' takes 2 arguments, got 1"),
-        ("(at ann room)", "(at ann attic)", "object 'attic' is not declared"),
-        ("(at ann room)", "(at room ann)", "'room' is of type 'room', expected type 'agent'"),
-        ("domain - room", "domain - rooom", "object 'room': unknown type 'rooom'"),
-        ("(read problem)", "(red problem)", "goal: unknown predicate 'red'"),
-        ("(read problem)", "(read book)", "goal: object 'book' is not declared"),
-        ("(read problem)", "(preference p1 (read problem))", "preferences ('preference') are not supported"),
-        ("(read problem)", "(always (read problem))", "trajectory constraints ('always') are not supported"),
-        ("(read problem)", "(read problem) (at ann room)", "expected ')', got '(at ann room)'"),
-        (
-            "(:goal",
-            "(:constraints (and)) (:goal",
-            "trajectory constraints (':constraints') are not supported",
-        ),
-        (
-            "(at bot domain)",
-            "(at 5 (= (steps basement) 3))",
-            "timed initial fluents ('(at 5 (...))') are not supported",
-        ),
-        ("(at bot domain)", "(= (at bot) domain)", "object fluents ('(= (...) domain)') are not supported"),
-        ("(at bot domain)", "(and (at bot domain))", "initial state: 'and' is not possible here"),
-        ("(:goal", ") (:goal", "expected the end of the file"),
-        ("(= (steps room) 2)", "(= (steps room) two)", "expected a number, got 'two'"),
-    ],
-)
+BAD_PROBLEMS = """
+(at ann room) | (att ann room) | initial state: unknown predicate 'att'
+(at ann room) | (at ann) | predicate 'at' takes 2 arguments, got 1
+(at ann room) | (at ann attic) | object 'attic' is not declared
+(at ann room) | (at room ann) | 'room' is of type 'room', expected type 'agent'
+domain - room | domain - rooom | object 'room': unknown type 'rooom'
+(read problem) | (red problem) | goal: unknown predicate 'red'
+(read problem) | (read book) | goal: object 'book' is not declared
+(read problem) | (preference p1 (read problem)) | preferences ('preference') are not supported
+(read problem) | (always (read problem)) | trajectory constraints ('always') are not supported
+(read problem) | (read problem) (at ann room) | expected ')', got '(at ann room)'
+(:goal | (:constraints (and)) (:goal | trajectory constraints (':constraints') are not supported
+(at bot domain) | (at 5 (= (steps basement) 3)) | timed initial fluents ('(at 5 (...))') are not supported
+(at bot domain) | (= (at bot) domain) | object fluents ('(= (...) domain)') are not supported
+(at bot domain) | (and (at bot domain)) | initial state: 'and' is not possible here
+(:goal | ) (:goal | expected the end of the file
+(= (steps room) 2) | (= (steps room) two) | expected a number, got 'two'
+"""
+
+
+@pytest.mark.parametrize(("old", "new", "message"), table(BAD_PROBLEMS))
 def test_bad_problem(tmp_path: Path, old: str, new: str, message: str) -> None:
     is_named_with_its_line(tmp_path, "problem", old, new, message)
 

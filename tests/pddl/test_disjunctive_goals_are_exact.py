@@ -43,7 +43,6 @@ def goals(draw: st.DrawFn) -> list[Clause]:
 
 
 def text(goal: list[Clause]) -> str:
-    """The goal in PDDL."""
     literals = [[f"({fact})" if sign else f"(not ({fact}))" for fact, sign in clause] for clause in goal]
     return f"(and {' '.join(f'(or {chr(32).join(clause)})' for clause in literals)})"
 

@@ -8,6 +8,7 @@ import pytest
 from serendipity.model import Condition, GroundAction, InputError, Task, UsageError
 from serendipity.pddl.layouts import read_agents, read_pddl
 from tests.pddl.texts import facts, pair
+from tests.tables import table
 
 DOMAIN = """(define (domain home)
   (:requirements :typing :durative-actions)
@@ -40,18 +41,15 @@ def read(folder: Path, domain: str = DOMAIN, problem: str = PROBLEM, **more: obj
 
 
 def action(task: Task, name: str) -> GroundAction:
-    """The action of that name."""
     (i,) = task.named[name]
     return task.actions[i]
 
 
 def literals(task: Task, condition: Condition) -> set[str]:
-    """A condition in words."""
     return {task.facts[f] for f in condition.positive} | {f"!{task.facts[f]}" for f in condition.negative}
 
 
 def changed(old: str, new: str, text: str = DOMAIN) -> str:
-    """A text with a part replaced."""
     assert old in text
     return text.replace(old, new, 1)
 
@@ -173,82 +171,43 @@ def test_each_agent_may_have_files(tmp_path: Path) -> None:
     assert (task.epoch, action(task, "sweep bob hall").duration) == (2, 3)
 
 
-LASTS, OVER_ALL, ENDS = "(= ?duration 4)", "(over all (path ?x ?y))", "(at end (at ?a ?y))"
-"""What is spoilt of walks."""
+WRONG = """
+(= ?duration 4) | (= ?duration long) | 8 | expected a number, got 'long'
+(= ?duration 4) | () | 8 | expected '(= ?duration N)' or '(>= ?duration N)', got '()'
+(= ?duration 4) | (<= ?duration 4) | 8 | expected '(= ?duration N)' or '(>= ?duration N)'
+(= ?duration 4) | (< ?duration 4) | 8 | expected '=', '<=' or '>=' before '?duration'
+(= ?duration 4) | (= ?time 4) | 8 | expected '?duration', got '?time'
+(= ?duration 4) | (= ?duration (far ?x)) | 8 | function 'far' takes 2 arguments, got 1
+(= ?duration 4) | (= ?duration (- (far bed hall) 3)) | 8 | object 'bed' is not declared
+(= ?duration 4) | (= ?duration (- (far ?x ?y) 3)) | 6 | 'walk ann bed hall': expected a duration above 0
+(= ?duration 4) | (= ?duration (far ?y ?x)) | 6 | no initial value of 'far hall bed' for its duration
+(= ?duration 4) | (= ?duration (/ 4 0)) | 8 | division by zero
+(= ?duration 4) | (= ?duration (/ 4 (- (far ?x ?y) 3))) | 6 | division by zero in its duration
+(= ?duration 4) | (and (>= ?duration 4) (<= ?duration (far ?x ?y))) | 6
+  | expected a duration of at least 4, and of at most 3
+(= ?duration 4) | (= ?duration 0.000001) | 11 | takes 6,000,000 epochs of 1e-06
+:duration (= ?duration 4) |  | 6 | action 'walk': expected a ':duration'
+:duration (= ?duration 4) | :precondition () | 8 | expected ':parameters', ':duration', ':condition'
+(at start (at ?a ?x)) | (at ?a ?x) | 9 | expected '(at start ...)' or '(over all ...)' or '(at end
+(over all (path ?x ?y)) | (over all (or (clean ?x) (clean ?y))) | 6 | 'over all': expected no 'or'
+(over all (path ?x ?y)) | (over all (>= (far ?x ?y) 2)) | 9 | numeric conditions are not supported
+(at end (at ?a ?y)) | (at ?a ?y) | 10 | expected '(at start ...)' or '(at end ...)', got '(at ?a ?y)'
+(at end (at ?a ?y)) | (over all (at ?a ?y)) | 10 | expected '(at start ...)' or '(at end ...)'
+(at end (at ?a ?y)) | (increase (far ?x ?y) (* #t 2)) | 10
+  | continuous effects ('increase' without 'at start' or 'at end') are not supported
+(at end (at ?a ?y)) | (at end (increase (total-cost) (* 2 ?duration))) | 10
+  | '?duration' in effects on numbers is not supported
+(at end (at ?a ?y)) | (at end (decrease (far ?x ?y) 1)) | 10
+  | numeric effects are not supported, except 'increase (total-cost)'
+(at end (at ?a ?y)) | (when (at start (clean ?x)) (at end (at ?a ?y))) | 10
+  | conditional effects of durative actions are not supported
+(:durative-action sweep | (:durative-action walk | 11 | action 'walk' is defined already in line 6
+:durative-actions) | :durative-actions :continuous-effects) | 2 | continuous effects
+"""
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "line", "message"),
-    [
-        (LASTS, "(= ?duration long)", 8, "expected a number, got 'long'"),
-        (LASTS, "()", 8, "expected '(= ?duration N)' or '(>= ?duration N)', got '()'"),
-        (LASTS, "(<= ?duration 4)", 8, "expected '(= ?duration N)' or '(>= ?duration N)'"),
-        (LASTS, "(< ?duration 4)", 8, "expected '=', '<=' or '>=' before '?duration'"),
-        (LASTS, "(= ?time 4)", 8, "expected '?duration', got '?time'"),
-        (LASTS, "(= ?duration (far ?x))", 8, "function 'far' takes 2 arguments, got 1"),
-        (LASTS, "(= ?duration (- (far bed hall) 3))", 8, "object 'bed' is not declared"),
-        (LASTS, "(= ?duration (- (far ?x ?y) 3))", 6, "'walk ann bed hall': expected a duration above 0"),
-        (LASTS, "(= ?duration (far ?y ?x))", 6, "no initial value of 'far hall bed' for its duration"),
-        (LASTS, "(= ?duration (/ 4 0))", 8, "division by zero"),
-        (LASTS, "(= ?duration (/ 4 (- (far ?x ?y) 3)))", 6, "division by zero in its duration"),
-        (
-            LASTS,
-            "(and (>= ?duration 4) (<= ?duration (far ?x ?y)))",
-            6,
-            "expected a duration of at least 4, and of at most 3",
-        ),
-        (LASTS, "(= ?duration 0.000001)", 11, "takes 6,000,000 epochs of 1e-06"),
-        ("    :duration (= ?duration 4)\n", "", 6, "action 'walk': expected a ':duration'"),
-        (
-            ":duration (= ?duration 4)",
-            ":precondition ()",
-            8,
-            "expected ':parameters', ':duration', ':condition'",
-        ),
-        (
-            "(at start (at ?a ?x))",
-            "(at ?a ?x)",
-            9,
-            "expected '(at start ...)' or '(over all ...)' or '(at end",
-        ),
-        (OVER_ALL, "(over all (or (clean ?x) (clean ?y)))", 6, "'over all': expected no 'or'"),
-        (OVER_ALL, "(over all (>= (far ?x ?y) 2))", 9, "numeric conditions are not supported"),
-        (ENDS, "(at ?a ?y)", 10, "expected '(at start ...)' or '(at end ...)', got '(at ?a ?y)'"),
-        (ENDS, "(over all (at ?a ?y))", 10, "expected '(at start ...)' or '(at end ...)'"),
-        (
-            ENDS,
-            "(increase (far ?x ?y) (* #t 2))",
-            10,
-            "continuous effects ('increase' without 'at start' or 'at end') are not supported",
-        ),
-        (
-            ENDS,
-            "(at end (increase (total-cost) (* 2 ?duration)))",
-            10,
-            "'?duration' in effects on numbers is not supported",
-        ),
-        (
-            ENDS,
-            "(at end (decrease (far ?x ?y) 1))",
-            10,
-            "numeric effects are not supported, except 'increase (total-cost)'",
-        ),
-        (
-            ENDS,
-            "(when (at start (clean ?x)) (at end (at ?a ?y)))",
-            10,
-            "conditional effects of durative actions are not supported",
-        ),
-        (
-            "(:durative-action sweep",
-            "(:durative-action walk",
-            11,
-            "action 'walk' is defined already in line 6",
-        ),
-        (":durative-actions)", ":durative-actions :continuous-effects)", 2, "continuous effects"),
-    ],
-)
-def test_what_is_wrong_is_said_in_a_line(tmp_path: Path, old: str, new: str, line: int, message: str) -> None:
+@pytest.mark.parametrize(("old", "new", "line", "message"), table(WRONG))
+def test_what_is_wrong_is_said_in_a_line(tmp_path: Path, old: str, new: str, line: str, message: str) -> None:
     with pytest.raises(InputError) as caught:
         read(tmp_path, changed(old, new))
     assert message in str(caught.value)

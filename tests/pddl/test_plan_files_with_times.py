@@ -19,7 +19,6 @@ def home() -> Task:
 
 
 def read(text: str) -> list[object]:
-    """The entries of a file."""
     return [*entries(plan_lines(text, "plan.txt", "human plan: "), home(), "plan.txt", "human plan: ")]
 
 

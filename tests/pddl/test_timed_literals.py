@@ -32,7 +32,6 @@ DAY = """(define (problem day)
 
 
 def read(folder: Path, domain: str = SHOP, problem: str = DAY, **more: object) -> Task:
-    """The task of two texts."""
     return durative.read(folder, domain, problem, **more)
 
 

@@ -14,14 +14,12 @@ from tests.pddl.texts import OFFICE, YARD
 
 
 def again(task: Task) -> Task:
-    """The task written and read back."""
     with tempfile.TemporaryDirectory() as folder:
         write_pddl(task, folder)
         return load(folder, human=task.agents[task.human])
 
 
 def written(task: Task, fact: int) -> str:
-    """A fact's name as it is written."""
     return task.facts[fact].replace(" ", "_")
 
 

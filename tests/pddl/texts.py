@@ -18,7 +18,6 @@ def domain(
     types: str = "thing agent",
     constants: str = "",
 ) -> str:
-    """A domain with the given actions, each written out."""
     return "\n".join(
         [
             "(define (domain small)",
@@ -34,7 +33,6 @@ def domain(
 def problem(
     init: str = "", goal: str = "(p)", objects: str = "h r - agent o1 o2 - thing", more: str = ""
 ) -> str:
-    """A problem of that domain."""
     return "\n".join(
         [
             "(define (problem little)",
@@ -69,15 +67,12 @@ def one(folder: Path, domain_text: str, problem_text: str) -> Task:
 
 
 def two(folder: Path, h: tuple[str, str], r: tuple[str, str], human: str | None = None) -> Task:
-    """The task of two agents' texts."""
     return load_agents({"h": pair(folder, *h, "h-"), "r": pair(folder, *r, "r-")}, human=human)
 
 
 def names(task: Task, start: str = "") -> list[str]:
-    """Names of the actions that start with ``start``."""
     return [a.name for a in task.actions if a.name.startswith(start)]
 
 
 def facts(task: Task, ids: tuple[int, ...] | frozenset[int]) -> set[str]:
-    """The facts' names."""
     return {task.facts[i] for i in ids}

@@ -14,7 +14,6 @@ from serendipity.testing.strategies import family_tasks, tasks
 
 
 def walk(task: Task, random: Random) -> list[int]:
-    """Actions, one after another."""
     state, found = task.init, []
     for _ in range(random.randint(0, 12)):
         if able := [i for i, action in enumerate(task.actions) if action.applicable(state)]:

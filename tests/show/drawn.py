@@ -22,13 +22,11 @@ class Drawn:
     title: str
 
     def overlaps(self, other: "Drawn") -> bool:
-        """Whether two of them share more than an edge."""
         across = min(self.right, other.right) - max(self.left, other.left)
         along = min(self.bottom, other.bottom) - max(self.top, other.top)
         return across > 0.1 and along > 0.1
 
     def encloses(self, other: "Drawn") -> bool:
-        """Whether another is within this one."""
         return (
             self.left <= other.left
             and self.top <= other.top

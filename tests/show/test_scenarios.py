@@ -101,7 +101,6 @@ def test_bars_in_time_stand_below_the_clock_and_are_as_long_as_actions() -> None
 
 
 def names_of(task: Task) -> tuple[str, ...]:
-    """The actions of the human's own plan."""
     return serendipity.plan(task, mode="individual").human_plan or ()
 
 

@@ -14,7 +14,6 @@ def test_places_are_also_where_only_vehicles_go() -> None:
 
 
 def epoch_of(scene: Scene, agent: int, verb: str, detail: str) -> int:
-    """When an agent does something."""
     return next(
         act.epoch for act in scene.acts if (act.agents, act.verb, act.detail) == ((agent,), verb, detail)
     )

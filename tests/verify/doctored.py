@@ -207,7 +207,6 @@ RULE_BROKEN: dict[str, tuple[str, Callable[[], Given]]] = {
 
 
 def _window(make: Callable[[], Given], start: int, end: int) -> Given:
-    """The window replaced, the objective following it."""
     built = make()
     old = built.result
     assert old.cost is not None

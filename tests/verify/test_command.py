@@ -18,7 +18,6 @@ from verify.solvers.mip import SolverOutcome
 
 
 def _written(folder: Path, task: Task, **options: Any) -> tuple[str, str]:
-    """A task's folder and a file with an answer to it."""
     write_pddl(task, folder / "task")
     read = serendipity.load(folder / "task", human="h")
     answer = folder / "answer.json"

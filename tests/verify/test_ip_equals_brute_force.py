@@ -33,7 +33,6 @@ def check(call: Call, **how: str) -> None:
 
 
 def _rounded(value: Fraction | None) -> float | None:
-    """A figure as results have it."""
     return None if value is None else float(value)
 
 

@@ -29,7 +29,6 @@ def rows_of(content: str | bytes, form: str, table: Table) -> list[tuple[Cell, .
 
 
 def parquet(content: bytes) -> list[dict[str, Any]]:
-    """The rows of a Parquet file."""
     if find_spec("polars") is not None:
         import polars
 

@@ -104,7 +104,6 @@ def timing(task: str, contender: str, seconds: float, status: str = "optimal") -
 
 
 def rows_of(grid: Grid) -> list[dict[str, str]]:
-    """Rows by their headings."""
     return [dict(zip(grid.header, row, strict=True)) for row in grid.rows]
 
 

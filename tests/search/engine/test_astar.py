@@ -21,7 +21,6 @@ def graphs(least: int = 0) -> st.SearchStrategy[Edges]:
 
 
 def turned(edges: Edges) -> Edges:
-    """The same edges against their direction."""
     found: Edges = {}
     for node, onward in edges.items():
         for weight, after in onward:
@@ -30,7 +29,6 @@ def turned(edges: Edges) -> Edges:
 
 
 def distances(sources: Mapping[int, int], edges: Edges) -> dict[int, int]:
-    """The least distance of each node that a source leads to."""
     found = dict(sources)
     for _ in range(NODES):
         for node, onward in edges.items():

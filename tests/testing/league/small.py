@@ -28,7 +28,6 @@ ALONE, LEAST = 5, 2
 
 
 def at_the_door(helper: Any, **asked: Any) -> Score:
-    """The row of a helper."""
     (row,) = league("small", [helper], tasks=[DOOR], **asked).rows
     return row
 

@@ -64,7 +64,6 @@ def cost(task: Task, schedule: Schedule, options: Options) -> Fraction:
 
 
 def reaches(task: Task, schedule: Schedule, strict: bool) -> bool:
-    """Whether all goals hold at the end."""
     course = played(task, schedule, strict)
     assert course is not None, "it was played before"
     return task.goal.holds(course.state) and task.robot_goal.holds(course.state)

@@ -57,7 +57,6 @@ def pairs(data: dict[str, Any], other: dict[str, Any], count: int, seed: int) ->
 
 
 def edited(data: dict[str, Any], *edits: Edit) -> dict[str, Any]:
-    """A copy with the edits made."""
     copy = deepcopy(data)
     for edit in sorted(edits, key=_late):
         *way, last = edit.path

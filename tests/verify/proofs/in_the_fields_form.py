@@ -21,7 +21,6 @@ class Files(NamedTuple):
 
 
 def files_of(proof: Proof) -> list[Files]:
-    """The files of a proof, program by program."""
     texts = [content.decode() for content in in_the_fields_form(Path("help.pbp"), proof).values()]
     return [Files(*texts[k : k + 3]) for k in range(0, len(texts), 3)]
 

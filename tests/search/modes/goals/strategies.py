@@ -50,5 +50,4 @@ def rivals(draw: st.DrawFn) -> tuple[Task, list[Candidate]]:
 
 
 def literals(task: Task, goal: Condition) -> list[str]:
-    """A goal as callers write it."""
     return [task.facts[f] for f in goal.positive] + [f"!{task.facts[f]}" for f in goal.negative]
