@@ -32,6 +32,10 @@ class Server:
     def post(self, path: str, body: object, **more: object) -> httpx.Response:
         return self.client.post(path, json=body, **more)
 
+    @property
+    def busy(self) -> int:
+        return int(self.client.get("/health").json()["busy"])
+
     def stop(self, number: int = signal.SIGINT) -> tuple[int, str]:
         """Its exit code, and what it wrote to stderr."""
         self.process.send_signal(number)

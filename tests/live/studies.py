@@ -56,7 +56,8 @@ def act_along(room: Participant, design: Design, epochs: int | None = None) -> N
         say(room, "act", action=action)
 
 
-def finish(room: Participant, design: Design) -> None:
+def finish(room: Participant, design: Design, **by_text: object) -> None:
+    """Go on to the end; ``by_text`` answers questions by their first word."""
     while not room.over:
         view = room.view()
         if view["stage"] == "play" and not view["done"]:
@@ -64,5 +65,10 @@ def finish(room: Participant, design: Design) -> None:
         elif view["stage"] in ("play", "instructions"):
             say(room, "go on")
         else:
-            one = {"scale": 6, "choice": "me", "text": "so"}
-            say(room, "answer", answers=[one[question["kind"]] for question in view["study"]["questions"]])
+            answer(room, **by_text)
+
+
+def answer(room: Participant, **by_text: object) -> None:
+    usual = {"scale": 6, "choice": "me", "text": "so"}
+    asked = room.view()["study"]["questions"]
+    say(room, "answer", answers=[by_text.get(q["text"].split()[0], usual[q["kind"]]) for q in asked])

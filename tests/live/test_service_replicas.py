@@ -3,7 +3,7 @@
 import asyncio
 import signal
 import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
 import httpx
@@ -23,16 +23,18 @@ def some_seconds(long_call: dict[str, Any]) -> dict[str, Any]:
     return {**long_call, "options": {**long_call["options"], "time_limit": 2}}
 
 
-def busy(server: Server) -> int:
-    return int(server.client.get("/health").json()["busy"])
+def keep_busy(server: Server, call: dict[str, Any], others: ThreadPoolExecutor) -> Future[httpx.Response]:
+    """Somebody else asks, and the only worker has begun."""
+    answer = others.submit(httpx.post, f"{server.url}/plan", json=call, timeout=30)
+    until(lambda: server.busy == 1)
+    return answer
 
 
 @pytest.mark.long
 def test_who_drains_answers_what_it_has_begun_and_takes_nothing_new(some_seconds: dict[str, Any]) -> None:
     with serving("--workers", "1") as server, ThreadPoolExecutor() as others:
         assert server.client.get("/ready").json() == {"status": "ready"}
-        answer = others.submit(httpx.post, f"{server.url}/plan", json=some_seconds, timeout=30)
-        until(lambda: busy(server) == 1)
+        answer = keep_busy(server, some_seconds, others)
         server.process.send_signal(signal.SIGTERM)
         until(lambda: server.client.get("/ready").status_code == 503)
         refused = server.post("/plan", ROOM2)
@@ -44,8 +46,7 @@ def test_who_drains_answers_what_it_has_begun_and_takes_nothing_new(some_seconds
 @pytest.mark.long
 def test_draining_has_an_end(some_seconds: dict[str, Any]) -> None:
     with serving("--workers", "1", "--drain", "0.2") as server, ThreadPoolExecutor() as others:
-        others.submit(httpx.post, f"{server.url}/plan", json=some_seconds, timeout=30)
-        until(lambda: busy(server) == 1)
+        keep_busy(server, some_seconds, others)
         begun = time.monotonic()
         assert server.stop(signal.SIGTERM)[0] == 0
         assert time.monotonic() - begun < 3
@@ -110,7 +111,7 @@ def test_a_request_with_a_key_is_finished_though_nobody_waits(some_seconds: dict
     with serving("--workers", "1") as server:
         with pytest.raises(httpx.ReadTimeout):
             httpx.post(f"{server.url}/plan", json=some_seconds, headers=KEY, timeout=0.5)
-        assert busy(server) == 1
+        assert server.busy == 1
         answer = server.post("/plan", some_seconds, headers=KEY)
         assert answer.headers["idempotency-replayed"] == "true"
         assert answer.status_code in (200, 504)
@@ -119,10 +120,9 @@ def test_a_request_with_a_key_is_finished_though_nobody_waits(some_seconds: dict
 @pytest.mark.long
 def test_what_says_try_again_is_not_kept(some_seconds: dict[str, Any]) -> None:
     with serving("--workers", "1", "--queue", "0") as server, ThreadPoolExecutor() as others:
-        others.submit(httpx.post, f"{server.url}/plan", json=some_seconds, timeout=30)
-        until(lambda: busy(server) == 1)
+        keep_busy(server, some_seconds, others)
         assert server.post("/plan", ROOM2, headers=KEY).status_code == 429
-        until(lambda: busy(server) == 0)
+        until(lambda: server.busy == 0)
         answer = server.post("/plan", ROOM2, headers=KEY)
         assert answer.status_code == 200
         assert "idempotency-replayed" not in answer.headers

@@ -49,10 +49,6 @@ def test_figures_stay_few_whatever_is_asked(server: Server) -> None:
     assert 'serendipity_requests_total{method="other",path="other",status="404"}' in text
 
 
-def busy(server: Server) -> int:
-    return int(server.client.get("/health").json()["busy"])
-
-
 def begin(server: Server, path: str, body: object) -> socket.socket:
     """A request whose answer nobody has taken yet."""
     content = json.dumps(body).encode()
@@ -67,10 +63,10 @@ def test_nobody_works_for_clients_that_have_gone(
     server: Server, long_call: dict[str, object], path: str
 ) -> None:
     connections = [begin(server, path, long_call) for _ in range(4)]
-    until(lambda: busy(server) == 2)
+    until(lambda: server.busy == 2)
     for connection in connections:
         connection.close()
-    until(lambda: busy(server) == 0, seconds=5)
+    until(lambda: server.busy == 0, seconds=5)
     assert answers(server)
 
 
@@ -83,7 +79,7 @@ def test_the_queue_has_an_end(server: Server, long_call: dict[str, object]) -> N
     assert refused.json()["error"].startswith("all workers are busy")
     for connection in connections:
         connection.close()
-    until(lambda: busy(server) == 0, seconds=10)
+    until(lambda: server.busy == 0, seconds=10)
     assert answers(server)
 
 
@@ -98,17 +94,17 @@ def test_answers_come_on_the_way(server: Server, long_call: dict[str, object]) -
     with server.client.stream("POST", "/plan/anytime", json=long_call) as response:
         first = next(line for line in response.iter_lines() if line.startswith("data: "))
         assert json.loads(first.removeprefix("data: "))["status"] == "feasible"
-        assert busy(server) == 1
-    until(lambda: busy(server) == 0, seconds=5)
+        assert server.busy == 1
+    until(lambda: server.busy == 0, seconds=5)
 
 
 def test_one_call_of_a_session_at_a_time(server: Server, long_call: dict[str, object]) -> None:
     session = server.post("/sessions", long_call).json()
     connection = begin(server, f"/sessions/{session['id']}/plan", {})
-    until(lambda: busy(server) == 1)
+    until(lambda: server.busy == 1)
     assert server.post(f"/sessions/{session['id']}/execute", {"actions": []}).status_code == 409
     connection.close()
-    until(lambda: busy(server) == 0, seconds=5)
+    until(lambda: server.busy == 0, seconds=5)
     assert server.post(f"/sessions/{session['id']}/execute", {"actions": []}).status_code == 200
 
 
@@ -171,7 +167,7 @@ def test_each_request_has_a_line_of_log(tmp_path: Path) -> None:
 @pytest.mark.parametrize("number", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])
 def test_a_signal_ends_it(number: int, long_call: dict[str, object]) -> None:
     with serving("--workers", "1", "--drain", "0") as server, begin(server, "/plan", long_call):
-        until(lambda: busy(server) == 1)
+        until(lambda: server.busy == 1)
         workers = workers_of(server.process.pid)
         assert server.stop(number) == (130, "Interrupted.\n")
         until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in workers))

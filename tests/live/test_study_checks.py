@@ -3,14 +3,13 @@
 import csv
 import io
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from serendipity.live.study import analysis
 from serendipity.live.study.design import open_design
 from serendipity.model import InputError
-from tests.live.studies import PLAIN, act_along, join, opened, say
+from tests.live.studies import PLAIN, answer, finish, join, opened, say
 
 CHECKED = PLAIN.replace(
     'conditions = ["none", "silent"]',
@@ -39,22 +38,6 @@ def table(folder: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(text)))
 
 
-def answer(room: Any, **by_text: object) -> None:
-    asked = room.view()["study"]["questions"]
-    say(room, "answer", answers=[by_text[question["text"].split()[0]] for question in asked])
-
-
-def finish(room: Any, folder: Path, *, attends: bool) -> None:
-    usual = {"Was": 6, "Why?": "so", "Who": "me", "Choose": 2 if attends else 3}
-    while not room.over:
-        if room.view()["stage"] == "play" and not room.view()["done"]:
-            act_along(room, open_design(folder))
-        elif room.view()["stage"] == "play":
-            say(room, "go on")
-        else:
-            answer(room, **usual)
-
-
 def test_who_has_not_understood_reads_again(checked: Path) -> None:
     room = join(opened(checked))
     assert say(room, "go on")["stage"] == "comprehension"
@@ -69,7 +52,7 @@ def test_who_has_not_understood_reads_again(checked: Path) -> None:
     say(room, "go on")
     answer(room, What="the goal")
     assert room.view()["stage"] == "play"
-    finish(room, checked, attends=True)
+    finish(room, open_design(checked), Choose=2)
     assert {(row["understood"], row["attentive"]) for row in table(checked)} == {("2", "true")}
 
 
@@ -79,7 +62,7 @@ def test_who_never_does_plays_all_the_same_and_is_told_apart(checked: Path) -> N
         say(room, "go on")
         answer(room, What="the clock")
     assert room.view()["stage"] == "play"
-    finish(room, checked, attends=False)
+    finish(room, open_design(checked), Choose=3)
     assert {(row["understood"], row["attentive"]) for row in table(checked)} == {("never", "false")}
 
 
@@ -88,7 +71,7 @@ def test_the_analysis_can_leave_them_out(checked: Path, capsys: pytest.CaptureFi
         room = join(opened(checked))
         say(room, "go on")
         answer(room, What="the goal")
-        finish(room, checked, attends=attends)
+        finish(room, open_design(checked), Choose=2 if attends else 3)
     design = open_design(checked)
     file, plot = checked / "rounds.csv", checked / "means.svg"
     file.write_text(opened(checked).file(f"experimenter/{design.secret}/rounds.csv").text)

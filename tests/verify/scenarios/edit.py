@@ -1,7 +1,11 @@
-"""Changes to answers as JSON."""
+"""Changes to answers as JSON, and what the verifier says of them."""
 
+import json
 from collections.abc import Callable
 from typing import Any
+
+import serendipity
+from serendipity.model import Certificate, Claim, Result, Task
 
 Edit = Callable[[dict[str, Any]], None]
 
@@ -17,3 +21,19 @@ def edit(path: str, value: object) -> Edit:
         at[last] = value(at[last]) if callable(value) else value
 
     return change
+
+
+def certified(task: Task, answer: Result, *changes: Edit) -> Certificate:
+    """What the verifier says of an answer with these changes."""
+    said = json.loads(json.dumps(answer.to_dict()))
+    for change in changes:
+        change(said)
+    return serendipity.verify(task, Result.from_dict(said))
+
+
+def assert_refuted(certificate: Certificate, claim: str, words: str = "") -> Claim:
+    """The first claim that is refuted, which has to be this one."""
+    refuted = certificate.refuted
+    assert refuted is not None
+    assert (refuted.claim, words in refuted.reason) == (claim, True), refuted
+    return refuted

@@ -1,14 +1,13 @@
 """Policies that are none, or that are not what an answer says of them, are refuted for the right reason."""
 
-import json
 from typing import Any
 
 import pytest
 
 import serendipity
-from serendipity.model import Certificate, Result, Task
+from serendipity.model import Result
 from serendipity.testing.builders import task as build
-from tests.verify.scenarios.edit import Edit, edit
+from tests.verify.scenarios.edit import Edit, assert_refuted, certified, edit
 from tests.verify.scenarios.studio import TWO_ROADS, helped, studio, two_roads
 
 P, Z = "statistics.goals.0", "statistics.goals.1"
@@ -57,144 +56,122 @@ _JOINT_ALONE = _all(  # nobody thinks of power, so p is left alone
     _ALONE_P, _without("power r", f"{Z}.plan"), edit(f"{Z}.cost", 4.0), edit("plan", [])
 )
 
-DOCTORED: dict[str, tuple[Edit, str, str]] = {
-    "power for one only": (
-        _all(_without("power r", f"{Z}.plan"), edit(f"{Z}.cost", 4.0)),
-        "replay",
-        "epoch 1: robots do not do the same in 'p' and 'z', which are not told apart",
-    ),
-    "power later for one": (
-        edit(f"{Z}.plan.1.epoch", 3),
-        "replay",
-        "epoch 1: robots do not do the same",
-    ),
-    "power at the time of the joint action": (edit(f"{Z}.plan.1.epoch", 2), "replay", "agent-busy-twice"),
-    "fetching without power": (edit(f"{P}.plan.2.epoch", 1), "replay", "precondition"),
-    "joint, and busy besides": (_with(f"{Z}.plan", _step(2, "fetch r", 1.0)), "replay", "agent-busy-twice"),
-    "joint for the other": (_with(f"{P}.plan", _step(2, "together h r", 3.0)), "replay", "precondition"),
-    "joint too early": (edit(f"{Z}.plan.2.epoch", 1), "replay", "precondition"),
-    "robots that see nothing": (
-        edit("options.policy", "fixed"),
-        "replay",
-        "epoch 2: robots do not do the same",
-    ),
-    "the plan without its only step": (edit("plan", []), "replay", "by themselves up to epoch 1"),
-    "the plan with more": (_with("plan", _step(2, "fetch r", 1.0)), "replay", "by themselves up to epoch 1"),
-    "another plan": (edit("plan.0.epoch", 2), "replay", "by themselves up to epoch 1"),
-    "the human in the plan": (_with("plan", _step(1, "begin_p h", 1.0)), "replay", "without the human"),
-    "the joint action in the plan": (
-        _with("plan", _step(2, "together h r", 3.0)),
-        "replay",
-        "without the human",
-    ),
-    "a probability": (edit(f"{P}.probability", 0.75), "replay", "the probability is 0.5"),
-    "both probabilities": (
-        _all(edit(f"{P}.probability", 0.75), edit(f"{Z}.probability", 0.25)),
-        "replay",
-        "the probability is 0.5",
-    ),
-    "a scenario left out": (edit("statistics.goals", lambda old: old[:1]), "replay", "to consider are p, z"),
-    "a scenario twice": (
-        edit("statistics.goals", lambda old: [*old, old[0]]),
-        "replay",
-        "to consider are p, z",
-    ),
-    "scenarios in another order": (
-        edit("statistics.goals", lambda old: old[::-1]),
-        "replay",
-        "to consider are p, z",
-    ),
-    "another name": (edit(f"{P}.name", "q"), "replay", "to consider are p, z"),
-    "another goal": (edit(f"{P}.goal", ["z"]), "replay", "its goal is another one"),
-    "an unknown goal": (edit(f"{P}.goal", ["x"]), "replay", "no fact 'x'"),
-    "another plan of theirs": (edit(f"{P}.human_plan", ["begin_p h"]), "replay", "not the optimal plan"),
-    "no plan of theirs": (edit(f"{P}.human_plan", None), "replay", "not the optimal plan"),
-    "no window": (edit(f"{P}.window", None), "replay", "left alone, but the human does something else"),
-    "a suffix lost": (_without("use_p h", f"{P}.plan"), "replay", "human-goal"),
-    "an unknown action": (edit(f"{P}.plan.2.action", "bring r"), "replay", "unknown-action"),
-    "another agent": (edit(f"{P}.plan.2.agents", ["h"]), "replay", "wrong-agents"),
-    "beyond the horizon": (edit(f"{P}.plan.3.epoch", 4), "replay", "epoch-range"),
-    "another horizon": (edit("horizon", 4), "replay", "the horizon is 3"),
-    "a window of the whole": (edit("window", {"start": 2, "end": 3}), "replay", "single scenarios"),
-    "a plan of the whole": (edit("human_plan", ["begin_p h", "do_p h"]), "replay", "single scenarios"),
-    "a reason": (edit("reason", "no-plan"), "replay", "with a reason"),
-    "infeasible": (edit("status", "infeasible"), "replay", "leaving the human alone is always an answer"),
-    "a window before the help": (edit(f"{P}.window", {"start": 1, "end": 2}), "window", "robot-in-suffix"),
-    "a window after the plan": (edit(f"{P}.window", {"start": 3, "end": 4}), "window", "window-range"),
-    "a window beyond the horizon": (
-        _all(edit(f"{Z}.window", {"start": 2, "end": 5}), _figures(4.5, 2004.5, 1.5, 2.25, 2.25)),
-        "window",
-        "window-range",
-    ),
-    "joint after the window": (edit(f"{Z}.window", {"start": 1, "end": 2}), "window", "robot-in-suffix"),
-    "a dear suffix": (
-        _all(
-            edit(f"{P}.plan.3", _step(3, "do_p h", 5.0)),
-            edit(f"{P}.cost", 8.0),
-            _figures(6.5, 1006.5, -0.5, 4.25, 2.25),
+DOCTORED: dict[str, dict[str, tuple[Edit, str]]] = {
+    "replay": {
+        "power for one only": (
+            _all(_without("power r", f"{Z}.plan"), edit(f"{Z}.cost", 4.0)),
+            "epoch 1: robots do not do the same in 'p' and 'z', which are not told apart",
         ),
-        "window",
-        "suffix-replan",
-    ),
-    "another suffix that is as good": (
-        edit(f"{P}.plan.3.action", "wield_p h"),
-        "window",
-        "does not do the canonical plan",
-    ),
-    "another beginning": (
-        _all(_with(f"{P}.plan", _step(1, "begin_z h", 1.0)), _without("begin_p h", f"{P}.plan")),
-        "replay",
-        "precondition",
-    ),
-    "a step's cost": (edit(f"{P}.plan.2.cost", 0.5), "cost", "step-cost"),
-    "a scenario's cost": (edit(f"{P}.cost", 3.0), "cost", "scenario 'p': cost"),
-    "the cost": (edit("cost", 4.0), "cost", "expected cost is 4.5"),
-    "the human's cost": (edit("human_cost", 5.0), "cost", "expected human_cost is 6"),
-    "the objective": (edit("objective", 504.5), "cost", "expected objective is 1004.5"),
-    "the saving": (edit("saving", 2.0), "cost", "expected saving is 1.5"),
-    "what is saved alone": (edit("saving_alone", 1.0), "cost", "saving_alone is 0"),
-    "an agent's share": (edit("agent_costs.r", 2.0), "cost", "agent_costs of r is 2.25"),
-    "a longer window": (edit(f"{P}.window", {"start": 2, "end": 4}), "cost", "expected objective is 1504.5"),
-    "K": (edit("options.window_weight", 1.0), "cost", "expected objective is 5.5"),
-    "the discount": (edit("options.discount", 0.5), "cost", "step-cost"),
-    "the worst for the mean": (edit("options.risk", "worst"), "cost", "greatest cost is 5"),
-    "regret for the mean": (edit("options.risk", "regret"), "cost", "regret's cost is 1"),
-    "a bound": (edit("lower_bound", 1004.0), "lower_bound", "the objective 1004.5"),
-    "a longer window, summed up": (
-        _all(
-            edit(f"{P}.window", {"start": 2, "end": 4}),
-            edit("objective", 1504.5),
-            edit("lower_bound", 1504.5),
+        "power later for one": (edit(f"{Z}.plan.1.epoch", 3), "epoch 1: robots do not do the same"),
+        "power at the time of the joint action": (edit(f"{Z}.plan.1.epoch", 2), "agent-busy-twice"),
+        "fetching without power": (edit(f"{P}.plan.2.epoch", 1), "precondition"),
+        "joint, and busy besides": (_with(f"{Z}.plan", _step(2, "fetch r", 1.0)), "agent-busy-twice"),
+        "joint for the other": (_with(f"{P}.plan", _step(2, "together h r", 3.0)), "precondition"),
+        "joint too early": (edit(f"{Z}.plan.2.epoch", 1), "precondition"),
+        "robots that see nothing": (edit("options.policy", "fixed"), "epoch 2: robots do not do the same"),
+        "the plan without its only step": (edit("plan", []), "by themselves up to epoch 1"),
+        "the plan with more": (_with("plan", _step(2, "fetch r", 1.0)), "by themselves up to epoch 1"),
+        "another plan": (edit("plan.0.epoch", 2), "by themselves up to epoch 1"),
+        "the human in the plan": (_with("plan", _step(1, "begin_p h", 1.0)), "without the human"),
+        "the joint action in the plan": (_with("plan", _step(2, "together h r", 3.0)), "without the human"),
+        "a probability": (edit(f"{P}.probability", 0.75), "the probability is 0.5"),
+        "both probabilities": (
+            _all(edit(f"{P}.probability", 0.75), edit(f"{Z}.probability", 0.25)),
+            "the probability is 0.5",
         ),
-        "optimal",
-        "a better policy: cost 4.5, objective 1004.5",
-    ),
-    "help denied": (
-        _all(_IDLE, _figures(6.0, 6.0, 0.0, 6.0, 0.0)),
-        "no_opportunity",
-        "a better policy: cost 4.5, objective 1004.5",
-    ),
-    "help for one only": (
-        _all(_JOINT_ALONE, _figures(5.0, 1005.0, 1.0, 4.25, 0.75)),
-        "optimal",
-        "a better policy: cost 4.5, objective 1004.5",
-    ),
+        "a scenario left out": (edit("statistics.goals", lambda old: old[:1]), "to consider are p, z"),
+        "a scenario twice": (edit("statistics.goals", lambda old: [*old, old[0]]), "to consider are p, z"),
+        "scenarios in another order": (
+            edit("statistics.goals", lambda old: old[::-1]),
+            "to consider are p, z",
+        ),
+        "another name": (edit(f"{P}.name", "q"), "to consider are p, z"),
+        "another goal": (edit(f"{P}.goal", ["z"]), "its goal is another one"),
+        "an unknown goal": (edit(f"{P}.goal", ["x"]), "no fact 'x'"),
+        "another plan of theirs": (edit(f"{P}.human_plan", ["begin_p h"]), "not the optimal plan"),
+        "no plan of theirs": (edit(f"{P}.human_plan", None), "not the optimal plan"),
+        "no window": (edit(f"{P}.window", None), "left alone, but the human does something else"),
+        "a suffix lost": (_without("use_p h", f"{P}.plan"), "human-goal"),
+        "an unknown action": (edit(f"{P}.plan.2.action", "bring r"), "unknown-action"),
+        "another agent": (edit(f"{P}.plan.2.agents", ["h"]), "wrong-agents"),
+        "beyond the horizon": (edit(f"{P}.plan.3.epoch", 4), "epoch-range"),
+        "another horizon": (edit("horizon", 4), "the horizon is 3"),
+        "a window of the whole": (edit("window", {"start": 2, "end": 3}), "single scenarios"),
+        "a plan of the whole": (edit("human_plan", ["begin_p h", "do_p h"]), "single scenarios"),
+        "a reason": (edit("reason", "no-plan"), "with a reason"),
+        "infeasible": (edit("status", "infeasible"), "leaving the human alone is always an answer"),
+        "another beginning": (
+            _all(_with(f"{P}.plan", _step(1, "begin_z h", 1.0)), _without("begin_p h", f"{P}.plan")),
+            "precondition",
+        ),
+    },
+    "window": {
+        "a window before the help": (edit(f"{P}.window", {"start": 1, "end": 2}), "robot-in-suffix"),
+        "a window after the plan": (edit(f"{P}.window", {"start": 3, "end": 4}), "window-range"),
+        "a window beyond the horizon": (
+            _all(edit(f"{Z}.window", {"start": 2, "end": 5}), _figures(4.5, 2004.5, 1.5, 2.25, 2.25)),
+            "window-range",
+        ),
+        "joint after the window": (edit(f"{Z}.window", {"start": 1, "end": 2}), "robot-in-suffix"),
+        "a dear suffix": (
+            _all(
+                edit(f"{P}.plan.3", _step(3, "do_p h", 5.0)),
+                edit(f"{P}.cost", 8.0),
+                _figures(6.5, 1006.5, -0.5, 4.25, 2.25),
+            ),
+            "suffix-replan",
+        ),
+        "another suffix that is as good": (
+            edit(f"{P}.plan.3.action", "wield_p h"),
+            "does not do the canonical plan",
+        ),
+    },
+    "cost": {
+        "a step's cost": (edit(f"{P}.plan.2.cost", 0.5), "step-cost"),
+        "a scenario's cost": (edit(f"{P}.cost", 3.0), "scenario 'p': cost"),
+        "the cost": (edit("cost", 4.0), "expected cost is 4.5"),
+        "the human's cost": (edit("human_cost", 5.0), "expected human_cost is 6"),
+        "the objective": (edit("objective", 504.5), "expected objective is 1004.5"),
+        "the saving": (edit("saving", 2.0), "expected saving is 1.5"),
+        "what is saved alone": (edit("saving_alone", 1.0), "saving_alone is 0"),
+        "an agent's share": (edit("agent_costs.r", 2.0), "agent_costs of r is 2.25"),
+        "a longer window": (edit(f"{P}.window", {"start": 2, "end": 4}), "expected objective is 1504.5"),
+        "K": (edit("options.window_weight", 1.0), "expected objective is 5.5"),
+        "the discount": (edit("options.discount", 0.5), "step-cost"),
+        "the worst for the mean": (edit("options.risk", "worst"), "greatest cost is 5"),
+        "regret for the mean": (edit("options.risk", "regret"), "regret's cost is 1"),
+    },
+    "lower_bound": {
+        "a bound": (edit("lower_bound", 1004.0), "the objective 1004.5"),
+    },
+    "optimal": {
+        "a longer window, summed up": (
+            _all(
+                edit(f"{P}.window", {"start": 2, "end": 4}),
+                edit("objective", 1504.5),
+                edit("lower_bound", 1504.5),
+            ),
+            "a better policy: cost 4.5, objective 1004.5",
+        ),
+        "help for one only": (
+            _all(_JOINT_ALONE, _figures(5.0, 1005.0, 1.0, 4.25, 0.75)),
+            "a better policy: cost 4.5, objective 1004.5",
+        ),
+    },
+    "no_opportunity": {
+        "help denied": (
+            _all(_IDLE, _figures(6.0, 6.0, 0.0, 6.0, 0.0)),
+            "a better policy: cost 4.5, objective 1004.5",
+        ),
+    },
 }
+"""What has to fall, by the claim that it falls with."""
 
 
-def _certified(task: Task, answer: Result, change: Edit | None = None) -> Certificate:
-    said = json.loads(json.dumps(answer.to_dict()))
-    if change is not None:
-        change(said)
-    return serendipity.verify(task, Result.from_dict(said))
-
-
-@pytest.mark.parametrize("way", DOCTORED)
-def test_doctored_policies_are_refuted(way: str) -> None:
-    change, claim, words = DOCTORED[way]
-    refuted = _certified(studio(), helped(), change).refuted
-    assert refuted is not None
-    assert (refuted.claim, words in refuted.reason) == (claim, True), refuted
+@pytest.mark.parametrize(("claim", "way"), [(claim, way) for claim in DOCTORED for way in DOCTORED[claim]])
+def test_doctored_policies_are_refuted(claim: str, way: str) -> None:
+    change, words = DOCTORED[claim][way]
+    assert_refuted(certified(studio(), helped(), change), claim, words)
 
 
 @pytest.mark.parametrize("policy", ["watching", "fixed"])
@@ -207,17 +184,15 @@ def test_what_is_found_is_proved_and_no_other_cost(
     answer = helped(risk=risk, policy=policy)
     cost = watching if policy == "watching" else fixed
     assert (answer.cost, answer.human_cost, answer.opportunity) == (cost, idle, cost < idle)
-    assert _certified(studio(), answer).verdict == "proved"
+    assert certified(studio(), answer).verdict == "proved"
     for name in ("cost", "human_cost"):
-        refuted = _certified(studio(), answer, edit(name, lambda old: old + 1)).refuted
-        assert refuted is not None and refuted.claim == "cost"
+        assert_refuted(certified(studio(), answer, edit(name, lambda old: old + 1)), "cost")
 
 
 @pytest.mark.parametrize(("risk", "idle"), [("worst", 6.0), ("regret", 2.0)])
 def test_help_that_is_denied_at_any_risk(risk: str, idle: float) -> None:
     change = _all(_IDLE, _figures(idle, idle, 0.0, 6.0, 0.0))
-    refuted = _certified(studio(), helped(risk=risk), change).refuted
-    assert refuted is not None and refuted.claim == "no_opportunity"
+    assert_refuted(certified(studio(), helped(risk=risk), change), "no_opportunity")
 
 
 def test_robots_that_are_free_are_idle_without_an_opportunity() -> None:
@@ -225,15 +200,14 @@ def test_robots_that_are_free_are_idle_without_an_opportunity() -> None:
     task = build(goal="p", actions=actions)
     goals = [{"goal": [name]} for name in ("p", "z")]
     answer = serendipity.plan(task, goals=goals, horizon=2, discount=1)
-    assert _certified(task, answer).verdict == "proved"
-    refuted = _certified(task, answer, _with(f"{P}.plan", _step(2, "work r", 0.0))).refuted
-    assert refuted is not None
-    assert (refuted.claim, refuted.reason) == ("cost", "no opportunity, but robots act")
+    assert certified(task, answer).verdict == "proved"
+    works = certified(task, answer, _with(f"{P}.plan", _step(2, "work r", 0.0)))
+    assert_refuted(works, "cost", "no opportunity, but robots act")
 
 
 def test_the_counterexample_is_what_robots_do_until_they_see_more() -> None:
-    refuted = _certified(studio(), helped(), DOCTORED["help denied"][0]).refuted
-    assert refuted is not None
+    denied = certified(studio(), helped(), DOCTORED["no_opportunity"]["help denied"][0])
+    refuted = assert_refuted(denied, "no_opportunity")
     assert [(s.epoch, s.action) for s in refuted.counterexample or ()] == [(1, "power r")]
 
 
@@ -242,8 +216,10 @@ def test_the_counterexample_is_what_robots_do_until_they_see_more() -> None:
 
 @pytest.mark.parametrize(("bound", "verdict"), [(1004.5, "proved"), (900.0, "proved"), (1004.6, "refuted")])
 def test_bounds_of_unfinished_answers(bound: float, verdict: str) -> None:
-    worse = _all(DOCTORED["help for one only"][0], edit("status", "feasible"), edit("lower_bound", bound))
-    certificate = _certified(studio(), helped(), worse)
+    worse = _all(
+        DOCTORED["optimal"]["help for one only"][0], edit("status", "feasible"), edit("lower_bound", bound)
+    )
+    certificate = certified(studio(), helped(), worse)
     assert certificate.verdict == verdict
     assert {claim.claim for claim in certificate.claims} == {"replay", "cost", "window", "lower_bound"}
 
@@ -266,7 +242,7 @@ def test_plans_that_are_given_or_tied(risk: str, policy: str) -> None:
         (_library(risk=risk, policy=policy), "plans and probabilities are taken as given"),
         (_watched(risk=risk, policy=policy), "the plans are the human's optimal ones"),
     ):
-        certificate = _certified(two_roads(), answer)
+        certificate = certified(two_roads(), answer)
         assert certificate.verdict == "proved", certificate
         assert certificate.claims[0].reason.startswith(words)
 
@@ -274,8 +250,8 @@ def test_plans_that_are_given_or_tied(risk: str, policy: str) -> None:
 def test_one_plan_with_a_goal_of_its_own() -> None:
     answer = serendipity.plan(two_roads(), plans=[{"probability": 1, "goal": ["a"], "plan": ["go_a h"]}])
     assert [scenario.goal for scenario in answer.goals or ()] == [("a",)]
-    assert _certified(two_roads(), answer).verdict == "proved"
-    assert _certified(two_roads(), answer, edit(f"{P}.goal", ["b"])).verdict == "refuted"
+    assert certified(two_roads(), answer).verdict == "proved"
+    assert certified(two_roads(), answer, edit(f"{P}.goal", ["b"])).verdict == "refuted"
 
 
 LIBRARIES: dict[str, tuple[Edit, str]] = {
@@ -292,9 +268,7 @@ LIBRARIES: dict[str, tuple[Edit, str]] = {
 @pytest.mark.parametrize("way", LIBRARIES)
 def test_doctored_libraries_are_refuted(way: str) -> None:
     change, words = LIBRARIES[way]
-    refuted = _certified(two_roads(), _library(), change).refuted
-    assert refuted is not None
-    assert (refuted.claim, words in refuted.reason) == ("replay", True), refuted
+    assert_refuted(certified(two_roads(), _library(), change), "replay", words)
 
 
 TIED: dict[str, tuple[Edit, str]] = {
@@ -314,6 +288,4 @@ TIED: dict[str, tuple[Edit, str]] = {
 @pytest.mark.parametrize("way", TIED)
 def test_doctored_ties_are_refuted(way: str) -> None:
     change, words = TIED[way]
-    refuted = _certified(two_roads(), _watched(), change).refuted
-    assert refuted is not None
-    assert (refuted.claim, words in refuted.reason) == ("replay", True), refuted
+    assert_refuted(certified(two_roads(), _watched(), change), "replay", words)

@@ -4,7 +4,6 @@ Who goes over a begins at once, who goes over b an epoch later, and again before
 Lifting takes two epochs, too, and makes either way 3 cheaper.
 """
 
-import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
@@ -13,7 +12,6 @@ import pytest
 
 import serendipity
 from serendipity.model import (
-    Certificate,
     Options,
     PlanStep,
     PlanTimes,
@@ -24,7 +22,7 @@ from serendipity.model import (
     Window,
 )
 from serendipity.model.answers.result_parts import GoalAnswer
-from tests.verify.scenarios.edit import Edit, edit
+from tests.verify.scenarios.edit import Edit, assert_refuted, certified, edit
 from tests.verify.scenarios.studio import two_roads
 
 A, B = "statistics.goals.0", "statistics.goals.1"
@@ -77,13 +75,6 @@ def answer() -> Result:
     )
 
 
-def _certified(task: Task, said: Result, *changes: Edit) -> Certificate:
-    written = json.loads(json.dumps(said.to_dict()))
-    for change in changes:
-        change(written)
-    return serendipity.verify(task, Result.from_dict(written))
-
-
 def test_it_is_proved_and_its_proof_is_accepted(tmp_path: Path) -> None:
     assert all(claim.verdict != "refuted" for claim in serendipity.check(slow_roads(), answer()).claims)
     file = tmp_path / "proof.json"
@@ -101,7 +92,7 @@ def test_what_goes_on_where_nobody_is_helped_is_paid_for(policy: str) -> None:
     said = serendipity.plan(slow_roads(), plans=library, policy=policy)
     for goal in said.goals or ():
         assert goal.cost == sum(step.cost for step in goal.plan or ())
-    assert _certified(slow_roads(), said).verdict == "proved"
+    assert certified(slow_roads(), said).verdict == "proved"
 
 
 def _lifted(scenario: str, epoch: int) -> Edit:
@@ -147,19 +138,15 @@ DOCTORED: dict[str, tuple[tuple[Edit, ...], str, str]] = {
 @pytest.mark.parametrize("way", DOCTORED)
 def test_it_is_refuted_once_changed(way: str) -> None:
     changes, claim, words = DOCTORED[way]
-    refuted = _certified(slow_roads(), answer(), *changes).refuted
-    assert refuted is not None
-    assert (refuted.claim, words in refuted.reason) == (claim, True), refuted
+    assert_refuted(certified(slow_roads(), answer(), *changes), claim, words)
 
 
 def test_a_fact_of_the_script_that_nobody_reckons_with() -> None:
     """Who is told apart, helped, and done: and then it is undone."""
     undone = slow_roads().with_script(Script(facts=[(6, "!p")]))
-    refuted = _certified(undone, answer()).refuted
-    assert refuted is not None
-    assert (refuted.claim, "human-goal" in refuted.reason) == ("replay", True), refuted
+    assert_refuted(certified(undone, answer()), "replay", "human-goal")
     shut = slow_roads().with_script(Script(facts=[(6, "!p"), (5, "p")]))
-    assert _certified(shut, answer()).verdict == "refuted"
+    assert certified(shut, answer()).verdict == "refuted"
 
 
 def test_idle_robots_are_refuted_by_what_they_do_until_they_see_more() -> None:
@@ -184,7 +171,5 @@ def test_idle_robots_are_refuted_by_what_they_do_until_they_see_more() -> None:
         saving=0.0,
         agent_costs={"h": 6.0, "r": 0.0},
     )
-    refuted = _certified(task, idle).refuted
-    assert refuted is not None
-    assert (refuted.claim, "a better policy: cost 4" in refuted.reason) == ("no_opportunity", True), refuted
+    refuted = assert_refuted(certified(task, idle), "no_opportunity", "a better policy: cost 4")
     assert [(s.epoch, s.action, s.duration) for s in refuted.counterexample or ()] == [(1, "lift_b r", 5)]
