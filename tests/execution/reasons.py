@@ -326,11 +326,7 @@ class _Seen:
         plan = self.decision["plan"] if alone else None
         his = None if plan is None else [s["action"] for s in plan if s["agents"] == [self.human]]
         found = serendipity.plan(
-            smaller,
-            discount=self.header["discount"],
-            human_plan=his,
-            time_limit=self.time_limit,
-            **options,
+            smaller, discount=self.header["discount"], human_plan=his, time_limit=self.time_limit, **options
         )
         return found if found.status in ("optimal", "infeasible") else None
 

@@ -8,15 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity.execution import (
-    Execution,
-    Replanner,
-    as_text,
-    log_lines,
-    moment_of,
-    read_logs,
-    replay,
-)
+from serendipity.execution import Execution, Replanner, as_text, log_lines, moment_of, read_logs, replay
 from serendipity.model import InputError, Task
 from serendipity.robot import Simulated
 from serendipity.testing.strategies import tasks
@@ -66,11 +58,7 @@ def test_a_file_holds_several_runs(log: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "complaint"),
     [
-        (
-            '"human_cost": 2.0',
-            '"human_cost": 1.0',
-            ":3: log: human_cost: comes out as 2.0, but the log",
-        ),
+        ('"human_cost": 2.0', '"human_cost": 1.0', ":3: log: human_cost: comes out as 2.0, but the log"),
         ('"schema": "serendipity.execution/1"', '"schema": "x"', ":1: log: schema: expected"),
         ('"human": "commx"', '"human": "robot"', ":1: log: is of another task"),
         ('"discount": "9/10"', '"discount": "9"', r":1: log: discount: expected a number in \[0, 1\]"),

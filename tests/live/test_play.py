@@ -63,8 +63,7 @@ def test_the_papers_example() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "team", "said"),
-    [("none", 13.0, False), ("silent", 12.6, False), ("announced", 12.6, True)],
+    ("name", "team", "said"), [("none", 13.0, False), ("silent", 12.6, False), ("announced", 12.6, True)]
 )
 def test_what_robots_do_in_each_condition(name: str, team: float, said: bool) -> None:
     table = SharedRounds(setting(condition=name))

@@ -98,11 +98,7 @@ def _with(value: dict[str, Any], more: dict[str, Any]) -> str:
     ],
 )
 def test_a_newer_file_is_refused_in_one_line(
-    name: str,
-    command: str,
-    says: str,
-    run: Runs,
-    tmp_path: Path,
+    name: str, command: str, says: str, run: Runs, tmp_path: Path
 ) -> None:
     if "suite" in command:
         serendipity.generate_usar(tmp_path / "suite" / "test1", preset="room2")

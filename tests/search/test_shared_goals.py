@@ -55,8 +55,7 @@ def test_what_the_human_gains_alone() -> None:
 def test_an_earlier_call_in_a_smaller_unit(earlier: dict[str, str]) -> None:
     """The team of an earlier call was taken, whose costs stood for others."""
     task = build(
-        goal="a b",
-        actions={"go h": "-> p", "back h": "p -> a !p", "end h": "p -> b", "end r": "-> b @ 3"},
+        goal="a b", actions={"go h": "-> p", "back h": "p -> a !p", "end h": "p -> b", "end r": "-> b @ 3"}
     )
     call = {"mode": "communication", "discount": "1/3"}
     given = ["go h", "back h", "go h", "end h", "back h"]

@@ -6,17 +6,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.model import Options, Task
-from serendipity.testing import (
-    Call,
-    best,
-    calls,
-    options,
-    plans,
-    random_call,
-    results,
-    strips_tasks,
-    tasks,
-)
+from serendipity.testing import Call, best, calls, options, plans, random_call, results, strips_tasks, tasks
 from serendipity.testing.asking import call_of, settled, written
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import CASE_3_PLAN, case_3

@@ -6,13 +6,7 @@ from itertools import pairwise
 import pytest
 from unified_planning.engines import PlanGenerationResultStatus, SequentialPlanValidator
 from unified_planning.environment import get_environment
-from unified_planning.plans import (
-    ActionInstance,
-    ContingentPlan,
-    PartialOrderPlan,
-    PlanKind,
-    SequentialPlan,
-)
+from unified_planning.plans import ActionInstance, ContingentPlan, PartialOrderPlan, PlanKind, SequentialPlan
 
 import serendipity
 from serendipity.model import PlanError, UsageError

@@ -23,8 +23,7 @@ QUICK = (case_2, case_8, case_9, case_10)
 
 
 @pytest.mark.parametrize(
-    "worked",
-    [pytest.param(w, marks=() if w.task in QUICK else pytest.mark.slow, id=str(w)) for w in WORKED],
+    "worked", [pytest.param(w, marks=() if w.task in QUICK else pytest.mark.slow, id=str(w)) for w in WORKED]
 )
 def test_worked_case(worked: Worked) -> None:
     task = worked.task()

@@ -47,7 +47,7 @@ def two_ways(*, do_x: int = 5, do_y: int = 5, quick_x: int = 1, quick_y: int = 1
             "do_y h": f"at_y {rest} -> y @ {do_y}",
             "quick_x h": f"at_x up_x {rest} -> x @ {quick_x}",
             "quick_y h": f"at_y up_y {rest} -> y @ {quick_y}",
-        },
+        }
     )
 
 

@@ -70,9 +70,7 @@ def _answer() -> tuple[Task, dict[str, Any]]:
 def _left_alone(answer: dict[str, Any]) -> None:
     """The answer that nothing helps."""
     for entry, cost in zip(answer["statistics"]["goals"], (5.0, 5.0), strict=True):
-        human = [
-            {"epoch": 1, "agents": ["h"], "action": entry["human_plan"][0], "cost": 5.0},
-        ]
+        human = [{"epoch": 1, "agents": ["h"], "action": entry["human_plan"][0], "cost": 5.0}]
         entry |= {"cost": cost, "window": None, "plan": human}
     answer |= {"plan": [], "cost": 5.0, "objective": 5.0, "lower_bound": 5.0, "saving": 0.0}
     answer |= {"opportunity": False, "agent_costs": {"h": 5.0, "r": 0.0}}

@@ -141,9 +141,7 @@ DOCTORED: dict[str, dict[str, tuple[Edit, str]]] = {
         "the worst for the mean": (edit("options.risk", "worst"), "greatest cost is 5"),
         "regret for the mean": (edit("options.risk", "regret"), "regret's cost is 1"),
     },
-    "lower_bound": {
-        "a bound": (edit("lower_bound", 1004.0), "the objective 1004.5"),
-    },
+    "lower_bound": {"a bound": (edit("lower_bound", 1004.0), "the objective 1004.5")},
     "optimal": {
         "a longer window, summed up": (
             _all(
@@ -162,7 +160,7 @@ DOCTORED: dict[str, dict[str, tuple[Edit, str]]] = {
         "help denied": (
             _all(_IDLE, _figures(6.0, 6.0, 0.0, 6.0, 0.0)),
             "a better policy: cost 4.5, objective 1004.5",
-        ),
+        )
     },
 }
 """What has to fall, by the claim that it falls with."""

@@ -11,16 +11,7 @@ from typing import Any, Final
 import pytest
 
 import serendipity
-from serendipity.model import (
-    Options,
-    PlanStep,
-    PlanTimes,
-    Result,
-    Script,
-    Task,
-    Timing,
-    Window,
-)
+from serendipity.model import Options, PlanStep, PlanTimes, Result, Script, Task, Timing, Window
 from serendipity.model.answers.result_parts import GoalAnswer
 from tests.verify.scenarios.edit import Edit, assert_refuted, certified, edit
 from tests.verify.scenarios.studio import two_roads
@@ -68,10 +59,7 @@ def answer() -> Result:
         saving_alone=0.0,
         plan=(),
         agent_costs={"h": 3.0, "r": 1.0},
-        goals=(
-            _scenario("a", 0.25, 1, 2, Window(3, 4)),
-            _scenario("b", 0.75, 2, 2, Window(4, 5)),
-        ),
+        goals=(_scenario("a", 0.25, 1, 2, Window(3, 4)), _scenario("b", 0.75, 2, 2, Window(4, 5))),
     )
 
 
@@ -118,10 +106,7 @@ DOCTORED: dict[str, tuple[tuple[Edit, ...], str, str]] = {
     "what is lifted too late": ((_lifted("a", 3),), "replay", "in-time"),
     "times of the plan": ((edit(f"{A}.human_plan_times.starts", [2, 3, 5]),), "replay", "times"),
     "times of the whole plan": (
-        (
-            edit(f"{A}.human_plan_times.starts", [2, 3, 5]),
-            edit(f"{A}.human_plan_times.epochs", 5),
-        ),
+        (edit(f"{A}.human_plan_times.starts", [2, 3, 5]), edit(f"{A}.human_plan_times.epochs", 5)),
         "window",
         "prefix",
     ),

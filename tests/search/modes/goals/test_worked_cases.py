@@ -106,12 +106,7 @@ def test_idle_robots_are_the_answer_without_them(discount: str, cost: float) -> 
     """What was seen is a detour: alone the human gains 3, and help has to beat that, not their plans."""
     task = build(
         goal="p",
-        actions={
-            "detour h": "-> seen @ 3",
-            "do1 h": "-> p @ 4",
-            "do2 h": "-> z @ 4",
-            "push r": "-> p z @ 5",
-        },
+        actions={"detour h": "-> seen @ 3", "do1 h": "-> p @ 4", "do2 h": "-> z @ 4", "push r": "-> p z @ 5"},
     )
     answer = helped(task, 1, 1, observed=["detour h"], window_weight=0, discount=discount)
     assert (answer.human_cost, answer.saving_alone) == (7, 3)

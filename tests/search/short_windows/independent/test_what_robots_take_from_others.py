@@ -10,10 +10,7 @@ from search.short_windows.independent import timeline
 from serendipity.model import Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import best
-from tests.search.short_windows.independent.test_bounds_are_admissible import (
-    admissible_bound,
-    bound_and_cost,
-)
+from tests.search.short_windows.independent.test_bounds_are_admissible import admissible_bound, bound_and_cost
 from tests.search.small_tasks import ONE_EPOCH
 
 _CHORES = {f"a_chore_{i} h": f"-> chore_{i} @ 1" for i in range(5)}
