@@ -165,7 +165,9 @@ def in_units(call: Request, units: UnitSteps) -> Request:
         PlanError: the human's plan can't be executed after the head start, or misses the goal.
     """
     prepared, given = PreparedTask(units.task), None if call.given is None else units.plan(call.given)
-    options, epochs = call.options.but(head_start=0, ties="fixed"), call.options.head_start
+    epochs = call.options.head_start
+    asleep = epochs if call.options.human_model == "observant" else 0
+    options = call.options.but(head_start=asleep, ties="fixed")
     if given is not None:  # it may come too late, or be in a bystander's way
         call.task.replay_alone(units.begun(units.after_waiting(given, epochs)), strict=options.strict)
     inner = replace(call, prepared=prepared, given=given, options=options, question=None, original=call.task)
@@ -211,11 +213,10 @@ def _require_known(call: Request) -> None:
     options = call.options
     if options.mode == "assistance":
         raise UsageError("mode: 'assistance' takes turns, which have no length: not where actions take time")
-    if options.human_model != "omniscient":
-        raise UsageError(
-            "human_model: where actions take time, expected omniscient: what others notice of an action that "
-            f"goes on is not settled, got {options.human_model}"
-        )
+    if options.human_model == "local":
+        raise UsageError("human_model: where actions take time, expected omniscient or observant, got local")
+    if options.human_model == "observant" and options.waiting_cost:
+        raise UsageError("waiting_cost: a human who replans waits for free, expected 0")
 
 
 def _later(units: UnitSteps, answer: Answer, epochs: int) -> Answer:

@@ -1,6 +1,6 @@
 """The human's state machine: what they decide when they look up (semantics 6, steps 1 and 2)."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -136,13 +136,25 @@ class Human:
         return look
 
     def _decide(self, belief: int, intention: Intention) -> Glance:
-        kept = intention.cost if intention.works(belief, self.packed.goal) else None
+        kept = intention.cost if self.works(belief, intention) else None
         limit = INFINITE_KEY if kept is None else self.key_of(kept)
         best = self.alone.key(belief, limit)
         if best >= limit:
             return Glance(intention, kept, kept)
         plan = canonical(self.alone, belief)
         return Glance(self.intentions.of(plan), kept, self.keys.scaled_cost(best))
+
+    def works(self, belief: int, intention: Intention) -> bool:
+        """Whether a plan leads from what they believe to their goal, with robots idle."""
+        return intention.works(belief, self.packed.goal)
+
+    def attends_to_nothing(self, state: int, epoch: int) -> bool:
+        """Whether they don't look up in a packed state, some epochs being over; without time they always do."""
+        return False
+
+    def unasked(self, state: int, intention: Intention) -> Iterator[HumanStep]:
+        """Their part of an epoch in which they don't look up."""
+        return iter(())
 
     def accepts(self, joint: Operator, belief: int, best: int | None) -> bool:
         """Step 2: whether the human takes part, ``best`` being their cost alone now."""

@@ -10,6 +10,7 @@ from search.engine.best_first import Incumbent, Node, Progress, best_first, solv
 from search.engine.paths import path_steps, plan_steps
 from search.human.individual_planner import FoundPlan
 from search.modes.simulation.human import Human
+from search.modes.simulation.in_time import HumanInTime
 from search.modes.simulation.simulator import way_on
 from search.modes.simulation.space import Reactive, Start
 from search.packed.cost_vector import INFINITE_KEY
@@ -74,11 +75,14 @@ def solve_for_human(
             gain = Fraction(0) if human_plan is None else None  # known only of an optimal plan
             yield idle._replace(horizon=epochs, saving_alone=gain)
         actions = human_plan or ()
-        human = Human(
-            prepared, options, deadline, human_model=options.human_model, actions=actions, visible=visible
-        )
-        if human_plan is None:
-            human.alone.proved(human.packed.init, plan)
+        if task.due:
+            human: Human = HumanInTime(prepared, options, deadline, actions=actions)
+        else:
+            human = Human(
+                prepared, options, deadline, human_model=options.human_model, actions=actions, visible=visible
+            )
+            if human_plan is None:
+                human.alone.proved(human.packed.init, plan)
     except LIMITS as limit:
         if task.robot_goal:
             yield Answer("unknown", human_plan=plan, horizon=epochs, reason=limit_reason(limit))
@@ -137,6 +141,8 @@ class _Call:
 
     def _begin_with_known(self) -> None:
         """The plan that was known before is the incumbent, where it works out and is better."""
+        if self.task.due:
+            return
         played = way_on(self._start(), self.human, self.options, self.known, self.deadline)
         if played is None or len(played.epochs) > self.epochs:
             return

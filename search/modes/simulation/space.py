@@ -72,8 +72,8 @@ class Reactive:
 
     def __post_init__(self) -> None:
         packed = self.human.packed
-        self._goals = (packed.goal, packed.robot_goal)
-        self._offers_idle = self.human.sees_all and not packed.task.robot_goal
+        self._goals = self.human.context.goals
+        self._offers_idle = self.human.sees_all and not packed.task.robot_goal and not packed.in_time
         self._width = packed.all_ones.bit_length()
         self._labels = ParetoFront()
         self._minds: list[Mind] = []
@@ -98,6 +98,10 @@ class Reactive:
         if node.epoch == self.horizon:
             return
         mind, state, human = self._minds[node.phase >> 1], node.state, self.human
+        if human.attends_to_nothing(state, node.epoch):
+            if not (mind.guarded and human.stuck(state)):
+                yield from self._unasked(node, mind, best)
+            return
         expected = state if human.sees_all else mind.belief
         belief, look = human.look(expected, state, mind.intention, settled=bool(node.phase & 1))
         stuck = self._stuck(state, look)
@@ -111,6 +115,12 @@ class Reactive:
             if human.accepts(op, belief, look.best):
                 yield from self._children(node, best, human.joins(op, belief, look), guarded=guarded)
         yield from self._children(node, best, human.goes_on(belief, state, look), guarded=guarded)
+
+    def _unasked(self, node: Node, mind: Mind, best: Incumbent) -> Iterator[tuple[int, Node]]:
+        """Successors of a node in which the human does not look up: they go on, or are not up yet."""
+        guarded = self.no_block and not self.human.stuck(node.state)
+        for step in self.human.unasked(node.state, mind.intention):
+            yield from self._children(node, best, step, guarded=guarded)
 
     def _children(
         self, node: Node, best: Incumbent, step: HumanStep, *, guarded: bool

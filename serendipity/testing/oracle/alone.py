@@ -27,7 +27,7 @@ class OwnStep(NamedTuple):
 class Alone:
     """Optimal costs of the human alone, for all moments that were asked for.
 
-    Epochs are those that are over; moments are ones in which the human is free.
+    Epochs are those that are over; moments are ones in which the human is free. Robots may be at something.
 
     Args:
         task: the task.
@@ -62,7 +62,7 @@ class Alone:
         while now is not None:
             if self.world.reached(now):
                 return (Fraction(0), passed, 0)
-            if epoch + passed >= self.world.settled:
+            if self._is_calm(now, epoch + passed):
                 return None
             passed += 1
             now = self.world.alone(now, epoch + passed)
@@ -86,8 +86,12 @@ class Alone:
             return []
         return [way for way in self.ways(moment, epoch) if _plus(way.price, self._rest(way)) == worth]
 
+    def _is_calm(self, moment: Moment, epoch: int) -> bool:
+        """Whether nothing happens from a moment on unless the human does it."""
+        return epoch >= self.world.settled and not moment.going
+
     def ways(self, moment: Moment, epoch: int = 0) -> Iterator[OwnStep]:
-        """Their own actions that can be done, in ascending order; then waiting, while the script lasts."""
+        """Their own actions that can be done, in ascending order; then waiting, while something happens."""
         ways = [*(self.acted(moment, epoch, i) for i in self.task.human_actions), self.waited(moment, epoch)]
         yield from (way for way in ways if way is not None)
 
@@ -101,8 +105,8 @@ class Alone:
         return OwnStep(action, (done.cost, done.duration, 1), end, epoch + done.duration)
 
     def waited(self, moment: Moment, epoch: int) -> OwnStep | None:
-        """An epoch of waiting, if the script lasts so long."""
-        later = self.world.alone(moment, epoch + 1) if epoch < self.world.settled else None
+        """An epoch of waiting, if something happens meanwhile."""
+        later = None if self._is_calm(moment, epoch) else self.world.alone(moment, epoch + 1)
         return None if later is None else OwnStep(None, (self.waiting_cost, 1, 0), later, epoch + 1)
 
     def plans(self, moment: Moment, epoch: int) -> Iterator[tuple[tuple[int, ...], tuple[int, ...], int]]:

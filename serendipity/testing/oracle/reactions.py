@@ -1,27 +1,30 @@
-"""Brute force under a human model (semantics 6): every sequence of robots' actions is played.
+"""Brute force under a human model (semantics 6, 10.6): every sequence of robots' actions is played.
 
-Equal (state, belief, plan) after an epoch are merged, keeping the least (cost, actions).
+Equal (moment, belief, plan) after an epoch are merged, keeping the least (cost, actions).
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
 from serendipity.model import HumanPlan, Options, Task
-from serendipity.testing.oracle.alone import Alone, optimal_human_plan
+from serendipity.testing.oracle.alone import Alone, human_plans
 from serendipity.testing.oracle.epochs import State, after, holds, usable
 from serendipity.testing.oracle.moments import Moment
 
 Visible = Callable[[int, int, State], bool]
 
+Slots = tuple[int | None, ...]
+"""What the human means to do whenever they are free: an action, or (None) an epoch of waiting."""
+
 
 @dataclass(frozen=True, slots=True)
 class BeliefState:
-    """True state, what the human believes, what remains of their plan."""
+    """How things are, what the human believes, what remains of their plan."""
 
-    state: State
+    moment: Moment
     belief: State
-    plan: HumanPlan
+    plan: Slots
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,27 +42,39 @@ def best_reaction(
 
     Args:
         task: the task.
-        options: discount, horizon, interference, ``human_model`` and ``no_block``.
-        human_plan: ``pi_H``; None for the canonical one, which must exist.
+        options: discount, horizon, interference, head start, ``human_model`` and ``no_block``.
+        human_plan: ``pi_H``, after its head start; None for the canonical one, which must exist.
         visible: what a local human sees.
     """
-    plan = optimal_human_plan(task) if human_plan is None else human_plan
-    assert plan is not None, "brute force needs a plan of the human"
-    horizon = len(plan) if options.horizon is None else int(options.horizon)
+    if human_plan is None:
+        human_plan = next(human_plans(task, head_start=options.head_start, strict=options.strict), None)
+    assert human_plan is not None, "brute force needs a plan of the human"
+    horizon = task.epochs_of(human_plan) if options.horizon is None else int(options.horizon)
     world = _World(task, options, visible)
     reached: list[tuple[Fraction, int]] = []
-    layer = {BeliefState(task.init, task.init, plan): (Fraction(0), 0)}
+    slots = _slots(task, task.starts_of(human_plan), human_plan, task.epochs_of(human_plan))
+    layer = {BeliefState(Moment(task.init), task.init, slots): (Fraction(0), 0)}
     for epoch in range(horizon + 1):
         following: dict[BeliefState, tuple[Fraction, int]] = {}
-        for moment, (cost, actions) in layer.items():
-            if world.over(moment.state):
+        for now, (cost, actions) in layer.items():
+            if world.over(now.moment):
                 reached.append((cost, actions))
             elif epoch < horizon:
-                for chosen, onward in world.unfold(moment):
+                for chosen, onward in world.unfold(now, epoch):
                     label = (cost + world.price(chosen), actions + len(chosen))
                     following[onward] = min(label, following.get(onward, label))
         layer = following
     return Best(*min(reached)) if reached else Best(None, None)
+
+
+def _slots(task: Task, starts: tuple[int, ...], plan: HumanPlan, end: int, over: int = 0) -> Slots:
+    """A plan as slots, from an epoch on."""
+    slots: list[int | None] = []
+    for start, action in zip(starts, plan, strict=True):
+        slots += [None] * (start - over - 1)
+        slots.append(action)
+        over = start + task.actions[action].duration - 1
+    return (*slots, *[None] * (end - over))
 
 
 class _World:
@@ -72,85 +87,101 @@ class _World:
         self.robots = [i for i, a in enumerate(task.actions) if task.human not in a.participants]
         self.joint = [i for i, a in enumerate(task.actions) if a.joint and task.human in a.participants]
 
-    def over(self, state: State) -> bool:
-        return holds(self.task.goal, state) and holds(self.task.robot_goal, state)
+    def over(self, moment: Moment) -> bool:
+        reached = holds(self.task.goal, moment.state) and holds(self.task.robot_goal, moment.state)
+        return reached and self.world.plan_is_over(moment)
 
     def price(self, chosen: tuple[int, ...]) -> Fraction:
         actions = (self.task.actions[i] for i in chosen)
         return sum((self.task.team_cost(a, self.options.discount) for a in actions), Fraction(0))
 
-    def unfold(self, now: BeliefState) -> Iterator[tuple[tuple[int, ...], BeliefState]]:
-        """Everything that robots can make of the next epoch: what is executed, and then."""
-        belief = self._look(now)
-        kept, best = self._cost_of(now.plan, belief), self._alone(belief)
-        plan = now.plan
-        if best is not None and (kept is None or best < kept):
-            plan = self._plan(belief)
-        for his, rest, believed in self._his_part(now.state, belief, plan, best):
-            for chosen in self._sets(now.state, his):
-                state = self._after(now.state, chosen)
-                if self._forbidden(now.state, self._after(now.state, his), state):
-                    continue
-                yield chosen, BeliefState(state, believed, rest)
+    def unfold(self, now: BeliefState, epoch: int) -> Iterator[tuple[tuple[int, ...], BeliefState]]:
+        """Everything that robots can make of the epoch after some: what begins, and then."""
+        for his, rest, believed in self._his_part(now, epoch):
+            for chosen, onward in self.world.sets(now.moment, epoch + 1, [*his, *self.robots]):
+                if chosen[: len(his)] == his and not self._forbidden(now.moment, epoch, his, onward):
+                    yield chosen, BeliefState(onward, believed(onward.state), rest)
 
     def _his_part(
-        self, state: State, belief: State, plan: HumanPlan, best: Fraction | None
-    ) -> Iterator[tuple[tuple[int, ...], HumanPlan, State]]:
+        self, now: BeliefState, epoch: int
+    ) -> Iterator[tuple[tuple[int, ...], Slots, Callable[[State], State]]]:
         """The human's part: a joint action that they would accept, or what they mean to do."""
-        for j in self.joint:
-            action = self.task.actions[j]
-            if usable(action, state) and usable(action, belief):
-                onward = self._after(belief, (j,))
-                rest = self._alone(onward)
-                if best is None or (rest is not None and action.cost + rest <= best):
-                    yield (j,), plan, onward
-        if best is None or not plan:
-            yield (), plan, belief
+        if self.world.busy(now.moment, self.task.human):
+            yield (), now.plan, lambda state: state
             return
-        action = self.task.actions[plan[0]]
-        if usable(action, state):
-            yield plan[:1], plan[1:], self._after(belief, plan[:1])
+        if epoch < self.options.head_start:  # they are not up yet
+            yield (), now.plan[1:], lambda state: state
+            return
+        belief = self._look(now)
+        there = now.moment._replace(state=belief)
+        kept, best, plan = self._cost_of(now.plan, there, epoch), self._alone(there, epoch), now.plan
+        if best is not None and (kept is None or best < kept):
+            plan = self._plan(there, epoch)
+        for j in self.joint:
+            after_it = self.world.after(there, epoch + 1, (j,))
+            if after_it is not None and usable(self.task.actions[j], now.moment.state):
+                rest = self._alone(after_it, epoch + 1)
+                if best is None or (rest is not None and self.task.actions[j].cost + rest <= best):
+                    yield (j,), plan, self._believing(belief, (j,))
+        if best is None or not plan:
+            yield (), plan, self._believing(belief, ())
+        elif plan[0] is None:
+            yield (), plan[1:], self._believing(belief, ())
+        elif usable(action := self.task.actions[plan[0]], now.moment.state):
+            yield (plan[0],), plan[1:], self._believing(belief, (plan[0],))
         else:
             truth = {*action.pre, *action.neg}
-            yield (), plan, frozenset((belief - truth) | (state & truth))
+            learnt = frozenset((belief - truth) | (now.moment.state & truth))
+            yield (), plan, self._believing(learnt, ())
 
-    def _sets(self, state: State, his: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
-        """The human's action with each set of robots' actions that may share its epoch."""
-        for chosen, _ in self.world.sets(Moment(state), 1, [*his, *self.robots]):
-            if chosen[: len(his)] == his:
-                yield chosen
+    def _believing(self, belief: State, done: tuple[int, ...]) -> Callable[[State], State]:
+        """What they believe after an epoch, by how things are: those who see everything, the truth."""
+        if self.options.human_model == "observant":
+            return lambda state: state
+        onward = after(belief, [self.task.actions[i] for i in done])
+        return lambda _: onward
 
-    def _forbidden(self, before: State, without_robots: State, state: State) -> bool:
-        if self.options.no_block is False or self._alone(before) is None or self._alone(state) is not None:
+    def _forbidden(self, before: Moment, epoch: int, his: tuple[int, ...], onward: Moment) -> bool:
+        if self.options.no_block is False or self._alone(before, epoch) is None:
             return False
-        return self._alone(without_robots) is not None
+        if self._alone(onward, epoch + 1) is not None:
+            return False
+        without_robots = self.world.after(before, epoch + 1, his)
+        return without_robots is not None and self._alone(without_robots, epoch + 1) is not None
 
     def _look(self, now: BeliefState) -> State:
+        state = now.moment.state
         if self.options.human_model == "observant":
-            return now.state
+            return state
         assert self.visible is not None, "brute force is told what is visible"
         human = self.task.human
-        seen = {f for f in range(len(self.task.facts)) if self.visible(human, f, now.state)}
-        return frozenset((now.belief - seen) | (now.state & seen))
+        seen = {f for f in range(len(self.task.facts)) if self.visible(human, f, state)}
+        return frozenset((now.belief - seen) | (state & seen))
 
-    def _alone(self, state: State) -> Fraction | None:
-        worth = self.alone.worth(Moment(state))
+    def _alone(self, moment: Moment, epoch: int) -> Fraction | None:
+        """What they still pay alone, once they are free."""
+        now: Moment | None = moment
+        while now is not None and self.world.busy(now, self.task.human):
+            epoch += 1
+            now = self.world.alone(now, epoch)
+        worth = None if now is None else self.alone.worth(now, epoch)
         return None if worth is None else worth[0]
 
-    def _plan(self, state: State) -> HumanPlan:
-        if holds(self.task.goal, state):
-            return ()
-        return optimal_human_plan(replace(self.task, init=state)) or ()
+    def _plan(self, moment: Moment, epoch: int) -> Slots:
+        """Their canonical plan from a moment in which they have one."""
+        actions, starts, end = next(self.alone.plans(moment, epoch))
+        return _slots(self.task, starts, actions, end, epoch)
 
-    def _cost_of(self, plan: HumanPlan, state: State) -> Fraction | None:
+    def _cost_of(self, plan: Slots, moment: Moment, epoch: int) -> Fraction | None:
         cost = Fraction(0)
-        for i in plan:
-            action = self.task.actions[i]
-            if not usable(action, state):
+        now: Moment | None = moment
+        for slot in plan:
+            if now is None:
                 return None
-            state = self._after(state, (i,))
-            cost += action.cost
-        return cost if holds(self.task.goal, state) else None
-
-    def _after(self, state: State, chosen: tuple[int, ...]) -> State:
-        return after(state, [self.task.actions[i] for i in chosen])
+            if slot is None:
+                epoch, now = epoch + 1, self.world.alone(now, epoch + 1)
+                continue
+            done = self.alone.acted(now, epoch, slot)
+            epoch, now = epoch + self.task.actions[slot].duration, None if done is None else done.moment
+            cost += self.task.actions[slot].cost
+        return cost if now is not None and self.world.reached(now) else None

@@ -1,0 +1,112 @@
+"""The human who replans where actions take time: they look up whenever they are free (semantics 10.6)."""
+
+from collections.abc import Collection, Iterator
+
+from search.call.prepared_task import PreparedTask
+from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
+from search.human.own_options import BesideScript
+from search.modes.simulation.human import Glance, Human, HumanStep
+from search.modes.simulation.intention import Intention
+from search.packed.due import Due
+from search.packed.joint_actions import NOTHING, as_option
+from search.packed.operators import Operator, applicable
+from serendipity.model.options import Options
+from serendipity.model.resources.deadline import Deadline
+
+
+class BesideOthers(IndividualPlanner):
+    """The human alone, robots going on with what they are at, and beginning nothing.
+
+    Args:
+        later: the same once nobody else is at anything, and nothing happens any more.
+        due: what happens whatever is chosen.
+    """
+
+    def __init__(self, human: Human, later: IndividualPlanner, due: Due, options: Options) -> None:
+        context = human.context
+        memory = Memory(human.packed, strict=options.strict)
+        memory.lookup = BesideScript(human.packed, memory.weight, strict=options.strict)
+        bound = context.tables.human.projection(context.deadline)
+        super().__init__(human.packed, human.packed.goal, bound, memory, context.deadline, context.weights)
+        self._mask = human.packed.all_ones
+        self._later, self._due = later, due
+
+    def canonical(self, state: int) -> FoundPlan | None:
+        """See :class:`.IndividualPlanner`."""
+        return self._later.canonical(state) if self._is_calm(state) else super().canonical(state)
+
+    def _least_from(self, state: int, limit: int = 1 << 62) -> int:
+        if self._is_calm(state):
+            return self._later._least_from(state & self._later.mask, limit)
+        return super()._least_from(state, limit)
+
+    def _is_calm(self, state: int) -> bool:
+        """Whether nothing happens but what the human does."""
+        others = self._due.others(state)
+        return self._due.last(state) is None and bool(others) and not others[0].actions
+
+    def _take_over(self) -> None:
+        """The kernel knows nothing of what goes on."""
+
+
+class HumanInTime(Human):
+    """One human who sees everything, in a task of single epochs.
+
+    Args:
+        prepared: the task.
+        options: discount, weights, and the head start, in which they are not up.
+        actions: ids of actions that will be asked about, beyond the useful ones.
+    """
+
+    def __init__(
+        self, prepared: PreparedTask, options: Options, deadline: Deadline, actions: Collection[int] = ()
+    ) -> None:
+        super().__init__(prepared, options, deadline, human_model="observant", actions=actions)
+        self._due = self.context.successors().due
+        self._asleep = options.head_start
+        self.alone = BesideOthers(self, self.alone, self._due, options)
+        self.concern = self.packed.all_ones
+
+    def look(self, expected: int, state: int, intention: Intention, *, settled: bool) -> tuple[int, Glance]:
+        """See :class:`.Human`; what robots begin may always be news."""
+        return state, self.decide(state, intention)
+
+    def works(self, belief: int, intention: Intention) -> bool:
+        """See :class:`.Human`; others go on meanwhile, and the script does."""
+        at, state = intention, belief
+        while at.op is not None:
+            after = self._due.after(state, (at.option,)) if applicable(at.op, state) else None
+            if after is None:
+                return False
+            at, state = at.rest, after
+        return self.packed.goal.holds(state)
+
+    def attends_to_nothing(self, state: int, epoch: int) -> bool:
+        """See :class:`.Human`: they are not up yet, or at something."""
+        return epoch < self._asleep or self._due.human(state) is not None
+
+    def unasked(self, state: int, intention: Intention) -> Iterator[HumanStep]:
+        """See :class:`.Human`."""
+        going_on = self._due.human(state)
+        if going_on is None:
+            yield HumanStep(NOTHING, state, intention.rest, False)
+            return
+        for part in going_on:
+            own = intention.op is not None and intention.op.action == part.actions[0]
+            yield HumanStep(part, state, intention.rest if own else intention, False)
+
+    def joins(self, joint: Operator, belief: int, look: Glance) -> HumanStep:
+        """See :class:`.Human`."""
+        return HumanStep(as_option(joint, self.weights.team(joint)), belief, look.intention, False)
+
+    def accepts(self, joint: Operator, belief: int, best: int | None) -> bool:
+        """See :class:`.Human`."""
+        option = as_option(joint, self.weights.team(joint))
+        after = self._due.after(belief, (option,)) if applicable(joint, belief) else None
+        if after is None:
+            return False
+        if best is None:
+            return True
+        left = best - self.keys.scaled_cost(self.weights.human[joint.cost])
+        limit = self.key_of(left + 1)
+        return left >= 0 and self.alone.key(after, limit) < limit
