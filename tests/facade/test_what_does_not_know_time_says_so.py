@@ -31,7 +31,7 @@ def test_waiting_is_played_and_a_head_start_is_not_for_sessions() -> None:
 
 
 def test_options_that_are_not_for_time_are_refused() -> None:
-    for name, value in {"human_model": "observant"}.items():
+    for name, value in {"human_model": "local"}.items():
         with pytest.raises(UsageError, match=f"{name}: where actions take time, expected"):
             serendipity.plan(slow(), **{name: value})
 

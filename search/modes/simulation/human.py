@@ -68,6 +68,7 @@ class Human:
     Attributes:
         context: the task as they see it.
         sees_all: whether they are observant, so that they believe what is true.
+        asleep: epochs in which they are not up yet.
     """
 
     def __init__(
@@ -91,6 +92,7 @@ class Human:
         self.alone = self.context.alone
         self.intentions = Intentions(self.packed, self.keys, self.weights.human)
         self.sees_all = not local
+        self.asleep = options.head_start
         self.eyes = _eyes(prepared, self.packed, visible, deadline) if local else everywhere()
         task = prepared.task
         asked = (i for i in actions if task.actions[i].participants == (task.human,))
@@ -149,7 +151,7 @@ class Human:
         return intention.works(belief, self.packed.goal)
 
     def attends_to_nothing(self, state: int, epoch: int) -> bool:
-        """Whether they don't look up in a packed state, some epochs being over; without time they always do."""
+        """Whether they don't look up in a packed state after some epochs; without time they always do."""
         return False
 
     def unasked(self, state: int, intention: Intention) -> Iterator[HumanStep]:

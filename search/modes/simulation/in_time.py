@@ -7,6 +7,7 @@ from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
 from search.human.own_options import BesideScript
 from search.modes.simulation.human import Glance, Human, HumanStep
 from search.modes.simulation.intention import Intention
+from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due
 from search.packed.joint_actions import NOTHING, as_option
 from search.packed.operators import Operator, applicable
@@ -33,17 +34,17 @@ class BesideOthers(IndividualPlanner):
 
     def canonical(self, state: int) -> FoundPlan | None:
         """See :class:`.IndividualPlanner`."""
-        return self._later.canonical(state) if self._is_calm(state) else super().canonical(state)
+        return self._later.canonical(state) if self._due.is_calm(state) else super().canonical(state)
 
-    def _least_from(self, state: int, limit: int = 1 << 62) -> int:
-        if self._is_calm(state):
+    def _least_from(self, state: int, limit: int = INFINITE_KEY) -> int:
+        if self._due.is_calm(state):
             return self._later._least_from(state & self._later.mask, limit)
         return super()._least_from(state, limit)
 
-    def _is_calm(self, state: int) -> bool:
-        """Whether nothing happens but what the human does."""
-        others = self._due.others(state)
-        return self._due.last(state) is None and bool(others) and not others[0].actions
+    def _rest(self, state: int) -> int | None:
+        if self._due.is_calm(state):
+            return self._later._least_from(state & self._later.mask)
+        return super()._rest(state)
 
     def _take_over(self) -> None:
         """The kernel knows nothing of what goes on."""
@@ -63,7 +64,6 @@ class HumanInTime(Human):
     ) -> None:
         super().__init__(prepared, options, deadline, human_model="observant", actions=actions)
         self._due = self.context.successors().due
-        self._asleep = options.head_start
         self.alone = BesideOthers(self, self.alone, self._due, options)
         self.concern = self.packed.all_ones
 
@@ -83,7 +83,7 @@ class HumanInTime(Human):
 
     def attends_to_nothing(self, state: int, epoch: int) -> bool:
         """See :class:`.Human`: they are not up yet, or at something."""
-        return epoch < self._asleep or self._due.human(state) is not None
+        return epoch < self.asleep or self._due.human(state) is not None
 
     def unasked(self, state: int, intention: Intention) -> Iterator[HumanStep]:
         """See :class:`.Human`."""

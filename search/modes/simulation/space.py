@@ -152,7 +152,9 @@ class Reactive:
                 yield bound, child
 
     def _offer(self, node: Node, best: Incumbent) -> bool:
-        """Whether the goals hold: the plan ends there."""
+        """Whether the goals hold, and the human is up: the plan ends there."""
+        if node.epoch < self.human.asleep:
+            return False
         if not all(goal.holds(node.state) for goal in self._goals):
             return False
         if node.key < best.key and not self.human.keys.exceeds(node.key, self.most_cost):

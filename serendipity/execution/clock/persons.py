@@ -37,7 +37,7 @@ class Free:
         """See :class:`serendipity.execution.Person`."""
         choice = self._mind.choose(_now(moment), moment.offers, Deadline())
         if isinstance(choice, PlanStep):
-            self._mind.rest = None
+            self._mind.joined()
             return choice.action
         self._mind.passed(choice)
         return choice

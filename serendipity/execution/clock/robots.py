@@ -77,9 +77,11 @@ class RobotsInTime:
         """See :class:`serendipity.execution.Robots`."""
         self._history.saw(executed)
         actions = self._task.actions
-        self._theirs.passed(None if own is None else actions[own].name)
-        joined = any(self._task.human in actions[i].participants for i in executed if i != own)
-        if tried is not None or joined:
+        if any(self._task.human in actions[i].participants for i in executed if i != own):
+            self._theirs.joined()
+        else:
+            self._theirs.passed(None if own is None else actions[own].name)
+        if tried is not None:
             self._theirs.rest = None
         if self._session is not None:
             try:
@@ -249,9 +251,10 @@ class RobotsInTime:
             if own is not None and not world.applicable(own):
                 own = None
             happened = world.play(own, [*taken, *robots], lambda asked: ["done"] * len(asked))
-            person.passed(None if own is None else now.actions[own].name)
             if taken:
-                person.rest = None
+                person.joined()
+            else:
+                person.passed(None if own is None else now.actions[own].name)
             spent += world.cost(happened.executed)[1]
             others = any(self._human not in step.agents for step in happened.going)
             is_news = (

@@ -27,6 +27,7 @@ class Follower:
 
     def __init__(self, ways: Ways, dice: Random | None = None) -> None:
         self.rest: Entries | None = None
+        self._held = False  # for as long as they wait for a way, or are at something with others
         self._ways = ways
         self._dice = dice
 
@@ -46,12 +47,13 @@ class Follower:
         Raises:
             LimitReachedError: the deadline came first.
         """
+        self._held = False
         best = self._ways.of(now, deadline)
         kept = self.working(now)
         if kept is not None and (best is None or now.cost_of(kept) <= best.cost):
             return Way(entries_of(now, kept), now.cost_of(kept))
         if best is None:
-            self.rest = ()
+            self._held = True
             return None
         dice = self._dice
         self.rest = best.plan if dice is None else entries_of(now, self._ways.drawn(now, dice))
@@ -69,7 +71,7 @@ class Follower:
         for offer in offers:
             if self._accepts(now, offer, mine, deadline):
                 return offer
-        return self.next
+        return None if mine is None else self.next
 
     @property
     def next(self) -> str | None:
@@ -78,12 +80,16 @@ class Follower:
 
     def passed(self, begun: str | None) -> None:
         """An epoch is over, in which they began something alone, or nothing."""
-        if self.rest is None:
+        if self.rest is None or self._held:
             return
         if begun != self.next:
             self.rest = None
         else:
             self.rest = tuple((epoch - 1, name) for epoch, name in self.rest if epoch > 1)
+
+    def joined(self) -> None:
+        """They have begun something with others: what they mean to do, they do after that."""
+        self._held = True
 
     def plan(self, task: Task) -> HumanPlan | None:
         """What they mean to do, by the ids of a task, its epochs counted from now."""

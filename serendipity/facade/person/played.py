@@ -48,7 +48,7 @@ def played_in_time(
     game = _Game(task, options, plan, steps, deadline)
     epochs: list[SimulatedEpoch] = []
     limit = None
-    while not game.over and (horizon is None or len(epochs) < horizon):
+    while not game.over(len(epochs)) and (horizon is None or len(epochs) < horizon):
         try:
             deadline.check()
             epochs.append(game.epoch(len(epochs) + 1))
@@ -92,9 +92,10 @@ class _Game:
         held = now.goal.holds(now.init) and now.robot_goal.holds(now.init)
         return held and now.human not in at_work(now)
 
-    @property
-    def over(self) -> bool:
-        """Whether it is done, or nothing will happen any more."""
+    def over(self, passed: int) -> bool:
+        """Whether after some epochs it is done, or nothing will happen any more."""
+        if passed < self._options.head_start:
+            return False
         return self.done or (self._stuck and not self._left and not self._now.script)
 
     def epoch(self, number: int) -> SimulatedEpoch:
@@ -104,8 +105,8 @@ class _Game:
         offered = sorted(self._left.pop(number, ()))
         joint = [i for i in offered if now.human in now.actions[i].participants]
         before, saw = mind.working(now), self._saw
-        busy = now.human in at_work(now)
-        choice = mind.choose(now, self._steps(joint), self._deadline)
+        busy = now.human in at_work(now) or number <= self._options.head_start  # when they are not up yet
+        choice = None if busy else mind.choose(now, self._steps(joint), self._deadline)
         best = mind.working(now) if busy else self._plan()
         plan, accepted, own = mind.plan(now) or (), None, None
         if isinstance(choice, PlanStep):
@@ -116,11 +117,13 @@ class _Game:
         failed = self._later(his) is None
         taken = [] if failed else his
         skipped = [Skipped(i, CONFLICT) for i in broken]
-        skipped += [Skipped(i, self._why_not(i, accepted)) for i in joint if i != accepted]
+        refused = joint if accepted is None else [i for i in joint if self._name(i) != self._name(accepted)]
+        skipped += [Skipped(i, self._why_not(i, accepted)) for i in refused]
         robots = self._robots([i for i in offered if i not in joint], taken, skipped)
-        mind.passed(None if failed or own is None else now.actions[own].name)
         if accepted is not None:
-            mind.rest = None
+            mind.joined()
+        else:
+            mind.passed(None if failed or own is None else now.actions[own].name)
         self._move(taken, robots)
         self._stuck = best is None and not busy
         cost = None if before is None else now.cost_of(before)

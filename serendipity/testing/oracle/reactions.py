@@ -57,7 +57,7 @@ def best_reaction(
     for epoch in range(horizon + 1):
         following: dict[BeliefState, tuple[Fraction, int]] = {}
         for now, (cost, actions) in layer.items():
-            if world.over(now.moment):
+            if epoch >= options.head_start and world.over(now.moment):
                 reached.append((cost, actions))
             elif epoch < horizon:
                 for chosen, onward in world.unfold(now, epoch):

@@ -1,0 +1,103 @@
+"""Plans beside somebody observant where actions take time: those of brute force, and they happen."""
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+import serendipity
+from serendipity.model import Options, PlanError, Result, Task, TimedPlan, UsageError
+from serendipity.testing.builders import task
+from serendipity.testing.generator.calls import PlanCall
+from serendipity.testing.generator.in_time import random_call_in_time
+from serendipity.testing.oracle.alone import human_plans
+from serendipity.testing.oracle.reactions import best_reaction
+
+_KEPT = ("discount", "interference", "head_start")
+
+SEEDS = st.integers(0, 10**6)
+
+
+def observed(call: PlanCall, **more: object) -> tuple[Result, Options]:
+    """The answer beside somebody observant, and its options; calls that are refused don't count."""
+    options = {name: value for name, value in call.options.items() if name in _KEPT}
+    try:
+        found = serendipity.plan(
+            call.task, human_plan=call.human_plan, human_model="observant", **options, **more
+        )
+    except (UsageError, PlanError):
+        assume(False)
+    return found, found.options
+
+
+@pytest.mark.long
+@given(SEEDS, st.booleans(), st.sampled_from([None, 5, 7, 9]))
+def test_answers_are_those_of_brute_force(seed: int, no_block: bool, horizon: int | None) -> None:
+    call = random_call_in_time(seed)
+    more = {} if horizon is None else {"horizon": horizon}
+    found, options = observed(call, no_block=no_block, **more)
+    about, late = call.task, options.head_start
+    plan = next(human_plans(about, head_start=late, strict=options.strict), None)
+    if call.human_plan is not None:
+        given = about.plan_from_names(call.human_plan)
+        starts = [start + late for start in about.starts_of(given)]
+        plan = TimedPlan(given, starts, about.epochs_of(given) + late)
+    if plan is None:
+        assert found.status == "infeasible"
+        return
+    least = best_reaction(about, options, plan).cost
+    costs = [cost for cost in (least, about.cost_of(plan)) if cost is not None]
+    assert (found.status, found.cost) == ("optimal", float(min(costs)))
+
+
+@pytest.mark.long
+@given(SEEDS)
+def test_what_is_planned_happens(seed: int) -> None:
+    call = random_call_in_time(seed)
+    found, _ = observed(call)
+    if found.status == "optimal":
+        assert serendipity.simulate(call.task, found).realised
+
+
+def test_a_joint_action_is_not_skipped_for_its_variants() -> None:
+    found, _ = observed(random_call_in_time(1186))
+    (epoch,) = serendipity.simulate(random_call_in_time(1186).task, found).epochs
+    assert (epoch.did, epoch.skipped) == ("carry hum rob", ())
+
+
+def gate(*, opening: int, init: str = "a") -> Task:
+    """From a to b to d, the second part long, or short through a gate that a robot may open."""
+    return task(
+        init=init,
+        goal="d",
+        actions={
+            "go h a b": "a -> b !a @ 1",
+            "go h b d": "b -> d !b @ 5 [2]",
+            "through h b d": "b open -> d !b @ 1",
+            "open r": f" -> open @ 1/2 [{opening}]",
+        },
+    )
+
+
+def test_they_wait_for_what_robots_are_at() -> None:
+    for opening, cost in ((2, 2.5), (3, 6)):  # which is too late
+        found = serendipity.plan(gate(opening=opening), human_model="observant", discount=0)
+        assert (found.status, found.cost, found.opportunity) == ("optimal", cost, cost < 6)
+    found = serendipity.plan(gate(opening=2), human_model="observant", discount=0)
+    begun = [(step.epoch, step.action) for step in found.plan or ()]
+    assert begun == [(1, "go h a b"), (1, "open r"), (3, "through h b d")]
+    assert found.window is None
+    played = serendipity.simulate(gate(opening=2), found)
+    assert played.realised and [epoch.did for epoch in played.epochs] == ["go h a b", None, "through h b d"]
+
+
+def test_nobody_looks_up_before_they_are_up() -> None:
+    found = serendipity.plan(gate(opening=2), human_model="observant", head_start=4)
+    began = [step.epoch for step in found.plan or () if step.action == "go h a b"]
+    assert (began, found.horizon, found.opportunity) == ([5], 7, True)
+
+
+def test_what_is_not_settled_is_refused() -> None:
+    with pytest.raises(UsageError, match="expected omniscient or observant, got local"):
+        serendipity.plan(gate(opening=2), human_model="local")
+    with pytest.raises(UsageError, match="waiting_cost: a human who replans waits for free"):
+        serendipity.plan(gate(opening=2), human_model="observant", waiting_cost=1)
