@@ -18,7 +18,6 @@ class AloneBesideScript(IndividualOptimum):
     The clock is part of a state, so that what is known of a state is known of its epoch.
 
     Args:
-        task: the task, in single epochs.
         options: its head start, and its interference, which says what disturbs a bystander.
     """
 

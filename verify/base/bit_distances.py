@@ -26,12 +26,7 @@ class BitDistances:
         self._known: dict[int, int | None] = {}
 
     def __call__(self, state: int) -> int | None:
-        """The least weight; None if the goal can't be reached.
-
-        Raises:
-            UndecidedError: there are too many states.
-            LimitReachedError: the deadline came first.
-        """
+        """The least weight; None if the goal can't be reached."""
         if state not in self._known:
             self._explore(state)
         return self._known[state]

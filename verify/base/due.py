@@ -25,13 +25,7 @@ def waited(task: Task, state: State, epochs: int, *, strict: bool) -> State | No
 
 
 def filled(task: Task, steps: Iterable[Step], last: int, *, strict: bool) -> tuple[Step, ...]:
-    """A plan with all that is due; where it can't be executed any more what is left stays as it is.
-
-    Args:
-        steps: what is chosen.
-        last: the last epoch.
-        strict: interference as in semantics 2.
-    """
+    """A plan with all that is due; where it can't be executed any more what is left stays as it is."""
     sets = by_epoch(steps)
     state: State | None = task.init
     found: list[Step] = []

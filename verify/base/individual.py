@@ -25,11 +25,7 @@ State = frozenset[int]
 
 
 class IndividualOptimum:
-    """Optimal (cost, length) of the human alone; tables are built when first needed.
-
-    Args:
-        deadline: polled by every question; None for no limit.
-    """
+    """Optimal (cost, length) of the human alone; tables are built when first needed."""
 
     def __init__(self, task: Task, deadline: Deadline | None = None) -> None:
         self._task = task
@@ -84,12 +80,7 @@ class IndividualOptimum:
                 yield i, after(state, action)
 
     def optimum(self, state: State) -> tuple[Fraction, int] | None:
-        """Least (cost, number of actions) from ``state``; None if the human can't reach ``G_H`` alone.
-
-        Raises:
-            TooManyStatesError: the limit on expansions came first.
-            LimitReachedError: the deadline did.
-        """
+        """Least (cost, number of actions) from ``state``; None if the human can't reach ``G_H`` alone."""
         weight = self.weight(state)
         return None if weight is None else self.own.split(weight)
 
@@ -114,12 +105,7 @@ class IndividualOptimum:
         self._enough[self.own.bits.of(self._task.init)] = sum(self.own.weight(i) for i in plan)
 
     def within(self, state: State, most: int) -> bool:
-        """Whether the optimum from a state weighs no more than this; often easier to say.
-
-        Raises:
-            TooManyStatesError: the limit on expansions came first.
-            LimitReachedError: the deadline did.
-        """
+        """Whether the optimum from a state weighs no more than this; often easier to say."""
         if most < 0 or self._task.goal.holds(state):
             return most >= 0
         start = self.own.bits.of(state)
@@ -138,10 +124,6 @@ class IndividualOptimum:
 
         Args:
             plan: one that can be executed and reaches the goal; another than an optimal one teaches nothing.
-
-        Raises:
-            TooManyStatesError: whether it is optimal is too hard to say.
-            LimitReachedError: the deadline came first.
         """
         weights = [self.own.weight(i) for i in plan]
         rest = sum(weights)

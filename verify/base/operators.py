@@ -117,11 +117,7 @@ class OwnActions:
         return [(operator.label, operator.after(state)) for operator in self.applicable(state)]
 
     def may_reach(self, state: int, goal: Condition, deadline: Deadline) -> bool:
-        """Whether a goal can be reached if what has been true, or false, counts as that from then on.
-
-        Args:
-            state: where it starts.
-        """
+        """Whether a goal can be reached if what has been true, or false, counts as that from then on."""
         true, false = state, self.bits.all & ~state
         wanted, unwanted = self.bits.of(goal.positive), self.bits.of(goal.negative)
         waiting = [self._operator(i) for i in deadline.each(self.ids)]

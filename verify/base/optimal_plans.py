@@ -21,9 +21,6 @@ class OptimalPlans:
 
     Every method raises :class:`verify.base.undecided.TooManyStatesError` where that problem is too large,
     and :class:`serendipity.model.LimitReachedError` where the deadline of ``alone`` comes.
-
-    Attributes:
-        alone: what is known of the human alone.
     """
 
     def __init__(self, task: Task, alone: IndividualOptimum | None = None) -> None:

@@ -17,7 +17,6 @@ class OptimalPlanGraph:
     name, only the first begins a plan (semantics 1): ways and plans are the same.
 
     Args:
-        plans: the human's optimal plans.
         most: how many there may be.
 
     Attributes:
@@ -26,8 +25,6 @@ class OptimalPlanGraph:
 
     Raises:
         UsageError: there are more than ``most``.
-        TooManyStatesError: the human's own problem is too large.
-        LimitReachedError: the deadline of ``plans`` came first.
     """
 
     def __init__(self, task: Task, plans: OptimalPlans, most: int) -> None:

@@ -14,12 +14,7 @@ from verify.limits import limits
 
 
 class ProjectedCosts:
-    """Weights of cheapest plans in the projection, for the states that are reached from those asked for.
-
-    Args:
-        own: the human's own actions.
-        deadline: polled, also by :meth:`bound`.
-    """
+    """Weights of cheapest plans in the projection, for the states that are reached from those asked for."""
 
     def __init__(self, task: Task, own: OwnActions, deadline: Deadline) -> None:
         of, self._kept = own.bits.of, own.bits.of(_private_facts(task, own, deadline))

@@ -38,7 +38,6 @@ def relevant_part(question: Subproblem, extra: Iterable[int] = ()) -> Relevant |
     """Reduce a question's task; None if a goal can't be reached even without deletes.
 
     Args:
-        question: its deadline is polled.
         extra: further facts whose truth matters (the states of ``preservation = state``).
     """
     task, deadline = question.task, question.deadline

@@ -47,7 +47,6 @@ class PathSearch(Generic[N, L]):
     again where a shorter path is found later.
 
     Args:
-        start: the first node.
         edges: the nodes that follow a node, each with the edge's weight and a label.
         estimate: what is left from a node, never too much; None where there is no way on.
         below: nodes whose distance and estimate add up to this, or more, are left out; None: none is.

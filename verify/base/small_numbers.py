@@ -94,9 +94,6 @@ def with_small_numbers(question: Subproblem) -> tuple[Subproblem, OrderOfSums]:
     """The question with smaller numbers where they are too large for solvers, and what became of them.
 
     What passes a limit by itself just passes it then.
-
-    Args:
-        question: with a horizon.
     """
     prices, most, most_cost = question.prices, question.most, question.most_cost
     if question.horizon * question.an_epoch <= limits().coefficient:

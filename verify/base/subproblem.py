@@ -62,18 +62,14 @@ class Subproblem:
     """Minimise the objective over the plans that a rule allows.
 
     Attributes:
-        task: the task.
         options: discount, interference, suffix and the other options in force.
         rule: ``free``, ``window``, ``exact`` or ``alone``.
         human_plan: ``pi_H``; empty where there is none.
-        horizon: number of epochs.
-        prices: integer costs.
         any_of: where the human may be on any of their optimal plans: these; ``human_plan`` is one of them.
         robots: whether robots (and joint actions) take part at all.
         robots_goal: whether ``G_R`` has to be reached.
         most: the objective may not exceed this many units, or None.
         most_cost: the cost may not exceed this many units, or None.
-        deadline: polled by whoever works on it.
     """
 
     task: Task
@@ -174,9 +170,6 @@ def prices(task: Task, options: Options, human_plan: HumanPlan, deadline: Deadli
     """The integer costs of a call.
 
     Communication costs nothing outside communication mode, and ``K`` nothing without windows.
-
-    Args:
-        human_plan: ``pi_H`` by ids.
     """
     deadline, planned = deadline or Deadline(), in_plan(task, human_plan) | idling(task)
     weight = options.communication_weight if options.mode == "communication" else Fraction(0)

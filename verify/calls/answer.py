@@ -19,9 +19,7 @@ class CallAnswer:
     """What a call is answered, proved; costs in the call's units.
 
     Attributes:
-        call: the call.
         found: the plan of least objective, or None where ``pi_H`` (or nothing) is the answer.
-        opportunity: whether it is an opportunity (semantics 3.1).
     """
 
     call: ExaminedCall
@@ -60,7 +58,6 @@ def answer(call: ExaminedCall) -> CallAnswer:
     """Solve a call.
 
     Raises:
-        UndecidedError: a minimum could not be proved in time.
         UsageError: the call needs a horizon.
     """
     if call.options.mode == "individual" or (call.needs_pi_h and call.human_plan is None):
@@ -118,8 +115,6 @@ def calls(
 
     Args:
         given: ``pi_H`` by ids, or None to predict it.
-        effort: solver, encoding and deadline.
-        plans: the human's optimal plans.
 
     Raises:
         UsageError: there are more than ``max_ties``.

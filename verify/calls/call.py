@@ -23,8 +23,6 @@ class ExaminedCall:
 
     Attributes:
         human_plan: ``pi_H``, or None where the human has no plan alone.
-        effort: the solver's settings and what was spent.
-        plans: the human's optimal plans.
     """
 
     task: Task
@@ -102,11 +100,7 @@ class ExaminedCall:
 
     @cached_property
     def baseline(self) -> int | None:
-        """Cost of doing nothing for the human, in units; None if that is impossible (semantics 3.1, 3.5).
-
-        Raises:
-            UndecidedError: it could not be proved.
-        """
+        """Cost of doing nothing for the human, in units; None if that is impossible (semantics 3.1, 3.5)."""
         if self.human_plan is None:
             return None
         if not self.robots_goal:
@@ -136,11 +130,7 @@ class ExaminedCall:
 
     @cached_property
     def idle(self) -> int | None:
-        """Cost of the answer with all robots idle: less than the baseline only for a given ``pi_H``.
-
-        Raises:
-            UndecidedError: it could not be proved.
-        """
+        """Cost of the answer with all robots idle: less than the baseline only for a given ``pi_H``."""
         if self.baseline is None or self.robots_goal or self.is_optimal:
             return self.baseline
         found = self.best(self.question.but(robots=False), self.do_nothing)
@@ -157,11 +147,7 @@ class ExaminedCall:
         )
 
     def better(self, question: Subproblem, than: Score) -> PricedPlan | None:
-        """Some plan with a lower score; None: proved that there is none.
-
-        Raises:
-            UndecidedError: neither was found out.
-        """
+        """Some plan with a lower score; None: proved that there is none."""
         objective, cost = than
         limits = [question.below(objective - 1)]
         if self.may_tie(than):
@@ -173,11 +159,7 @@ class ExaminedCall:
         return None
 
     def best(self, question: Subproblem, than: Score | None) -> PricedPlan | None:
-        """The plan of least objective, then cost, among those with a lower score than ``than``.
-
-        Raises:
-            UndecidedError: it could not be proved.
-        """
+        """The plan of least objective, then cost, among those with a lower score than ``than``."""
         limited = question if than is None else question.below(than[0] - 1)
         best = self.decided(decide(limited, self.effort, self.plans))
         score = than if best is None else (best.objective, best.cost)
@@ -198,11 +180,7 @@ class ExaminedCall:
         return cost > 0 and (any(self.prices.talk) or 0 < self.prices.epoch <= cost)
 
     def decided(self, minimum: Minimum) -> PricedPlan | None:
-        """The minimum's plan, None if there is provably none.
-
-        Raises:
-            UndecidedError: it was not proved.
-        """
+        """The minimum's plan, None if there is provably none."""
         if minimum.status == "undecided":
             raise UndecidedError(minimum.reason)
         return minimum.found

@@ -148,11 +148,7 @@ NAMES: Final = (*(each.name for each in (*TURNS, ANY_PLAN, BESIDE_PLANS, JOINT_P
 
 
 def require_known(names: tuple[str, ...]) -> None:
-    """Return if all names, each with a minus sign or without, are of methods or of their parts.
-
-    Raises:
-        UsageError: one is not.
-    """
+    """Raise a UsageError unless all names, less a minus sign, are of methods or of their parts."""
     for name in names:
         if name.removeprefix("-") not in NAMES:
             raise UsageError(f"methods: expected some of {', '.join(NAMES)}, got {name!r}")
@@ -165,9 +161,7 @@ def decide(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minimum
     """The least objective of a question, by the method that the effort names; ``auto``: by all, in turns.
 
     Args:
-        question: with a horizon.
         effort: method, deadline and solver; what is spent is noted there.
-        plans: the human's optimal plans.
     """
     small, order = with_small_numbers(question)
     if small is question:

@@ -17,12 +17,7 @@ def plan_steps(call: ExaminedCall, steps: tuple[Step, ...]) -> tuple[PlanStep, .
 
 
 def found_result(call: ExaminedCall, found: PricedPlan, *, opportunity: bool) -> Result:
-    """A plan as a result whose bound is its objective.
-
-    Args:
-        found: steps, window, and what they cost.
-        opportunity: whether the plan is one.
-    """
+    """A plan as a result whose bound is its objective."""
     return _result(call, found.steps, found.window, found.objective, found.cost, opportunity=opportunity)
 
 

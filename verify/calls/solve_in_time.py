@@ -18,12 +18,8 @@ from verify.programs.effort import Effort
 def solved_in_time(task: Task, options: Options, given: HumanPlan | None, effort: Effort) -> Result:
     """The answer to a call in time.
 
-    Args:
-        given: the human's plan by ids of the task, or None to predict it.
-
     Raises:
         PlanError: the human's plan can't be executed after the head start, or misses the goal.
-        UndecidedError: it was not proved.
         UsageError: it is about several plans, by the paper's equations, or what the verifier does not know.
     """
     if options.ties != "fixed":

@@ -37,13 +37,10 @@ def achieved(said: TiedAnswer, plan: HumanPlan, each: EachPlan, plans: OptimalPl
 
     Args:
         plan: its ``pi_H`` by ids.
-        each: the answers beside all optimal plans.
-        plans: the human's optimal plans.
 
     Raises:
         NotAchievedError: it has other figures, or there is nothing that costs so little.
         UndecidedError: it does not say by which plan, and nobody could tell.
-        LimitReachedError: the deadline came first.
     """
     if said.plan is not None:
         return _by_its_plan(said, each.call(plan), plans)
@@ -83,7 +80,6 @@ def _require_realised(call: ExaminedCall, result: Result, plans: OptimalPlans) -
 
     Raises:
         NotAchievedError: it is not.
-        UndecidedError: nobody could tell.
     """
     claim = realised_claim(call.task, result, plans)
     if claim is not None and claim.verdict == "refuted":

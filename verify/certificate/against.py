@@ -23,7 +23,6 @@ def difference(task: Task, result: Result, data: dict[str, Any], deadline: Deadl
     Raises:
         InputError: the result is for another task.
         UsageError: no program proves such a result.
-        LimitReachedError: the deadline came first.
     """
     claim, encoding = main_claim(result.checked()), data.get("encoding")
     if claim != data["claim"]:

@@ -29,13 +29,7 @@ _BOUNDED = ("optimal", "no_opportunity", "lower_bound")
 
 
 class Examiner:
-    """Examines one result of one call.
-
-    Args:
-        call: task, options, ``pi_H`` and the solver's settings.
-        steps: its plan by ids.
-        checker: checks counter-examples.
-    """
+    """Examines one result of one call."""
 
     def __init__(self, call: ExaminedCall, result: Result, steps: tuple[Step, ...], checker: Checker) -> None:
         self.call = call
@@ -265,11 +259,7 @@ class Examiner:
         return wording.described(what, cost, objective, found.window)
 
     def _require_valid(self, found: PricedPlan) -> None:
-        """Return if a counter-example stands.
-
-        Raises:
-            UndecidedError: it breaks a rule, or nobody could tell.
-        """
+        """Raise an UndecidedError unless a counter-example stands."""
         with during("checking a counter-example"):
             baseline = self.call.baseline
             opportunity = self.call.human_plan is not None and (baseline is None or found.cost < baseline)

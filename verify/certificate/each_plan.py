@@ -38,18 +38,12 @@ class EachPlan:
     Plans between which the call does not tell are one question (:func:`kin`).  Windows are searched beside
     all plans at once, where the rules and the method allow that; else question after question is asked.
 
-    Args:
-        effort: method, solver and deadline.
-        plans: the human's optimal plans.
-
     Attributes:
         graph: these plans.
         asked: beside how many of them an answer will be asked for.
 
     Raises:
         UsageError: there are more than ``max_ties``.
-        TooManyStatesError: the human's own problem is too large.
-        LimitReachedError: the deadline came first.
     """
 
     def __init__(self, task: Task, options: Options, effort: Effort, plans: OptimalPlans) -> None:
@@ -59,11 +53,7 @@ class EachPlan:
         self._known: dict[Hashable, SolvedPlan] = {}
 
     def beside(self, plan: HumanPlan) -> SolvedPlan:
-        """The answer beside one plan.
-
-        Raises:
-            UndecidedError: it could not be proved.
-        """
+        """The answer beside one plan."""
         shared = None if self._unaided else self._shared
         if self._unaided or shared is not None:
             return self._solved(None if shared is None else shared.beside(plan))
@@ -74,11 +64,7 @@ class EachPlan:
         return self._known[same]
 
     def all(self) -> Counter[SolvedPlan]:
-        """The answers, each with the number of plans that it is for.
-
-        Raises:
-            UndecidedError: one of them could not be proved.
-        """
+        """The answers, each with the number of plans that it is for."""
         if self._unaided:
             return Counter({self._solved(None): self.graph.count})
         shared = self._shared

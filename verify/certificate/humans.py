@@ -98,12 +98,7 @@ class HumanExaminer(Examiner):
 
 
 def human_cost(call: ExaminedCall) -> Fraction | None:
-    """Cost of the answer to a call under its human model; None: infeasible.
-
-    Raises:
-        UndecidedError: it could not be proved.
-        TooManyStatesError: the human's own problem is too large.
-    """
+    """Cost of the answer to a call under its human model; None: infeasible."""
     if call.human_plan is None:
         return None
     if call.robots_goal:
@@ -123,7 +118,6 @@ def _decided(call: ExaminedCall, most: int | None) -> PricedPlan | None:
     """The cheapest that happens with the human, for this much at most; None: proved that there is nothing.
 
     Raises:
-        UndecidedError: neither was found out.
         NoProgramError: a proof file is asked for, and a plan that costs no more has to be played.
     """
     if _out_of_reach(call, most):

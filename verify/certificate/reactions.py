@@ -23,16 +23,7 @@ from verify.programs.effort import Attempt, Minimum
 
 
 def cheapest_reaction(call: ExaminedCall, most: int | None) -> Minimum:
-    """The cheapest plan that happens under the options' human model.
-
-    Args:
-        call: task, options, ``pi_H`` and the human's optimal plans; there is a horizon.
-        most: it may not cost more than this many units, or None.
-
-    Raises:
-        TooManyStatesError: the human's own problem is too large.
-        LimitReachedError: the deadline came before anything was played.
-    """
+    """The cheapest plan that happens under the options' human model."""
     with during("preparing to play what robots can do"):
         question = call.question.but(rule=FREE).below(most)
         part = relevant_part(question)

@@ -11,10 +11,8 @@ def savings_fault(result: Result, baseline: Fraction, idle: Fraction, cost: Frac
     """Why ``saving_alone`` or ``saving`` is wrong; None where neither is.
 
     Args:
-        result: an answer with a plan.
         baseline: what doing nothing costs.
         idle: what the human pays at best without robots, or ``baseline``.
-        cost: what the plan costs.
     """
     alone, saving = baseline - idle, baseline - cost if result.opportunity else Fraction(0)
     is_open = result.saving_alone is None and result.status == "feasible"  # a limit came first

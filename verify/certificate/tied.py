@@ -26,10 +26,8 @@ def combined(task: Task, result: Result, effort: Effort, plans: OptimalPlans) ->
 
     Args:
         result: an answer that breaks no rule, or the bound of one that is ``unknown``.
-        plans: the human's optimal plans.
 
     Raises:
-        UndecidedError: one of them could not be proved.
         UsageError: there are more than ``max_ties``.
     """
     each = EachPlan(task, result.options, effort, plans)

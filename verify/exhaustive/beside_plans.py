@@ -76,18 +76,12 @@ class HelpBesidePlans:
 
     Args:
         question: of one of the plans; which one does not matter.
-        graph: all of them.
-        plans: what the human does alone.
         bounded: whether lower bounds spare the search states.
 
     Attributes:
         states: how many were looked at.
         scores: the number of plans by the best score beside them that undercuts leaving the human alone;
             None where nothing does.
-
-    Raises:
-        OtherMethodError: the question is not one for this method.
-        LimitReachedError: the deadline came first.
     """
 
     def __init__(

@@ -18,13 +18,7 @@ def cheapest_by_epochs(question: Subproblem, plans: OptimalPlans, *, bounded: bo
     """The plan of least objective.
 
     Args:
-        question: with a horizon of at least 1.
-        plans: the human's optimal plans.
         bounded: whether lower bounds spare the search states; else only what was paid does.
-
-    Raises:
-        OtherMethodError: the question is too large for this method.
-        LimitReachedError: the deadline came before the search began.
     """
     with during("preparing an exhaustive search"):
         literal = question.rule == WINDOW and question.options.preservation == "state"
@@ -50,10 +44,6 @@ def cheapest_following(question: Subproblem, plans: OptimalPlans) -> Minimum:
 
     Args:
         question: its horizon is not looked at; its rule is ``exact``.
-        plans: the human's optimal plans.
-
-    Raises:
-        LimitReachedError: the deadline came before the search began.
     """
     question = question.but(horizon=len(question.human_plan))
     for exact in (False, True):

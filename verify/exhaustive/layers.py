@@ -17,8 +17,6 @@ class EpochLayer:
     """Different states after an epoch, each at its least cost.
 
     Attributes:
-        states: rows.
-        paid: units so far.
         before: of each, the row in the layer that it comes from.
         sets: what was done in the epoch, as :class:`.team.Steps` has it.
         source: the layer that it comes from: itself by number.
@@ -58,8 +56,6 @@ def advance(
     Args:
         steps: layers to come from, with their numbers and steps.
         hopeful: the rows of states, with what was paid, that are worth keeping.
-        operators: the team's.
-        agents: how many there are.
     """
     known = LeastPaid(operators.layout.words, deadline, dtype=operators.weight.dtype)
     where = np.zeros((0, 2), np.int64)

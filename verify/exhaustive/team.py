@@ -49,7 +49,6 @@ class TeamEpochs:
     Args:
         actions: ids of those that may occur, as the table has them.
         table: the same as operators, whose weights are what they add to the objective.
-        strict: interference as in semantics 2.
 
     Attributes:
         order: the human, then the robots, then bystanders, and the clock last, as its actions take effect.
@@ -89,7 +88,6 @@ class TeamEpochs:
         """All epochs from some states, in pieces.
 
         Args:
-            states: rows.
             of_human: what the human may take part in, by the table's numbers; None: anything.
             wait: whether the human may do nothing.
             robots: whether robots may act without the human; bystanders do in any case.
@@ -160,8 +158,6 @@ class DueEpochs:
     """What is due in packed states (semantics 10): epochs without it are none.
 
     Args:
-        task: the task, in single epochs.
-        actions: ids of its actions that may occur.
         layout: where facts stand; what is due for another fact does not matter.
     """
 

@@ -12,11 +12,7 @@ from verify.packed.problem import PackedProblem, StateSpace
 
 
 def circles(actions: list[tuple[int, GroundAction]], task: Task, deadline: Deadline) -> list[tuple[int, ...]]:
-    """Sets of actions that may share an epoch but in no order follow each other.
-
-    Args:
-        actions: candidates with their ids.
-    """
+    """Sets of actions that may share an epoch but in no order follow each other."""
     by_id = dict(actions)
     disables = _all_disabled(actions, deadline)
     found: set[tuple[int, ...]] = set()
@@ -91,12 +87,7 @@ class TeamProblem:
 
 
 def team_space(question: Subproblem, part: Relevant) -> tuple[StateSpace, list[tuple[int, ...]]]:
-    """The facts that may be true together, and the sets of actions that only work together.
-
-    Raises:
-        TooLargeError: it is not one for packed states.
-        LimitReachedError: the deadline came first.
-    """
+    """The facts that may be true together, and the sets of actions that only work together."""
     task, deadline = question.task, question.deadline
     actions = [(i, task.actions[i]) for i in part.actions]
     together = [] if question.options.strict else circles(actions, task, deadline)
@@ -106,18 +97,7 @@ def team_space(question: Subproblem, part: Relevant) -> tuple[StateSpace, list[t
 
 
 def team_problem(question: Subproblem, part: Relevant, *, bounded: bool, exact: bool = False) -> TeamProblem:
-    """The team's problem of a question.
-
-    Args:
-        question: its task, goals and prices; its deadline is polled.
-        part: what of the task matters.
-        bounded: as :class:`verify.packed.problem.PackedProblem` has it.
-        exact: likewise.
-
-    Raises:
-        TooLargeError: it is not one for packed states.
-        LimitReachedError: the deadline came first.
-    """
+    """The team's problem of a question."""
     task, deadline, prices = question.task, question.deadline, question.prices
     space, together = team_space(question, part)
     sets = [*((i,) for i in part.actions), *together]

@@ -27,9 +27,6 @@ def cheapest(question: Subproblem, effort: Effort) -> Minimum:
     Args:
         question: its horizon is not looked at; its rule is ``free``.
         effort: its method says whether estimates of what is left may spare states.
-
-    Raises:
-        LimitReachedError: the deadline came before the search began.
     """
     bounded = effort.method != "exhaustive"
     with during("preparing the search for joint plans"):
@@ -83,10 +80,6 @@ class LeastLeft:
     """A lower bound on what is left to pay, in units: distances in the human's automaton.
 
     Robots' costs are only left out, so it holds whatever they do.
-
-    Attributes:
-        facts: of the automaton.
-        by_state: the distances.
     """
 
     def __init__(self, question: Subproblem, part: Relevant) -> None:

@@ -66,7 +66,6 @@ class PatternBounds:
         views: the same operators with their facts in other fields; patterns are made of these, too.
         goal: facts that have to be true.
         start: states to begin with: ways are kept that are good where walks lead from there.
-        care: how much work to put into it.
     """
 
     def __init__(

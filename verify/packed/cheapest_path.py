@@ -24,11 +24,9 @@ class PackedSearch:
     """A search from several states, each with what was paid on the way there.
 
     Args:
-        goal: what ends a path.
         bound: what is left from some states, never too much; ``FAR`` where no path leads on.
         below: paths of this weight or more are left out; with a path's last operator it fits into a word,
             unless weights are Python's integers.
-        most_states: to be kept at most.
 
     Attributes:
         least: no path that is still open weighs less.
@@ -65,24 +63,14 @@ class PackedSearch:
         return self._states.count
 
     def add(self, states: Words, paid: Ints) -> None:
-        """Start from some more states.
-
-        Args:
-            states: rows.
-            paid: what was paid for each so far.
-        """
+        """Start from some more states."""
         none = np.full(len(states), -1, np.int32)
         for first in range(0, len(states), self._at_once):
             part = slice(first, first + self._at_once)
             self._enter(states[part], paid[part], none[part], none[part])
 
     def run(self) -> int | None:
-        """The number of a goal state that is reached with the least weight; None: there is none below.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-            TooManyPackedStatesError: there were too many states.
-        """
+        """The number of a goal state that is reached with the least weight; None: there is none below."""
         while self._queue:
             total = self._queue[0]
             self.least = total

@@ -64,7 +64,6 @@ class PackedLayout:
     """Fields of facts.
 
     Args:
-        facts: the facts to keep.
         groups: disjoint sets of facts of which at most one is ever true.
         actions: all that is to be said of these fields.
     """

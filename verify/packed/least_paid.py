@@ -16,8 +16,6 @@ class LeastPaid:
     """Different states, numbered from 0, and the least that was paid for each.
 
     Args:
-        words: of a state.
-        deadline: asked for memory.
         dtype: of what is paid: ``object`` where that is Python's integers.
         most: how many states there may be; None: any number.
 
@@ -48,7 +46,6 @@ class LeastPaid:
             a number comes several times, the last one counts.
 
         Raises:
-            LimitReachedError: the deadline came first.
             TooManyPackedStatesError: there are too many states.
         """
         self._deadline.check()

@@ -16,7 +16,6 @@ class ReachablePairs:
     """The pairs of facts that may be true together.
 
     Args:
-        init: the facts that are true at first.
         actions: all that may ever happen; with circles of actions, if several may happen at once.
 
     Attributes:
@@ -71,12 +70,7 @@ class ReachablePairs:
 
 
 def exclusive_groups(pairs: ReachablePairs, facts: Iterable[int], deadline: Deadline) -> list[frozenset[int]]:
-    """Disjoint groups of facts of which no two are ever true together, the largest first.
-
-    Args:
-        pairs: those that may be.
-        facts: to be grouped.
-    """
+    """Disjoint groups of facts of which no two are ever true together, the largest first."""
     every = _bits(facts)
     against = {f: every & ~pairs.beside[f] & ~(1 << f) for f in facts}
     cliques = {_clique(seed, against) for seed in deadline.each(against)}

@@ -38,7 +38,6 @@ class OperatorTable:
         exact: weights are Python's integers, since machine words do not hold their sums.
 
     Attributes:
-        weight: of each operator.
         far: more than any sum of weights, as good as no way.
     """
 

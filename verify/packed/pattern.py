@@ -21,12 +21,8 @@ class Pattern:
         fields: by number.
         most_moves: between its states; they all stand in memory.
 
-    Raises:
-        TooManyMovesError: there are more.
-
     Attributes:
         fields: by number.
-        size: number of states.
     """
 
     def __init__(
@@ -97,7 +93,6 @@ class Pattern:
 
         Args:
             weights: of each class of operators.
-            goals: states.
         """
         distance = np.full(self.size, FAR)
         distance[goals] = 0
@@ -132,7 +127,6 @@ class Pattern:
         """The pattern's state that each state looks like.
 
         Args:
-            states: rows.
             layout: theirs; it has the facts of the pattern's own.
         """
         found = np.zeros(len(states), np.int64)

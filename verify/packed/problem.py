@@ -21,7 +21,6 @@ class StateSpace:
     """The facts that may be true together, and layouts for them.
 
     Args:
-        init: those that are true at first.
         actions: all that may ever happen, circles of actions that happen at once included.
         groups: of facts that may exclude each other.
 
@@ -64,9 +63,7 @@ class PackedProblem:
     """Cheapest ways to a goal, from any states that can be reached.
 
     Args:
-        space: what may be true.
         facts: that operators and goal look at.
-        goal: facts that have to be true, and false.
         bounded: whether lower bounds spare the search states; else it looks at all that cost little enough.
         exact: weights may add up to any sum: they are Python's integers, and there are no bounds.
 
@@ -113,8 +110,6 @@ class PackedProblem:
         """A search from some states with what was paid so far, and the goal state that it ends in.
 
         Args:
-            starts: the states.
-            paid: for each of them.
             below: paths of this weight or more don't count; None: all do.
 
         Returns:
@@ -122,7 +117,6 @@ class PackedProblem:
 
         Raises:
             TooManyPackedStatesError: there are more than memory should hold, or weights too large to tell.
-            LimitReachedError: the deadline came first.
         """
         if self.exact:
             return self._searched(starts, paid, self.table.far if below is None else below)

@@ -22,7 +22,6 @@ class StateTable:
     Equal rows have equal hashes, and rows are compared, so that no two states are ever taken for one.
 
     Args:
-        words: of a state.
         deadline: asked for memory before the table grows.
     """
 

@@ -28,13 +28,8 @@ from verify.policy.reading import read_decisions, show
 def check_run(task: Task, board: Board, result: Result) -> None:
     """Return if the plan is a run in which the human acts optimally, at the totals reported.
 
-    Args:
-        board: its states and moves.
-        result: an answer of mode ``assistance`` with a plan.
-
     Raises:
         BrokenError: naming the epoch at fault.
-        UndecidedError: their own optimum could not be worked out.
     """
     assert result.plan is not None
     human = result.human
@@ -90,8 +85,6 @@ def check_policy(
 
     Args:
         task: one human, one robot.
-        result: an answer of mode ``assistance``.
-        deadline: after which claims stay undecided.
         replay_only: leave out what needs more than a walk through the policy's own states.
     """
     checker = _Checker(task, result, deadline, replay_only=replay_only)

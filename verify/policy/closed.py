@@ -11,7 +11,6 @@ class BrokenError(Exception):
 
     Args:
         claim: ``replay`` or ``cost``.
-        message: what was found and what was expected.
     """
 
     def __init__(self, claim: str, message: str) -> None:
@@ -41,7 +40,6 @@ class Walk:
 
         Raises:
             BrokenError: it is not closed, does not end, or a value is wrong.
-            UndecidedError: the human's own optimum could not be worked out.
         """
         board = self._board
         if board.start not in self._listed:

@@ -16,10 +16,6 @@ def ends(board: Board, ties: str, *, no_block: bool, deadline: Deadline) -> bool
     Args:
         ties: how the human's choices count.
         no_block: no move may take the human's last plan away.
-
-    Raises:
-        UndecidedError: there are too many states.
-        LimitReachedError: the deadline came first.
     """
     if board.goal.holds(board.start):
         return True
@@ -32,10 +28,6 @@ def lost_states(board: Board, ties: str, *, no_block: bool, deadline: Deadline) 
     Args:
         ties: how the human's choices count.
         no_block: no move may take the human's last plan away.
-
-    Raises:
-        UndecidedError: there are too many states.
-        LimitReachedError: the deadline came first.
     """
     choices = _explore(board, no_block, deadline)
     if ties == "expected":

@@ -66,9 +66,6 @@ def answered(result: Result, value: Costs) -> Costs:
     """What the figures have to be: a policy's value, or no less where the human's optimum was unknown.
 
     A limit may come before that is worked out.  Doing nothing is worth no more than any plan of theirs then.
-
-    Args:
-        value: of its policy.
     """
     upper = stated_bounds(result).upper
     if not may_be_less(result) or upper is None or upper[1] != value[1]:

@@ -27,7 +27,6 @@ def least_alone(task: Task, options: Options, effort: Effort) -> Fraction | None
 
     Raises:
         UndecidedError: neither was proved, or the proof is of something else.
-        LimitReachedError: the deadline came first.
     """
     effort.attempts.append(Attempt("programs", decided=True))
     with during("writing a program for what the human can do alone"):

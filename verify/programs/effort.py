@@ -25,13 +25,7 @@ class ProgramEncoding(Protocol):
         """The plan and the window of a solution."""
 
     def bound_suffix(self, xi2: int, state: State, least: int | None) -> None:
-        """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none.
-
-        Args:
-            xi2: first epoch of the suffix.
-            state: facts that hold at its begin.
-            least: units of the objective, or None.
-        """
+        """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none."""
 
 
 ENCODINGS: Final[dict[str, Callable[[Subproblem], ProgramEncoding]]] = {
@@ -51,8 +45,6 @@ class SolverCall:
     """A program that was given to a solver.
 
     Attributes:
-        columns: their number.
-        rows: their number.
         objective: of the best plan that the program allows, in units; None where there is none, or
             none is known.
         cost: that plan's, in units.
@@ -114,7 +106,6 @@ class Effort:
     Attributes:
         encoding: one of :data:`ENCODINGS`.
         solver: one of ``verify.solvers.mip.SOLVERS``.
-        deadline: when to stop.
         method: one of :data:`METHODS`.
         proof: where what convinced is written down, or read from instead of asking a solver.
         attempts: what was made of questions, in order.

@@ -45,13 +45,6 @@ def suffix_least(question: Subproblem, state: State, xi2: int, plans: OptimalPla
 
 
 def best_suffix(question: Subproblem, state: State, xi2: int, plans: OptimalPlans) -> HumanPlan | None:
-    """The optimal plan alone that is best for the objective and reaches all goals, if it fits.
-
-    Args:
-        question: goals and prices.
-        state: facts that hold at the begin of ``xi2``.
-        xi2: first epoch of the suffix.
-        plans: the human's optimal plans.
-    """
+    """The optimal plan alone that is best for the objective and reaches all goals, if it fits."""
     left, strict = question.horizon - xi2 + 1, question.options.strict
     return plans.lasting(state, left, question.goal, question.prices.talk, strict=strict)

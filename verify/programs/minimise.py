@@ -57,12 +57,7 @@ def _within(most: int | None, minimum: Minimum) -> Minimum:
 
 
 class _Rounds:
-    """One question: solve, mend, cut, until the best plan is known.
-
-    Attributes:
-        best: the best plan so far.
-        bound: proved lower bound on the objective, or None.
-    """
+    """One question: solve, mend, cut, until the best plan is known."""
 
     def __init__(self, question: Subproblem, effort: Effort, plans: OptimalPlans) -> None:
         self._question = question
@@ -79,7 +74,6 @@ class _Rounds:
 
         Raises:
             UndecidedError: the solver did not, or what it says is not so.
-            LimitReachedError: the deadline came first.
         """
         self._effort.deadline.check()
         with during("building the program"):
@@ -98,7 +92,6 @@ class _Rounds:
 
         Raises:
             UndecidedError: it could not be proved so that anybody can check it.
-            LimitReachedError: the deadline came first.
         """
         assert self._encoding is not None
         model = self._encoding.model

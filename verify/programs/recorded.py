@@ -41,15 +41,9 @@ def write(
     """Refute what is better than the answer to a question, and write it down.
 
     Args:
-        writer: gets the entry.
-        model: its program, with what it has learned.
         minimum: the answer: proved best, or proved that there is none within the limit.
         cuts: what the program has learned about suffixes, in order.
         values: of the columns, in the program's best solution; empty where it has none.
-
-    Raises:
-        UndecidedError: the program could not be refuted.
-        LimitReachedError: the deadline came first.
     """
     limit = question.most if minimum.found is None else minimum.found.objective - 1
     entry = _described(question, model)
@@ -69,14 +63,7 @@ def refute(
     """Write down why a program allows nothing at or below a limit.
 
     Args:
-        writer: gets the entry.
-        entry: what describes the program.
         limit: of the objective; None: nothing at all is allowed.
-        values: of the columns, in the program's best solution; empty where it has none.
-
-    Raises:
-        UndecidedError: the program could not be refuted.
-        LimitReachedError: the deadline came first.
     """
     entry["limit"] = limit
     solution = {x: value for x, value in enumerate(values) if value}
@@ -98,11 +85,6 @@ def read(
     plans: OptimalPlans,
 ) -> Minimum:
     """The answer to a question that a proof gives; no solver is asked.
-
-    Args:
-        reader: the programs, which the checker has accepted.
-        encode: makes a question's program.
-        plans: the human's optimal plans.
 
     Raises:
         UndecidedError: the next program is another one, or does not answer the question.
@@ -211,11 +193,7 @@ def _names(question: Subproblem, state: State) -> list[str]:
 
 
 def _cuts(entry: Entry, question: Subproblem) -> list[Cut]:
-    """The suffixes that an entry names.
-
-    Raises:
-        UndecidedError: it names something else.
-    """
+    """The suffixes that an entry names."""
     numbers = {name: f for f, name in enumerate(question.task.facts)}
     found: list[Cut] = []
     listed: Any = entry.get("suffixes", [])

@@ -15,11 +15,7 @@ _SAFE = float(1 << 61)
 
 
 class Combination:
-    """The rows of a program as arrays, and ``objective <= limit`` beside them.
-
-    Args:
-        limit: of the objective, or None.
-    """
+    """The rows of a program as arrays, and ``objective <= limit`` beside them."""
 
     def __init__(self, model: Model, limit: int | None) -> None:
         rights = [right for _, right in model.heads]
@@ -76,11 +72,7 @@ class Combination:
         return lower, upper
 
     def single(self, bounds: Mapping[int, tuple[int, int]]) -> tuple[int, int] | None:
-        """A row that no values within the bounds satisfy, with its multiplier; -1 is the limit.
-
-        Args:
-            bounds: of columns, where they are not the program's.
-        """
+        """A row that no values within the bounds satisfy, with its multiplier; -1 is the limit."""
         lower, upper = self._within(bounds)
         low, high = self._coefficients * lower[self._index], self._coefficients * upper[self._index]
         least, most = self._numbers([0] * len(self._right)), self._numbers([0] * len(self._right))

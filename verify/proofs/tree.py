@@ -45,7 +45,6 @@ def refutation(model: Model, limit: int | None, deadline: Deadline) -> Node:
 
     Raises:
         UndecidedError: some values satisfy the rows, or nobody could tell.
-        LimitReachedError: the deadline came first.
     """
     if largest(model, deadline) > limits().coefficient or abs(limit or 0) > checker.MOST:
         raise UndecidedError("costs need more digits than a proof is looked for with")

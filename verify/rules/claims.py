@@ -10,8 +10,6 @@ def rule_claim(result: Result, report: RuleReport, name: str, followed: Mapping[
     """One claim as far as rules decide it; None where they say nothing of it.
 
     Args:
-        report: the rules' verdict on it.
-        name: the claim, one of ``CLAIMS``.
         followed: what is said of claims that following the rules proves, where there is a plan.
     """
     violation = report.of(name)

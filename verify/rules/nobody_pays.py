@@ -67,10 +67,6 @@ def under_the_rule(
     without the rule, which keeps it.
 
     Args:
-        task: in single epochs where it needs time.
-        result: for it.
-        original: the task as it was given.
-        deadline: polled.
         examine: makes the claims of a task and a result without the rule.
         solve: finds the best plan for a task, for claims about what is best where leaving costs something.
     """
@@ -217,13 +213,7 @@ def bound_task(
     """The task of an answer that the rules bind.
 
     Args:
-        task: in single epochs where it needs time.
-        options: in force.
-        rule: what has to be kept, and paid at most.
         kept: priced facts that are kept, too.
-        plan: the human's.
-        original: the task as it was given.
-        deadline: polled.
     """
     as_idle = {fact: rule.prices[fact][0] for fact in kept}
     positive, negative = (
@@ -286,11 +276,8 @@ def rule_of(task: Task, options: Options, plan: HumanPlan | None, last: int, ori
     """The rule beside a plan of the human's, or beside none.
 
     Args:
-        task: in single epochs where it needs time.
-        options: in force.
         plan: the human's, epoch by epoch.
         last: ``T``.
-        original: the task as it was given.
     """
     state: State | None = task.init
     for epoch in range(last):

@@ -19,13 +19,6 @@ def unnoticed(
     """What the human leaves their plan for without having noticed it, in words; None if nothing.
 
     A plan that can't be executed is none of this rule's.
-
-    Args:
-        task: without time.
-        result: with the plan.
-        plan: the human's own.
-        original: the task as it was given.
-        deadline: polled.
     """
     found = replay(task, result.plan or (), deadline, strict=False)
     if not result.options.noticed or plan is None or result.plan is None or found.fault is not None:
@@ -41,11 +34,8 @@ class _Watch:
     """What the human saw of a plan.
 
     Attributes:
-        task: without time.
         steps: names of the steps of the human's plan that are left.
-        around: what is to be seen where.
         hidden: facts that robots have changed, and the human has not seen since.
-        left: whether they have left their plan.
     """
 
     task: Task

@@ -42,12 +42,7 @@ class Replay:
 
 
 def replay(task: Task, steps: Sequence[PlanStep], deadline: Deadline, *, strict: bool) -> Replay:
-    """Execute the steps from ``I`` until the first fault.
-
-    Args:
-        steps: the plan, in any order.
-        strict: interference as in semantics 2.
-    """
+    """Execute the steps from ``I`` until the first fault."""
     by_epoch: dict[int, list[PlanStep]] = {}
     for step in deadline.each(steps):
         by_epoch.setdefault(step.epoch, []).append(step)
@@ -66,12 +61,8 @@ def replay(task: Task, steps: Sequence[PlanStep], deadline: Deadline, *, strict:
 def replay_human(task: Task, names: Iterable[str], deadline: Deadline) -> tuple[int, ...]:
     """``pi_H`` from its names.
 
-    Args:
-        names: names of its actions, in order.
-
     Raises:
         PlanError: it is not a plan of the human alone.
-        LimitReachedError: the deadline came first.
     """
     state = task.init
     plan: list[int] = []

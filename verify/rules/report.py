@@ -13,12 +13,9 @@ class Violation:
     """A rule that a result breaks.
 
     Attributes:
-        rule: name of the rule in the registry.
         claim: the claim that it refutes, one of ``CLAIMS``.
         section: where the rule stands in ``docs/semantics.md``.
         message: one line: what was found and what was expected.
-        epoch: the epoch at fault, or None.
-        action: the action at fault, or None.
     """
 
     rule: str
@@ -42,7 +39,6 @@ class RuleReport:
         violations: the first broken rule of each refuted claim, in order.
         unchecked: why a claim is not for these rules, by claim.
         undecided: why a claim could not be checked, by claim; none of its rules is known to be broken.
-        seconds: time that the check took.
     """
 
     violations: tuple[Violation, ...]

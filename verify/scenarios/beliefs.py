@@ -33,11 +33,7 @@ def compiled(
     Matching each observation as early as possible decides whether a plan embeds them.
 
     Args:
-        task: the task.
-        goal: the goal of the candidate.
         observed: names of the observed actions, in order.
-        deadline: polled.
-        embed: whether plans have to embed them, or must not.
     """
     if embed and not observed:
         return task.with_goal(goal, Condition())
@@ -71,11 +67,8 @@ def considered_plans(
     """The optimal plans for a goal that embed the observations, the canonical one first.
 
     Args:
-        task: the task.
-        goal: the goal of the candidate.
         observed: names of the observed actions, in order.
         options: which say what disturbs a bystander.
-        deadline: polled.
 
     Returns:
         What begins in each plan, which no other shares, and what is done epoch by epoch.
@@ -90,14 +83,7 @@ def considered_plans(
 
 
 def faults(task: Task, recognised: Recognition, options: Options, deadline: Deadline) -> Iterator[Fault]:
-    """Everything that is wrong with a recognition, in order.
-
-    Args:
-        task: the task.
-        recognised: what the answer says of goals and observations.
-        options: of the answer.
-        deadline: polled.
-    """
+    """Everything that is wrong with a recognition, in order."""
     for name in recognised.observed:
         if all(task.actions[i].participants != (task.human,) for i in task.named.get(name, ())):
             yield f"observed: '{name}' is not an action that the human does alone"

@@ -43,7 +43,6 @@ class Scenario:
         name: as the answer should call it.
         goal: what the human wants.
         plan: names of what they mean to do.
-        probability: its share.
     """
 
     name: str

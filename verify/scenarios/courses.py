@@ -145,8 +145,6 @@ class Course:
     """The epochs of one scenario.
 
     Args:
-        call: the scenario as a call of its own.
-        moves: what everybody can do.
         pay: units of cost as the search counts them.
         epoch: an epoch of window likewise.
     """

@@ -46,7 +46,6 @@ class PolicySearch:
 
     Args:
         calls: one for each scenario, with the human's plan in it, and the same horizon.
-        measure: what is minimised.
     """
 
     def __init__(self, calls: Sequence[ExaminedCall], measure: Measure) -> None:
@@ -62,11 +61,7 @@ class PolicySearch:
         self._looked_at = 0
 
     def better(self, than: int) -> Better | None:
-        """The best policy of a value below ``than``; None: proved that there is none.
-
-        Raises:
-            UndecidedError: it takes too long.
-        """
+        """The best policy of a value below ``than``; None: proved that there is none."""
         floors = self._measure.floors
         self._most = [self._room(than, floors, k) - at.ahead for k, at in enumerate(self._first)]
         shift, root = _levelled(0, self._first)
@@ -205,12 +200,7 @@ class PolicySearch:
         return measure.joined(values)
 
     def _look(self) -> None:
-        """Count a group, or what one may do.
-
-        Raises:
-            UndecidedError: there are too many.
-            LimitReachedError: the deadline came first.
-        """
+        """Count a group, or what one may do."""
         self._looked_at += 1
         self._effort.deadline.check()
         if self._looked_at > limits().policies:

@@ -29,8 +29,6 @@ class ScenariosProof:
 
     Args:
         result: an answer that breaks no rule.
-        lines: its timelines.
-        effort: the solver's settings.
     """
 
     def __init__(self, result: Result, lines: Sequence[Timeline], effort: Effort) -> None:

@@ -18,9 +18,6 @@ class PlannedSuffix:
     """What is left of ``pi_H``: the cheapest part, of those the shortest, then the first by names.
 
     Args:
-        task: the task.
-        plan: ``pi_H``.
-        deadline: polled.
         literal: whether the state has to be as the plan would have made it, and all that follows is done.
     """
 

@@ -67,11 +67,8 @@ def timelines(
     """The timelines of an answer, with weights that add up to 1.
 
     Args:
-        task: the task.
-        result: the answer over scenarios.
         goals: what the human wants in each of them, and what robots have to keep.
         served: what the answer says of each of them, in the same order.
-        deadline: polled.
     """
     weights = [weight(entry.probability) for entry in served]
     total = sum(weights, Fraction(0))
@@ -184,8 +181,6 @@ def measured(
 
     Args:
         risk: the mean, the greatest, or the greatest excess over the floors.
-        lines: the scenarios.
-        each: objective and cost of each.
         floors: the least for each by itself; only regret asks for them.
     """
     if risk == "regret":

@@ -23,11 +23,7 @@ _UNENDING: Final = 1e9
 
 
 def minimise(model: Model, deadline: Deadline) -> SolverAnswer:
-    """Minimise with one thread and a fixed seed.
-
-    Raises:
-        LimitReachedError: the deadline came before HiGHS was asked.
-    """
+    """Minimise with one thread and a fixed seed."""
     program = tables(model, deadline)
     if len(model.index) <= limits().solved_here:
         left, seconds = deadline.left(), limits().solver_seconds

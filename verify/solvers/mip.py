@@ -77,11 +77,7 @@ def optimise(model: Model, *, solver: str = "highs", deadline: Deadline | None =
     """Minimise the model's objective, with one thread and a fixed seed.
 
     Args:
-        solver: one of :data:`SOLVERS`.
         deadline: when to stop; an outcome that it stops is ``undecided``.
-
-    Raises:
-        UsageError: there is no such solver.
     """
     if solver not in SOLVERS:
         raise UsageError(f"solver: expected one of {', '.join(SOLVERS)}, got {solver!r}")

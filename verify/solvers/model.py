@@ -67,8 +67,6 @@ class Model:
         """The index of a new column with bounds.
 
         Args:
-            lower: least value.
-            upper: largest value.
             integral: whether only whole values count.
         """
         self._deadline.tick()
@@ -78,13 +76,7 @@ class Model:
         return len(self.upper) - 1
 
     def add(self, terms: Terms, sense: str, right: int) -> None:
-        """A new row.
-
-        Args:
-            terms: coefficients by column.
-            sense: ``<=``, ``>=`` or ``==``.
-            right: the constant side.
-        """
+        """A new row."""
         self._deadline.check()  # most of the work was to find its terms
         self.index.extend(terms)
         self.coefficients.extend(terms.values())

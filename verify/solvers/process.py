@@ -29,10 +29,7 @@ def run(
     """Run a command and return its exit status.
 
     Args:
-        command: the program and its arguments.
         deadline: the process's memory counts, too.
-        stdin: a file that it reads.
-        stdout: a file that it writes.
 
     Raises:
         LimitReachedError: the deadline came first; the process has been killed.

@@ -23,7 +23,6 @@ class Relaxed(NamedTuple):
 
     Attributes:
         values: of the columns at the optimum; None where nothing satisfies the rows.
-        objective: at the optimum.
         duals: of the rows: what the optimum gains for each unit of the right-hand side, or a ray that
             shows that nothing satisfies the rows.
     """

@@ -47,7 +47,6 @@ class PlayedOut:
 
     Attributes:
         deeds: by epoch from 1, until the goals hold, ``T``, or nothing happens any more.
-        goals_hold: whether the goals hold at the end.
         cost: of what took place, for the team.
     """
 
@@ -84,17 +83,9 @@ def play(
     """Play the robots' part of a plan against the human.
 
     Args:
-        options: discount and interference.
-        human_plan: their plan at the beginning.
         steps: the composite plan; what they do alone in it is not looked at.
-        human_model: ``observant`` or ``local``.
-        horizon: ``T``, or None for any.
         visible: what a local human sees; None for the default.
         person: their costs, where they are known from an earlier question.
-
-    Raises:
-        TooManyStatesError: their own problem is too large for this checker.
-        LimitReachedError: the deadline of ``person`` came first.
     """
     orders: dict[int, list[int]] = {}
     for step in steps:
@@ -127,8 +118,6 @@ class Play:
     """The rules of semantics 6 for one task and one human.
 
     Args:
-        options: interference.
-        person: their costs and plans alone.
         sees: what they see of a state; None for everything.
     """
 

@@ -24,15 +24,9 @@ def differences(
     """The differences that a robot leaves behind, each once at its least cost.
 
     Args:
-        rows: its states.
-        paid: for each of them.
         base: the state without any robot.
         changed: bits of the facts that it can change and that matter.
         undone: of each fact the bit that another robot can have undone.
-
-    Raises:
-        TooManyPackedStatesError: there are too many.
-        LimitReachedError: the deadline came first.
     """
     found = Collected(rows.shape[1], limits().left_behind, deadline)
     found.add((rows ^ base) & changed, paid)
@@ -45,12 +39,7 @@ def differences(
 
 
 def together(apart: Sequence[tuple[Words, Ints]], most: int, deadline: Deadline) -> tuple[Words, Ints]:
-    """The differences that several robots leave behind, for no more than ``most``.
-
-    Raises:
-        TooManyPackedStatesError: there are too many.
-        LimitReachedError: the deadline came first.
-    """
+    """The differences that several robots leave behind, for no more than ``most``."""
     rows, paid = apart[0]
     rows, paid = rows[paid <= most], paid[paid <= most]
     for others, costs in apart[1:]:

@@ -20,8 +20,6 @@ class RowLayer(NamedTuple):
     """Different states after some epochs, each at its least cost.
 
     Attributes:
-        rows: the states.
-        paid: units so far.
         fresh: those from which what can be done next may lead to something that is not there yet.
     """
 
@@ -38,7 +36,6 @@ class Collected:
     """Different rows, each at its least cost, as more and more come.
 
     Args:
-        words: of a row.
         most: how many there may be.
         deadline: polled; asked for memory.
     """
@@ -48,12 +45,7 @@ class Collected:
         self._fresh = np.zeros(0, bool)
 
     def add(self, rows: Words, paid: Ints, fresh: Bools | bool = False) -> None:
-        """More of them; where one is there at the same cost, it stays.
-
-        Raises:
-            TooManyPackedStatesError: there are too many.
-            LimitReachedError: the deadline came first.
-        """
+        """More of them; where one is there at the same cost, it stays."""
         for first in range(0, len(rows), _AT_ONCE):
             some = slice(first, first + _AT_ONCE)
             chosen, better = self._known.offer(rows[some], paid[some])

@@ -49,7 +49,6 @@ def parts(question: Subproblem, relevant: Relevant, matters: frozenset[int]) -> 
 
     Args:
         question: each of its actions has one participant.
-        relevant: its actions and facts.
         matters: facts that the human looks at when they go on alone.
     """
     task = question.task
@@ -79,15 +78,7 @@ def _union(sets: Iterable[Iterable[int]]) -> frozenset[int]:
 class RobotTimeline:
     """A robot's states, epoch by epoch.
 
-    Args:
-        question: whose human plan is followed.
-        relevant: its actions and facts.
-        part: the robot's.
-        layout: a bit for each fact that some robot follows.
-
     Attributes:
-        part: the robot's.
-        layout: as it was given.
         layer: its states after the epochs that were followed.
     """
 
@@ -118,23 +109,13 @@ class RobotTimeline:
         )
 
     def ends(self) -> RowLayer:
-        """The states after one more epoch, beside nothing.
-
-        Raises:
-            TooManyStatesError: there are too many.
-            LimitReachedError: the deadline came first.
-        """
+        """The states after one more epoch, beside nothing."""
         if self._free is None:
             self._free = self._moved(self.layer, None)
         return self._free
 
     def follow(self, step: int) -> None:
-        """One more epoch, beside an action of the human's.
-
-        Raises:
-            TooManyStatesError: there are too many.
-            LimitReachedError: the deadline came first.
-        """
+        """One more epoch, beside an action of the human's."""
         human = self._question.task.actions[step]
         in_the_way, apart = self._beside(human)
         layer = self.ends() if apart else self._moved(self.layer.only(self._allow(step)), ~in_the_way)

@@ -35,7 +35,6 @@ class Automaton:
     """One agent's automaton; states are numbered, state 0 is the initial one.
 
     Attributes:
-        agent: id.
         facts: the private facts that its states tell apart.
         states: the set of ``facts`` that is true in each state.
         moves: for each state the actions that its private facts allow.
@@ -48,11 +47,7 @@ class Automaton:
 
 
 def private_facts(task: Task, part: Relevant, deadline: Deadline) -> dict[int, int]:
-    """The agent to whom each private fact belongs; the human goes first where two could.
-
-    Args:
-        part: the facts and actions that matter.
-    """
+    """The agent to whom each private fact belongs; the human goes first where two could."""
     owners: dict[int, set[int]] = {}
     for i in deadline.each(part.actions):
         action = task.actions[i]
@@ -72,7 +67,6 @@ def automata(
     """The automaton of each agent, in the order of ids.
 
     Args:
-        part: what of it matters.
         units: groups of facts that go into an automaton, or stay out, together.
         owner: whose facts are whose; None: as :func:`private_facts` has it.
     """
@@ -94,7 +88,6 @@ class SmallAutomata:
 
     Args:
         units: groups of facts of which exactly one is true.
-        owner: whose facts are whose.
     """
 
     def __init__(
@@ -113,9 +106,6 @@ class SmallAutomata:
 
         The human's is the one that most of their actions need, and each robot's the one that most of
         the actions need by which the human gets it; no turn before had it.
-
-        Args:
-            part: what of the task matters.
         """
         human, first = self._task.human, not self._had
         fact = self._next(self._asked(part, human, part.actions))

@@ -33,12 +33,6 @@ def bound_suffix(program: NetworkProgram, xi2: int, state: frozenset[int], least
     """A suffix from ``state`` at ``xi2`` weighs at least ``least``; with None there is none.
 
     The condition is a sum of literals that is 0 exactly in that case and at most -1 else.
-
-    Args:
-        program: the program that learns the bound.
-        xi2: first epoch of the suffix.
-        state: facts that hold at its begin.
-        least: units of the objective, or None.
     """
     literals, constant = _suffix_starts(program, xi2, state)
     for f in program.deadline.each(

@@ -22,12 +22,7 @@ class Flows:
     """
 
     def __init__(self, model: Model, setting: NetworkSetting) -> None:
-        """Add the columns, and their rows.
-
-        Args:
-            model: the program to be.
-            setting: pruned networks.
-        """
+        """Add the columns, and their rows."""
         self.model = model
         self.setting = setting
         self.task = setting.task

@@ -21,13 +21,7 @@ class Linear(NamedTuple):
 
 
 def plus(sums: Terms, more: Terms, factor: int = 1) -> Sum:
-    """A sum of columns, and ``factor`` times another.
-
-    Args:
-        sums: coefficients by column.
-        more: those to add.
-        factor: times this.
-    """
+    """A sum of columns, and ``factor`` times another."""
     terms = dict(sums)
     for x, c in more.items():
         terms[x] = terms.get(x, 0) + factor * c

@@ -32,12 +32,10 @@ class Network:
     """One agent's network.
 
     Attributes:
-        automaton: what it unrolls.
         state_of: automaton state of each node.
         layers: the arcs of each epoch; ``layers[t - 1]`` are those of epoch t.
         open_end: whether the flow goes on to the last epoch; else it may stop anywhere,
             which stands for an agent that does nothing any more.
-        start: the initial node.
         due: facts that do not last (semantics 10): where one is true nobody waits.
     """
 
@@ -166,13 +164,7 @@ def actions_of(arcs: Iterable[Arc], deadline: Deadline) -> set[int]:
 def distances(
     automaton: Automaton, weights: list[int], goals: set[int], deadline: Deadline
 ) -> tuple[list[int | None], list[int | None]]:
-    """Least weight and fewest actions from each automaton state to a goal state; None: there is no way.
-
-    Args:
-        automaton: states and moves.
-        weights: units by action id.
-        goals: indices of the states to reach.
-    """
+    """Least weight and fewest actions from each automaton state to a goal state; None: there is no way."""
     backward: list[list[tuple[int, int]]] = [[] for _ in automaton.states]
     for state, moves in enumerate(deadline.each(automaton.moves)):
         for action, target in moves:

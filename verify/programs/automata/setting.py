@@ -14,15 +14,11 @@ class NetworkSetting:
     """Networks, limits and goals of one question.
 
     Attributes:
-        task: the task.
-        part: its relevant part.
         networks: one for each agent, by id; ``human`` is the human's.
-        horizon: number of epochs.
         most: limit on the objective in units.
         wanted_true: facts that a goal, or a state to be preserved, wants true.
         wanted_false: facts that a goal wants false.
         finals: end nodes' automaton states that the goals allow, by agent.
-        deadline: polled by the pruning and the program.
         bounds: for the human's automaton states, least weight and actions to a goal state; None: no way.
         last: the human's nodes in which a plan may end; None where pruning has left no other.
         far: more than a plan within the limit weighs, and than there are epochs: as good as no way.
@@ -55,12 +51,7 @@ class NetworkSetting:
 def outer_needs(
     task: Task, part: Relevant, machines: Sequence[Automaton], deadline: Deadline
 ) -> tuple[dict[int, tuple[int, ...]], dict[int, tuple[int, ...]]]:
-    """For each action the facts outside its participants' automata that it needs true, and false.
-
-    Args:
-        part: what of it matters.
-        machines: an automaton for each agent, by id.
-    """
+    """For each action the facts outside its participants' automata that it needs true, and false."""
     pre: dict[int, tuple[int, ...]] = {}
     neg: dict[int, tuple[int, ...]] = {}
     for i in deadline.each(part.actions):

@@ -23,7 +23,6 @@ class SharedFacts:
         """Add the rows of facts.
 
         Args:
-            flows: what agents do.
             groups: facts of which exactly one is true, and moves by precondition and delete.
             shared: facts that need rows.
         """

@@ -74,16 +74,10 @@ class Rows:
 class Actions:
     """What a team's actions need and change, by id.
 
-    Args:
-        team: its task, needs and prices.
-
     Attributes:
-        far: the team's: stands for no way.
         price: what each adds to the objective.
         needs: literals outside of its participants' automata.
         changes: literals that it makes true.
-        participants: ids of agents.
-        joint: whether several agents take part.
         initially: whether a literal is true initially.
         needed: whether some action needs a literal of its fact.
     """
@@ -206,7 +200,6 @@ class Ways:
     Args:
         moves: where each starts, its action, where it leads, and its price.
         lacking: the actions that need what they have to make, and the literals that these are.
-        actions: what they change.
         start: for each state what is paid there at first, or ``far``.
         left: what is left to be paid from each state; where all of it exceeds ``limit`` nobody goes.
         limit: what may be paid.

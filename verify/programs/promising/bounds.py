@@ -28,10 +28,8 @@ class Spending:
     """Least spending of some agents before each state, literal and action.
 
     Args:
-        actions: what they need and change.
         arcs: all moves that are left.
         counted: whether an agent's spending counts, by id.
-        price: of each action.
         offered: the actions in which those take part who are left out; what they change is free.
 
     Attributes:
@@ -138,7 +136,6 @@ class Use:
     """Most that may have been spent when a robot is in a state, or has done an action, and is of use.
 
     Args:
-        actions: what they need and change.
         arcs: all moves that are left.
         robots: whether an agent is a robot, by id.
         watched: whether an agent goes on to the end, by id.

@@ -135,11 +135,7 @@ class _Level:
 
 
 class _Moves:
-    """A team's moves, which get fewer.
-
-    Args:
-        team: whose they are.
-    """
+    """A team's moves, which get fewer."""
 
     def __init__(self, team: TeamMoves) -> None:
         self._team, self._human = team, team.task.human

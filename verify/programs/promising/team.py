@@ -35,18 +35,15 @@ class TeamMoves:
     """The automata of all agents, with the moves that are still on some plan.
 
     Attributes:
-        task: the task.
         machines: an automaton for each agent, by id.
         pre: for each action the facts that it needs outside its participants' automata.
         neg: the same for facts that have to be false.
         price: what each action adds to the objective, by id.
-        horizon: number of epochs.
         most: what all actions together may add.
         wanted_true: facts that a goal wants true at the end.
         wanted_false: those that it wants false.
         finals: by agent the automaton states in which a plan may end.
         watched: agents who go on to the end: what is true in their automata counts there.
-        deadline: polled.
         windows: where windows may be, if they are short.
         moves: by agent and state, the moves that are left.
         far: more than a plan within the limit costs, and than there are epochs: as good as no way.
