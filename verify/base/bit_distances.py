@@ -24,12 +24,22 @@ class BitDistances:
         self._most = most
         self._deadline = deadline
         self._known: dict[int, int | None] = {}
+        self._too_many = False
 
     def __call__(self, state: int) -> int | None:
         """The least weight; None if the goal can't be reached."""
         if state not in self._known:
             self._explore(state)
         return self._known[state]
+
+    def tabled(self, state: int) -> tuple[bool, int | None]:
+        """Whether that can be said, and the least weight; once there were too many states it can't."""
+        if not self._too_many:
+            try:
+                return True, self(state)
+            except UndecidedError:
+                self._too_many, self._known = True, {}
+        return False, None
 
     def _explore(self, start: int) -> None:
         before: dict[int, list[tuple[int, int]]] = {start: []}

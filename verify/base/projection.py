@@ -9,7 +9,6 @@ from serendipity.model import Deadline, Task
 from verify.base.bit_distances import BitDistances
 from verify.base.fact_bits import BitCondition, BitOperator
 from verify.base.operators import OwnActions
-from verify.base.undecided import UndecidedError
 from verify.limits import limits
 
 
@@ -20,16 +19,12 @@ class ProjectedCosts:
         of, self._kept = own.bits.of, own.bits.of(_private_facts(task, own, deadline))
         goal = BitCondition(of(task.goal.positive) & self._kept, of(task.goal.negative) & self._kept)
         moves = _moves(own, self._kept, deadline)
-        self._distances: BitDistances | None = BitDistances(moves, goal, limits().projected_states, deadline)
+        self._distances = BitDistances(moves, goal, limits().projected_states, deadline)
 
     def bound(self, state: int) -> int | None:
         """Least weight of a plan from ``state`` in the projection; None: there is no plan at all."""
-        if self._distances is not None:
-            try:
-                return self._distances(state & self._kept)
-            except UndecidedError:
-                self._distances = None  # the projection is too large
-        return 0
+        known, least = self._distances.tabled(state & self._kept)
+        return least if known else 0
 
 
 def _private_facts(task: Task, own: OwnActions, deadline: Deadline) -> frozenset[int]:

@@ -1,15 +1,14 @@
 """The game of semantics 7 for the checker: states are bit sets of the facts that matter to the goal."""
 
-from collections.abc import Iterable
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
 from typing import NamedTuple
 
-from serendipity.model import Condition, Deadline, GroundAction, StateDelta, Task
+from serendipity.model import Deadline, GroundAction, Options, StateDelta, Task
 from verify.base.bit_distances import BitDistances, reaches_below
-from verify.base.fact_bits import BitCondition, BitOperator, BitOperators
-from verify.base.undecided import UndecidedError
+from verify.base.fact_bits import BitCondition, BitOperator, BitOperators, FactBits
+from verify.base.relevance import closure
 
 Costs = tuple[Fraction, Fraction]
 NOTHING: Costs = (Fraction(0), Fraction(0))
@@ -37,19 +36,20 @@ class Board:
 
     Args:
         task: one human, one robot.
-        fixed: they take the smallest of their optimal actions.
+        options: how the human's choices count, and whether a move may take their last plan away.
 
     Attributes:
-        deadline: when to give up.
         replies_are_dear: the robot changes what they need and can't change themselves, so their
             optimum is another search after each of its moves.
         far: stands for infinite in bounds, which may be too low but not too high.
     """
 
-    def __init__(self, task: Task, *, fixed: bool, deadline: Deadline) -> None:
+    def __init__(self, task: Task, options: Options, deadline: Deadline) -> None:
         self.task = task
         self.deadline = deadline
-        self._fixed = fixed
+        self.ties = options.ties
+        self._no_block = bool(options.no_block)
+        self._bits = FactBits(range(len(task.facts))).of
         humans = self._of(task.human)
         robots = self._of(task.robots[0])
         self._scale = lcm(1, *(task.actions[i].cost.denominator for i in (*humans, *robots)))
@@ -57,11 +57,12 @@ class Board:
         # weights are the human's cost in units, plus their moves (alone) or what the robot pays (together)
         self.far: Costs = ((dearest[0] + 1) * _MOST_MOVES, Fraction(0))
         self._unit = int((dearest[1] + 1) * self._scale) * _MOST_MOVES
-        self._relevant = _relevant(task, [*humans, *robots], deadline)
+        every, goal_facts = set(range(len(task.facts))), {*task.goal.positive, *task.goal.negative}
+        self._relevant = self._bits(closure(task, (*humans, *robots), goal_facts, every, deadline)[1])
         self._human = [e for i in deadline.each(humans) if (e := self._edge(i, self._unit, 1)) is not None]
         self._robot = [e for i in deadline.each(robots) if (e := self._edge(i, 1, 0)) is not None]
-        self.goal = BitCondition(_bits(task.goal.positive), _bits(task.goal.negative))
-        self.start = _bits(task.init) & self._relevant
+        self.goal = BitCondition(self._bits(task.goal.positive), self._bits(task.goal.negative))
+        self.start = self._bits(task.init) & self._relevant
         self._replies: dict[int, tuple[Reply, ...]] = {}
         mentioned = self.goal.pre | self.goal.neg
         for edge in deadline.each(self._human):
@@ -73,9 +74,7 @@ class Board:
             for edge in deadline.each(self._human)
         ]
         self._joint_moves = BitOperators([*together, *self._robot], deadline)
-        self._together: BitDistances | None = BitDistances(
-            [*together, *self._robot], self.goal, _MOST_TOGETHER, deadline
-        )
+        self._together = BitDistances([*together, *self._robot], self.goal, _MOST_TOGETHER, deadline)
         changed = 0
         for edge in deadline.each(self._robot):
             changed |= edge.add | edge.delete
@@ -86,7 +85,7 @@ class Board:
         self.replies_are_dear = bool(changed & mentioned & ~his_changes)
         private = [_within(edge, self._his_only) for edge in deadline.each(together)]
         goal = BitCondition(self.goal.pre & self._his_only, self.goal.neg & self._his_only)
-        self._private: BitDistances | None = BitDistances(private, goal, _MOST_PRIVATE, deadline)
+        self._private = BitDistances(private, goal, _MOST_PRIVATE, deadline)
         self._ids = {name: i for i, name in enumerate(task.facts)}
 
     def _of(self, agent: int) -> list[int]:
@@ -103,7 +102,7 @@ class Board:
         """
         if value <= self.count(state):
             return True
-        known, key = self._tabled(state)
+        known, key = self._together.tabled(state)
         if known:
             return key is None or value <= self._costs(key)
         limit = self._weight(value)
@@ -112,19 +111,10 @@ class Board:
 
     def bound(self, state: int) -> Costs:
         """What both together pay at least from a state; a weaker bound where that takes too long."""
-        known, key = self._tabled(state)
+        known, key = self._together.tabled(state)
         if known:
             return self.far if key is None else self._costs(key)
         return self.count(state)
-
-    def _tabled(self, state: int) -> tuple[bool, int | None]:
-        """Whether there is a table of both together, and what it says."""
-        if self._together is not None:
-            try:
-                return True, self._together(state)
-            except UndecidedError:
-                self._together = None
-        return False, None
 
     def count(self, state: int) -> Costs:
         """A bound that needs few states: what the human pays for what only they can bring about."""
@@ -136,14 +126,10 @@ class Board:
 
     def _by_himself(self, state: int) -> int:
         """What the human pays at least if whatever the robot can change is as they want it."""
-        if self._private is not None:
-            try:
-                least = self._private(state & self._his_only)
-            except UndecidedError:
-                self._private = None
-            else:
-                return int(self.far[0] * self._scale) * self._unit if least is None else least
-        return 0
+        known, least = self._private.tabled(state & self._his_only)
+        if known and least is None:
+            return int(self.far[0] * self._scale) * self._unit
+        return least or 0
 
     def _weight(self, value: Costs) -> int:
         """The least weight that is worth ``value`` or more."""
@@ -170,8 +156,8 @@ class Board:
         Raises:
             KeyError: it names a fact that the task does not have.
         """
-        true = _bits(self._ids[name] for name in delta.true)
-        false = _bits(self._ids[name] for name in delta.false)
+        true = self._bits(self._ids[name] for name in delta.true)
+        false = self._bits(self._ids[name] for name in delta.false)
         return (self.start & ~false | true) & self._relevant
 
     def moves(self, state: int) -> list[tuple[Fraction, int, str]]:
@@ -183,12 +169,18 @@ class Board:
                 found.append((action.cost, edge.after(state), action.name))
         return found
 
+    def blocks(self, name: str, state: int, after: int) -> bool:
+        """Whether a move takes the human's last plan away, and must not."""
+        if not self._no_block or name == "noop":
+            return False
+        return self.alone(after) is None and self.alone(state) is not None
+
     def useless(self, name: str, state: int) -> Fraction | None:
         """Cost of a robot's action by that name that changes nothing that matters; None if none."""
         for i in self.task.named.get(name, ()):
             action = self.task.actions[i]
             if action.participants == (self.task.robots[0],) and self._edge(i, 1, 0) is None:
-                pre, neg = _bits(action.pre) & self._relevant, _bits(action.neg) & self._relevant
+                pre, neg = self._bits(action.pre) & self._relevant, self._bits(action.neg) & self._relevant
                 if state & pre == pre and not state & neg:
                     return action.cost
         return None
@@ -219,7 +211,7 @@ class Board:
                 if rest is not None and rest + edge.weight == key and (action.name, after) not in seen:
                     seen.add((action.name, after))
                     found.append(Reply(action.cost, after, action.name))
-        return found[:1] if self._fixed else found
+        return found[:1] if self.ties == "fixed" else found
 
     def _key(self, state: int) -> int | None:
         """The human's (cost, length) in one number, by the facts that concern them alone."""
@@ -232,36 +224,14 @@ class Board:
     def _edge(self, i: int, unit: int, length: int) -> BitOperator | None:
         """An action as an edge; None where it changes nothing that matters."""
         action: GroundAction = self.task.actions[i]
-        add, delete = _bits(action.add) & self._relevant, _bits(action.delete) & self._relevant
+        add, delete = self._bits(action.add) & self._relevant, self._bits(action.delete) & self._relevant
         if not add and not delete:
             return None
         weight = int(action.cost * self._scale) * unit + length
-        return BitOperator(_bits(action.pre), _bits(action.neg), add, delete, weight, i)
+        return BitOperator(self._bits(action.pre), self._bits(action.neg), add, delete, weight, i)
 
 
 def _within(edge: BitOperator, facts: int) -> BitOperator:
     """An edge as seen through some of the facts."""
     pre, neg, add, delete = (mask & facts for mask in (edge.pre, edge.neg, edge.add, edge.delete))
     return BitOperator(pre, neg, add, delete, edge.weight, edge.label)
-
-
-def _bits(facts: Iterable[int]) -> int:
-    bits = 0
-    for fact in facts:
-        bits |= 1 << fact
-    return bits
-
-
-def _relevant(task: Task, ids: list[int], deadline: Deadline) -> int:
-    """Facts that the goal depends on, through preconditions of what changes them."""
-    goal: Condition = task.goal
-    relevant = _bits(goal.positive) | _bits(goal.negative)
-    while True:
-        more = relevant
-        for i in deadline.each(ids):
-            action = task.actions[i]
-            if (_bits(action.add) | _bits(action.delete)) & relevant:
-                more |= _bits(action.pre) | _bits(action.neg)
-        if more == relevant:
-            return relevant
-        relevant = more

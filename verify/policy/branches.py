@@ -32,7 +32,7 @@ def branches(task: Task, result: Result) -> list[StateBranch]:
         ValueError: the policy is not for this task, or an action of it is not applicable.
     """
     assert result.policy is not None
-    board = Board(task, fixed=result.options.ties == "fixed", deadline=Deadline())
+    board = Board(task, result.options, Deadline())
     listed = read_decisions(board, result.policy)
     numbers = {state: number for number, state in enumerate(listed, start=1)}
     found = []

@@ -12,7 +12,7 @@ from verify.base.obligations import needed
 from verify.base.undecided import UNDECIDED, during, why
 from verify.policy.board import NOTHING, Board, Costs
 from verify.policy.closed import BrokenError, Walk
-from verify.policy.ending import ends
+from verify.policy.ending import lost_states
 from verify.policy.figures import (
     answered,
     figure_faults,
@@ -101,8 +101,6 @@ class _Checker:
     def __init__(self, task: Task, result: Result, deadline: Deadline, *, replay_only: bool) -> None:
         self._result = result
         self._replay_only = replay_only
-        self._ties = result.options.ties
-        self._no_block = bool(result.options.no_block)
         self._task = task
         self._deadline = deadline
 
@@ -117,7 +115,7 @@ class _Checker:
             return
         try:
             with during("setting up the game"):
-                board = Board(self._task, fixed=self._ties == "fixed", deadline=self._deadline)
+                board = Board(self._task, result.options, self._deadline)
         except UNDECIDED as error:
             yield from self._undecided(why(error))
             return
@@ -140,7 +138,7 @@ class _Checker:
     def _infeasible(self, board: Board) -> Claim:
         try:
             with during("looking at every state of the game"):
-                end = ends(board, self._ties, no_block=self._no_block, deadline=self._deadline)
+                end = board.goal.holds(board.start) or board.start not in lost_states(board)
         except UNDECIDED as error:
             return Claim("infeasible", "undecided", why(error))
         if end:
@@ -152,7 +150,7 @@ class _Checker:
         try:
             with during("walking through the policy"):
                 listed = read_decisions(board, self._result.policy)
-                value = Walk(board, listed, self._ties, no_block=self._no_block).value()
+                value = Walk(board, listed).value()
                 if self._result.plan is not None:
                     check_run(self._task, board, self._result)
                 value = answered(self._result, value)
@@ -201,10 +199,7 @@ class _Checker:
         assert self._result.policy is not None
         try:
             with during("proving the lower bounds"):
-                floors = Floors(
-                    board, self._result.policy, self._ties, no_block=self._no_block, deadline=self._deadline
-                )
-                floors.prove(value)
+                Floors(board, self._result.policy).prove(value)
         except KeyError as error:
             return Claim("optimal", "undecided", f"the task has no fact {error}")
         except UNDECIDED as error:

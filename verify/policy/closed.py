@@ -23,15 +23,11 @@ class Walk:
 
     Args:
         listed: the policy.
-        ties: how the human's choices count.
-        no_block: no move may take their last plan away.
     """
 
-    def __init__(self, board: Board, listed: dict[int, Listed], ties: str, *, no_block: bool) -> None:
+    def __init__(self, board: Board, listed: dict[int, Listed]) -> None:
         self._board = board
         self._listed = listed
-        self._ties = ties
-        self._no_block = no_block
         self._onward: dict[int, list[int]] = {}
         self._ends: set[int] = set()
 
@@ -84,10 +80,10 @@ class Walk:
             return
         replies = self._board.replies(middle)
         values = [plus(reply, self._after(reply)) for reply in replies]
-        combined = combine(self._ties, values)
+        combined = combine(self._board.ties, values)
         self._compare(listed, (combined[0], combined[1] + cost))
         for reply, value in zip(replies, values, strict=True):
-            if self._ties == "optimistic" and value != combined:
+            if self._board.ties == "optimistic" and value != combined:
                 continue  # this is not the action that the value counts on
             if reply.state in self._listed and not self._board.goal.holds(reply.state):
                 self._onward[state].append(reply.state)
@@ -97,18 +93,13 @@ class Walk:
     def _move(self, state: int, name: str) -> tuple[Fraction, int]:
         for cost, after, action in self._board.moves(state):
             if action == name:
-                if self._blocks(name, state, after):
+                if self._board.blocks(name, state, after):
                     raise BrokenError("replay", f"'{name}' leaves the human without a plan")
                 return cost, after
         useless = self._board.useless(name, state)
         if useless is None:
             raise BrokenError("replay", f"the supporter can't do '{name}' where the policy says so")
         return useless, state
-
-    def _blocks(self, name: str, state: int, after: int) -> bool:
-        if not self._no_block or name == "noop":
-            return False
-        return self._board.alone(after) is None and self._board.alone(state) is not None
 
     def _after(self, reply: Reply) -> Costs:
         if self._board.goal.holds(reply.state):
@@ -126,13 +117,14 @@ class Walk:
 
     def _require_an_end(self) -> None:
         """Every run ends: with certainty; where ties are expected, with probability 1."""
-        settled = set(self._ends) if self._ties in ("expected", "optimistic") else set()
-        every = all if self._ties in ("robust", "fixed") else any
+        settled = set(self._ends) if self._board.ties in ("expected", "optimistic") else set()
+        every = all if self._board.ties in ("robust", "fixed") else any
         grows = True
         while grows:
             onward = self._board.deadline.each(self._onward.items())
             more = {s for s, after in onward if not after or every(x in settled for x in after)}
             grows = not more <= settled
             settled |= more
-        if self._board.start not in settled or (self._ties == "expected" and settled != set(self._onward)):
+        surely = self._board.ties != "expected" or settled == set(self._onward)
+        if self._board.start not in settled or not surely:
             raise BrokenError("replay", "a run of the policy may go on for ever")

@@ -8,7 +8,7 @@ are bounded by both agents together, without turns.
 from fractions import Fraction
 from typing import Final
 
-from serendipity.model import Deadline, Policy
+from serendipity.model import Policy
 from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.policy.board import NOTHING, Board, Costs, Reply
 from verify.policy.ending import lost_states
@@ -24,19 +24,12 @@ class Floors:
 
     Args:
         policy: with its floors.
-        ties: how the human's choices count.
-        no_block: no move may take their last plan away.
     """
 
-    def __init__(
-        self, board: Board, policy: Policy, ties: str, *, no_block: bool, deadline: Deadline
-    ) -> None:
+    def __init__(self, board: Board, policy: Policy) -> None:
         self._board = board
-        self._ties = ties
-        self._no_block = no_block
-        self._deadline = deadline
         self._lost: set[int] | None = None
-        floors = deadline.each(policy.floors or ())
+        floors = board.deadline.each(policy.floors or ())
         self._floors = {board.state(floor.state): floor.value for floor in floors}
 
     def prove(self, value: Costs) -> None:
@@ -50,7 +43,7 @@ class Floors:
             return
         if self._floors.get(start, NOTHING) < value:
             raise UndecidedError("the lower bounds that came with the policy do not reach its value")
-        for state, floor in self._deadline.each(self._floors.items()):
+        for state, floor in self._board.deadline.each(self._floors.items()):
             for cost, middle, name in self._board.moves(state):
                 if not self._justified(state, middle, name, cost, floor):
                     self._look_for_lost_states(name)
@@ -61,9 +54,7 @@ class Floors:
         """Bounds do not see that a run may never end; looking at every state does."""
         if self._lost is None:
             try:
-                self._lost = lost_states(
-                    self._board, self._ties, no_block=self._no_block, deadline=self._deadline
-                )
+                self._lost = lost_states(self._board)
             except UNDECIDED as error:
                 raise UndecidedError(f"{_NOT_PROVED.format(name)}; {why(error)}") from None
 
@@ -76,15 +67,10 @@ class Floors:
             return True
         if board.replies_are_dear and board.at_least(middle, rest, most=_A_LOOK):
             return True
-        if (
-            self._no_block
-            and name != "noop"
-            and board.alone(middle) is None
-            and board.alone(state) is not None
-        ):
+        if board.blocks(name, state, middle):
             return True
         replies = board.replies(middle)
-        combined = combine(self._ties, [plus(reply, self._after(reply)) for reply in replies])
+        combined = combine(board.ties, [plus(reply, self._after(reply)) for reply in replies])
         return floor <= (combined[0], combined[1] + cost) or board.at_least(middle, rest)
 
     def _after(self, reply: Reply) -> Costs:
