@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from verify.base.execution import facts_of_his, idling, states_of_pi_h
-from verify.base.subproblem import ALONE, EXACT, FREE, Subproblem, in_plan
+from verify.base.subproblem import ALONE, EXACT, FREE, WINDOW, Subproblem, in_plan
 
 Control = tuple[str, int, int]
 
@@ -139,7 +139,12 @@ class HumanControl:
 
 
 def expected_states(question: Subproblem) -> tuple[frozenset[int], ...]:
-    """``delta(I, pi_H[1..j])`` for each j, cut down to facts that the human's own domain mentions."""
+    """``delta(I, pi_H[1..j])`` for each j, cut down to facts that the human's own domain mentions.
+
+    There are none where no window has to preserve them.
+    """
     task, deadline = question.task, question.deadline
+    if question.rule != WINDOW or question.options.preservation != "state":
+        return ()
     mentioned = facts_of_his(task, deadline)
     return tuple(state & mentioned for state in states_of_pi_h(task, question.human_plan, deadline))

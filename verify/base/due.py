@@ -3,7 +3,7 @@
 All this is about tasks in single epochs (:mod:`serendipity.model.task.unit_steps`).
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from serendipity.model import Step, Task
 from verify.base.execution import State, by_epoch, executed, is_calm, met
@@ -14,13 +14,13 @@ def onward(task: Task, state: State, chosen: Iterable[int], *, strict: bool) -> 
     return executed(state, [task.actions[i] for i in met(task, state, chosen)], strict=strict)
 
 
-def waited(task: Task, state: State, epochs: int, *, strict: bool) -> State | None:
-    """The state after some epochs in which nobody does what is not due; None if that is impossible."""
+def waited(task: Task, state: State, epochs: int, *, strict: bool, plan: Sequence[int] = ()) -> State | None:
+    """The state after some epochs of a plan and what is due; None if that is impossible."""
     here: State | None = state
-    for _ in range(epochs):
-        if here is None or is_calm(task, here):
+    for epoch in range(epochs):
+        if here is None or (epoch >= len(plan) and is_calm(task, here)):
             break
-        here = onward(task, here, (), strict=strict)
+        here = onward(task, here, plan[epoch : epoch + 1], strict=strict)
     return here
 
 

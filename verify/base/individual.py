@@ -140,14 +140,12 @@ class IndividualOptimum:
             if packed is not None:
                 return packed if packed >= 0 else None
         many, most = limits().many_own_states, limits().own_states
-        own, goal = self.own, self._task.goal
-        wanted, unwanted = own.bits.of(goal.positive), own.bits.of(goal.negative)
         search = PathSearch(start, self._successors, self._projection.bound, self.deadline, below)
         for expansions, (here, _) in enumerate(search):
-            if here & wanted == wanted and not here & unwanted:
+            if self.own.goal.holds(here):
                 return search.distance[here]
             if expansions == many:
-                if not own.may_reach(start, goal, self.deadline):
+                if not self.own.may_reach_goal(start, self.deadline):
                     return None
                 packed = self._packed_least(state, below)
                 if packed is not None:

@@ -5,6 +5,7 @@ no answer is ever proved by leaving something out.  ``docs/verification.md`` sho
 """
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import Final
 
 from serendipity.model import Claim, Result
@@ -88,7 +89,12 @@ def complete(result: Result, claims: Iterable[Claim], *, by_rules: bool = False)
     if any(claim.verdict == "refuted" for claim in known):
         return tuple(known)
     wanted = [name for name in needed(result) if name in BY_RULES or not by_rules]
-    return (*_examined(known, wanted), *_missing(known, wanted))
+    there = {claim.claim for claim in known}
+    missing = (Claim(name, "undecided", wording.NOT_EXAMINED) for name in wanted if name not in there)
+    for k, claim in enumerate(known):
+        if claim.verdict == "not_in_scope" and claim.claim in wanted:
+            known[k] = replace(claim, verdict="undecided")
+    return (*known, *missing)
 
 
 def _best(result: Result) -> Iterator[str]:
@@ -97,14 +103,3 @@ def _best(result: Result) -> Iterator[str]:
     predicted = result.human_plan is not None or kind_of(result) == "a plan for each scenario"
     if not result.opportunity and predicted and result.mode != "individual":
         yield "no_opportunity"
-
-
-def _examined(claims: list[Claim], wanted: list[str]) -> Iterator[Claim]:
-    for claim in claims:
-        out = claim.verdict == "not_in_scope" and claim.claim in wanted
-        yield Claim(claim.claim, "undecided", claim.reason, seconds=claim.seconds) if out else claim
-
-
-def _missing(claims: list[Claim], wanted: list[str]) -> Iterator[Claim]:
-    there = {claim.claim for claim in claims}
-    yield from (Claim(name, "undecided", wording.NOT_EXAMINED) for name in wanted if name not in there)

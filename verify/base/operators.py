@@ -7,9 +7,9 @@ from itertools import chain
 from math import lcm
 from typing import Final
 
-from serendipity.model import Condition, Deadline, GroundAction, Task
+from serendipity.model import Deadline, GroundAction, Task
 from verify.base.execution import unchosen
-from verify.base.fact_bits import BitOperator, FactBits, each_bit
+from verify.base.fact_bits import BitCondition, BitOperator, FactBits, each_bit
 
 _LONGEST: Final = 10**9
 """More actions than any plan has that is ever compared."""
@@ -47,6 +47,7 @@ class OwnActions:
         ids: the actions' ids.
         facts: facts that an own action needs or that their goal names; no other matters to them.
         bits: these facts as bits.
+        goal: ``G_H`` in bits.
     """
 
     def __init__(self, task: Task, deadline: Deadline) -> None:
@@ -60,6 +61,7 @@ class OwnActions:
             denominators.add(action.cost.denominator)
         self.facts = frozenset(facts)
         self.bits = FactBits(facts)
+        self.goal = BitCondition(self.bits.of(task.goal.positive), self.bits.of(task.goal.negative))
         self._unchosen = unchosen(task)
         self._epoch, longest = (_EPOCH, _EPOCH) if self._unchosen else (0, _LONGEST)
         self._least_cost = longest * (self._epoch or 1)
@@ -116,12 +118,11 @@ class OwnActions:
         """The actions that are applicable in a state, by ids, each with the state after it."""
         return [(operator.label, operator.after(state)) for operator in self.applicable(state)]
 
-    def may_reach(self, state: int, goal: Condition, deadline: Deadline) -> bool:
-        """Whether a goal can be reached if what has been true, or false, counts as that from then on."""
+    def may_reach_goal(self, state: int, deadline: Deadline) -> bool:
+        """Whether that is so if what has been true, or false, counts as that from then on."""
         true, false = state, self.bits.all & ~state
-        wanted, unwanted = self.bits.of(goal.positive), self.bits.of(goal.negative)
         waiting = [self._operator(i) for i in deadline.each(self.ids)]
-        while wanted & ~true or unwanted & ~false:
+        while self.goal.pre & ~true or self.goal.neg & ~false:
             later = [op for op in deadline.each(waiting) if op.pre & ~true or op.neg & ~false]
             if len(later) == len(waiting):
                 return False

@@ -16,8 +16,8 @@ class ProjectedCosts:
     """Weights of cheapest plans in the projection, for the states that are reached from those asked for."""
 
     def __init__(self, task: Task, own: OwnActions, deadline: Deadline) -> None:
-        of, self._kept = own.bits.of, own.bits.of(_private_facts(task, own, deadline))
-        goal = BitCondition(of(task.goal.positive) & self._kept, of(task.goal.negative) & self._kept)
+        self._kept = own.bits.of(_private_facts(task, own, deadline))
+        goal = BitCondition(own.goal.pre & self._kept, own.goal.neg & self._kept)
         moves = _moves(own, self._kept, deadline)
         self._distances = BitDistances(moves, goal, limits().projected_states, deadline)
 

@@ -76,7 +76,7 @@ def best_plan(call: ExaminedCall, *, robots: bool = True) -> PricedPlan | None:
     question = call.endless.but(robots=robots)
     if call.do_nothing is not None:
         question = question.below(call.do_nothing[0] - 1)
-    return call.decided(decide_without_horizon(question, call.effort, call.plans))
+    return decide_without_horizon(question, call.effort, call.plans).proved()
 
 
 def is_help(call: ExaminedCall, score: Score) -> bool:

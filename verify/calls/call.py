@@ -8,10 +8,9 @@ from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
 from serendipity.model.keywords import Horizon
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import EXACT, FREE, WINDOW, PricedPlan, Prices, Subproblem, prices
-from verify.base.undecided import UndecidedError
 from verify.calls.methods import decide
 from verify.exhaustive.by_epochs import cheapest_following
-from verify.programs.effort import Effort, Minimum
+from verify.programs.effort import Effort
 
 Score = tuple[int, int]
 """Objective and cost in units: the order of semantics 3.1 as far as it is proved."""
@@ -112,9 +111,9 @@ class ExaminedCall:
     def idle_robots_plan(self) -> PricedPlan | None:
         """The cheapest plan in which the human executes ``pi_H`` and robots reach ``G_R`` by themselves."""
         if self.horizon == INFINITE:
-            return self.decided(cheapest_following(self._question(EXACT), self.plans))
+            return cheapest_following(self._question(EXACT), self.plans).proved()
         question = self._question(EXACT).but(horizon=int(self.horizon))
-        return self.decided(decide(question, self.effort, self.plans))
+        return decide(question, self.effort, self.plans).proved()
 
     @cached_property
     def do_nothing(self) -> Score | None:
@@ -161,11 +160,11 @@ class ExaminedCall:
     def best(self, question: Subproblem, than: Score | None) -> PricedPlan | None:
         """The plan of least objective, then cost, among those with a lower score than ``than``."""
         limited = question if than is None else question.below(than[0] - 1)
-        best = self.decided(decide(limited, self.effort, self.plans))
+        best = decide(limited, self.effort, self.plans).proved()
         score = than if best is None else (best.objective, best.cost)
         while score is not None and self.may_tie(score):
             tie = question.below(score[0], score[1] - 1)
-            found = self.decided(decide(tie, self.effort, self.plans))
+            found = decide(tie, self.effort, self.plans).proved()
             if found is None:
                 break
             best, score = found, (found.objective, found.cost)
@@ -178,9 +177,3 @@ class ExaminedCall:
         """
         cost = score[1]
         return cost > 0 and (any(self.prices.talk) or 0 < self.prices.epoch <= cost)
-
-    def decided(self, minimum: Minimum) -> PricedPlan | None:
-        """The minimum's plan, None if there is provably none."""
-        if minimum.status == "undecided":
-            raise UndecidedError(minimum.reason)
-        return minimum.found

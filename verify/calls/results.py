@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from serendipity.model import PlanStep, Result, Step, Window
+from serendipity.model import PlanStep, Result, Step
 from serendipity.model.keywords import Horizon
 from serendipity.model.numbers import figure
 from verify.base.execution import plan_step, shares
@@ -18,51 +18,47 @@ def plan_steps(call: ExaminedCall, steps: tuple[Step, ...]) -> tuple[PlanStep, .
 
 def found_result(call: ExaminedCall, found: PricedPlan, *, opportunity: bool) -> Result:
     """A plan as a result whose bound is its objective."""
-    return _result(call, found.steps, found.window, found.objective, found.cost, opportunity=opportunity)
+    paid = shares(call.task, (step.action for step in found.steps), call.options.discount)
+    least = figure(call.prices.cost(found.objective))
+    return Result(
+        status="optimal",
+        opportunity=opportunity,
+        cost=figure(call.prices.cost(found.cost)),
+        saving=_saving(call, found.cost if opportunity else call.baseline),
+        objective=least,
+        lower_bound=least,
+        window=found.window,
+        saving_alone=_saving(call, None if call.baseline is None else idle_cost(call)),
+        plan=plan_steps(call, found.steps),
+        agent_costs={agent: figure(share) for agent, share in paid.items()},
+        **_header(call),
+    )
 
 
 def to_result(answer: CallAnswer) -> Result:
     """The result that an answer is."""
-    call, found = answer.call, answer.found
-    if found is not None:
-        return found_result(call, found, opportunity=answer.opportunity)
+    call = answer.call
+    if answer.found is not None:
+        return found_result(call, answer.found, opportunity=answer.opportunity)
     if answer.cost is None:
-        return _infeasible(call, answer.reason)
-    baseline = call.baseline
-    assert baseline is not None
+        return Result(status="infeasible", reason=answer.reason, **_header(call))
+    assert call.baseline is not None
     if call.robots_goal:
         nothing = call.idle_robots_plan
         assert nothing is not None
         steps = nothing.steps
     else:
         steps = tuple(Step(t, i) for t, i in enumerate(call.human_plan or (), start=1))
-    return _result(call, steps, None, baseline, baseline, opportunity=False)
+    idle = PricedPlan(steps, None, call.baseline, call.baseline)
+    return found_result(call, idle, opportunity=False)
 
 
-def _result(
-    call: ExaminedCall,
-    steps: tuple[Step, ...],
-    window: Window | None,
-    objective: int,
-    cost: int,
-    *,
-    opportunity: bool,
-) -> Result:
-    exact, least = call.prices.cost(cost), call.prices.cost(objective)
-    return Result(
-        status="optimal",
-        opportunity=opportunity,
-        cost=figure(exact),
-        saving=_saving(call, cost, opportunity=opportunity),
-        objective=figure(least),
-        lower_bound=figure(least),
-        horizon=_horizon(call),
-        window=window,
-        saving_alone=_saving_alone(call),
-        plan=plan_steps(call, steps),
-        agent_costs=_agent_costs(call, steps),
-        **_header(call),
-    )
+def _saving(call: ExaminedCall, cost: int | None) -> float | None:
+    """What a cost is less than that of doing nothing; None where that is no answer."""
+    if call.baseline is None:
+        return None
+    assert cost is not None, "as there is one of doing nothing"
+    return figure(call.prices.cost(call.baseline - cost))
 
 
 def _header(call: ExaminedCall) -> dict[str, Any]:
@@ -71,35 +67,13 @@ def _header(call: ExaminedCall) -> dict[str, Any]:
         "mode": call.options.mode,
         "human": task.agents[task.human],
         "options": call.options,
+        "horizon": _horizon(call),
         "human_plan": None if plan is None else tuple(task.actions[i].name for i in plan),
         "human_cost": None if plan is None else figure(task.cost_of(plan)),
     }
-
-
-def _infeasible(call: ExaminedCall, reason: str | None) -> Result:
-    return Result(status="infeasible", reason=reason, horizon=_horizon(call), **_header(call))
 
 
 def _horizon(call: ExaminedCall) -> Horizon | None:
     if call.human_plan is None and call.needs_pi_h:
         return None
     return len(call.human_plan or ()) if call.options.mode == "individual" else call.horizon
-
-
-def _saving(call: ExaminedCall, cost: int, *, opportunity: bool) -> float | None:
-    if call.baseline is None:
-        return None
-    return figure(call.prices.cost(call.baseline - cost)) if opportunity else 0.0
-
-
-def _saving_alone(call: ExaminedCall) -> float | None:
-    if call.baseline is None:
-        return None
-    idle = idle_cost(call)
-    assert idle is not None
-    return figure(call.prices.cost(call.baseline - idle))
-
-
-def _agent_costs(call: ExaminedCall, steps: tuple[Step, ...]) -> dict[str, float]:
-    paid = shares(call.task, (step.action for step in steps), call.options.discount)
-    return {agent: figure(share) for agent, share in paid.items()}

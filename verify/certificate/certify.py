@@ -1,6 +1,6 @@
 """Certificates: every claim of a result, proved, refuted, undecided or out of scope."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
@@ -179,7 +179,7 @@ class _Certifier:
 
     def _claims(self) -> Iterator[Claim]:
         with suppress(PlanError, *UNDECIDED):  # the rules say what is wrong with it
-            self._suppose_pi_h()
+            self._tell_pi_h(self.alone.suppose)
         report = self.checker.check(self.result)
         yield from self._rule_claims(report)
         wanted = [name for name in needed(self.result) if name not in (*BY_RULES, "realised")]
@@ -200,7 +200,7 @@ class _Certifier:
                 yield Claim("realised", "not_in_scope", wording.NO_REPLAY)
             return
         with suppress(PlanError, *UNDECIDED):  # then nothing is learned
-            self._learn_pi_h()
+            self._tell_pi_h(self.alone.learn)
         task, plans = self._without_rule, self.plans
         if task is not self.task:
             plans = OptimalPlans(task, alone_of(task, self.effort.deadline, self.result.options))
@@ -208,15 +208,10 @@ class _Certifier:
         if claim is not None:
             yield claim
 
-    def _suppose_pi_h(self) -> None:
+    def _tell_pi_h(self, learn: Callable[[HumanPlan], None]) -> None:
         names = self.result.human_plan
         if names is not None:
-            self.alone.suppose(replay_human(self.task, names, self.effort.deadline))
-
-    def _learn_pi_h(self) -> None:
-        names = self.result.human_plan
-        if names is not None:
-            self.alone.learn(replay_human(self.task, names, self.effort.deadline))
+            learn(replay_human(self.task, names, self.effort.deadline))
 
     def _rule_claims(self, report: RuleReport) -> Iterator[Claim]:
         claims = (rule_claim(self.result, report, name, wording.FOLLOWED) for name in BY_RULES)
@@ -240,7 +235,7 @@ class _Certifier:
             return ""
 
     def _kind_of_pi_h(self) -> str:
-        self._learn_pi_h()
+        self._tell_pi_h(self.alone.learn)
         names = self.result.human_plan
         canonical = None if names is None else self.plans.canonical()
         if names is None or canonical is None:

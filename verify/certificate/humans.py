@@ -6,7 +6,6 @@ from functools import cached_property
 
 from verify.base import wording
 from verify.base.subproblem import FREE, PricedPlan
-from verify.base.undecided import UndecidedError
 from verify.calls.call import ExaminedCall
 from verify.calls.methods import JOINT_PLANS, decide
 from verify.certificate.claims import Examiner, Verdict
@@ -76,7 +75,7 @@ class HumanExaminer(Examiner):
         call = self.call
         if call.human_plan is None:
             return super().infeasible()
-        found = _decided(call, None)
+        found = _cheaper(call, None)
         if found is not None:
             return "refuted", wording.PLAN, found
         return "proved", wording.ALL_PLAYED, None
@@ -102,7 +101,7 @@ def human_cost(call: ExaminedCall) -> Fraction | None:
     if call.human_plan is None:
         return None
     if call.robots_goal:
-        found = _decided(call, None)
+        found = _cheaper(call, None)
         return None if found is None else call.prices.cost(found.cost)
     assert call.baseline is not None
     idle = _idle_cost(call)
@@ -110,24 +109,18 @@ def human_cost(call: ExaminedCall) -> Fraction | None:
     return call.prices.cost(call.baseline if found is None else found.cost)
 
 
-def _cheaper(call: ExaminedCall, cost: int) -> PricedPlan | None:
-    return _decided(call, cost - 1)
-
-
-def _decided(call: ExaminedCall, most: int | None) -> PricedPlan | None:
-    """The cheapest that happens with the human, for this much at most; None: proved that there is nothing.
+def _cheaper(call: ExaminedCall, cost: int | None) -> PricedPlan | None:
+    """The cheapest that happens with the human, for less than so much; None: proved that there is nothing.
 
     Raises:
         NoProgramError: a proof file is asked for, and a plan that costs no more has to be played.
     """
+    most = None if cost is None else cost - 1
     if _out_of_reach(call, most):
         return None
     if call.effort.proof is not None:
         raise NoProgramError("a human who replans, where a joint plan costs less than the answer")
-    minimum = cheapest_reaction(call, most)
-    if minimum.status == "undecided":
-        raise UndecidedError(minimum.reason)
-    return minimum.found
+    return cheapest_reaction(call, most).proved()
 
 
 def _out_of_reach(call: ExaminedCall, most: int | None) -> bool:

@@ -5,7 +5,7 @@ from dataclasses import replace
 from verify.base.control import HumanControl, expected_states
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import relevant_part
-from verify.base.subproblem import WINDOW, Subproblem
+from verify.base.subproblem import Subproblem
 from verify.base.undecided import during
 from verify.exhaustive.epoch_by_epoch import EpochSearch, OtherMethodError
 from verify.limits import limits
@@ -21,8 +21,7 @@ def cheapest_by_epochs(question: Subproblem, plans: OptimalPlans, *, bounded: bo
         bounded: whether lower bounds spare the search states; else only what was paid does.
     """
     with during("preparing an exhaustive search"):
-        literal = question.rule == WINDOW and question.options.preservation == "state"
-        expected = expected_states(question) if literal else ()
+        expected = expected_states(question)
         part = relevant_part(question, frozenset().union(*expected))
         if part is None:
             return Minimum("none")

@@ -109,15 +109,10 @@ class _Alone:
     def _graph(self) -> "_Graph":
         """Where states begin, which end a plan, and what follows them: by bits, or as sets of facts."""
         task = self._task
-        start = self.alone.start
         if task.of_bystanders:
-            graph: _Graph = start, task.goal.holds, self.alone.moves
-        else:
-            own = self._own = OwnActions(task, self._deadline)
-            wanted, unwanted = own.bits.of(task.goal.positive), own.bits.of(task.goal.negative)
-            here = own.bits.of(task.init)
-            graph = here, lambda state: state & wanted == wanted and not state & unwanted, own.steps
-        return graph
+            return self.alone.start, task.goal.holds, self.alone.moves
+        own = self._own = OwnActions(task, self._deadline)
+        return own.bits.of(task.init), own.goal.holds, own.steps
 
     def solve(self) -> int | None:
         """The least cost in units, by the solver; None: there is no plan.

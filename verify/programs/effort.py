@@ -182,6 +182,12 @@ class Minimum:
     reason: str = ""
     states: int = 0
 
+    def proved(self) -> PricedPlan | None:
+        """The best plan; None: there is provably none."""
+        if self.status == "undecided":
+            raise UndecidedError(self.reason)
+        return self.found
+
     def settled(self) -> PricedPlan | None:
         """Some plan, best or not; None: there is provably none.
 

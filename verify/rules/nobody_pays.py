@@ -20,7 +20,7 @@ from serendipity.model.task.metered import Metered
 from serendipity.model.task.noticed import Noticed
 from serendipity.model.task.visibility import surroundings
 from verify.base import wording
-from verify.base.due import onward
+from verify.base.due import waited
 from verify.base.execution import State, after, is_calm, is_last, met
 from verify.base.obligations import is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
@@ -279,10 +279,7 @@ def rule_of(task: Task, options: Options, plan: HumanPlan | None, last: int, ori
         plan: the human's, epoch by epoch.
         last: ``T``.
     """
-    state: State | None = task.init
-    for epoch in range(last):
-        chosen = (plan or ())[epoch : epoch + 1]
-        state = None if state is None else onward(task, state, chosen, strict=options.strict)
+    state = waited(task, task.init, last, strict=options.strict, plan=plan or ())
     if state is None:
         return Rule(Condition(), None, {})
     chosen_ones = (action for i, action in enumerate(task.actions) if i not in task.of_bystanders)

@@ -5,7 +5,7 @@ from fractions import Fraction
 from functools import cache
 
 from serendipity.model import Deadline, HumanPlan, Options, Task
-from verify.base.due import onward
+from verify.base.due import waited
 from verify.base.execution import State, after, applicable, facts_of_his, states_of_pi_h
 from verify.base.optimal_plans import OptimalPlans
 
@@ -59,9 +59,7 @@ def suffix_of(task: Task, options: Options, plan: HumanPlan, plans: OptimalPlans
 
     def keeping(state: State, start: int, left: int) -> HumanPlan | None:
         rest = suffix(state, start, left)
-        end: State | None = state
-        for k in range(left if rest is not None else 0):
-            end = None if end is None else onward(task, end, (rest or ())[k : k + 1], strict=options.strict)
+        end = state if rest is None else waited(task, state, left, strict=options.strict, plan=rest)
         return rest if end is not None and task.robot_goal.holds(end) else None
 
     return keeping, frozenset(range(len(task.facts)))

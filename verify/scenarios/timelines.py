@@ -10,8 +10,8 @@ from typing import Final
 from serendipity.model import Condition, Deadline, Result, Task
 from serendipity.model.answers.result_parts import GoalAnswer
 from verify.base.beside_script import alone_of
-from verify.base.due import onward
-from verify.base.execution import State, unchosen
+from verify.base.due import waited
+from verify.base.execution import unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.rules.bound import bound_and_objective, bound_and_status
 from verify.rules.case import Case
@@ -107,10 +107,7 @@ def lasting_fault(lines: Sequence[Timeline]) -> str | None:
     """What each plan reaches lasts until ``T`` where robots are idle (semantics 10)."""
     for line in lines:
         task, plan, last = line.task, line.case.pi_h, int(line.case.result.horizon or 0)
-        state: State | None = task.init
-        for epoch in range(last):
-            chosen, strict = plan[epoch : epoch + 1], line.case.result.options.strict
-            state = None if state is None else onward(task, state, chosen, strict=strict)
+        state = waited(task, task.init, last, strict=line.case.result.options.strict, plan=plan)
         if state is None or not task.goal.holds(state):
             return f"scenario '{line.name}': the plan does not last until T = {last}"
     return None

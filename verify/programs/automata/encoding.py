@@ -97,8 +97,7 @@ class AutomataEncoding:
         self.question = question
         self.deadline = question.deadline
         self.setting: NetworkSetting | None = None
-        literal = question.rule == WINDOW and question.options.preservation == "state"
-        expected = expected_states(question) if literal else ()
+        expected = expected_states(question)
         part = relevant_part(question, frozenset().union(*expected))
         if part is None and not pruned:
             part = whole_task(question)
