@@ -109,11 +109,7 @@ def _reachable(task: Task, allowed: Sequence[int], deadline: Deadline) -> tuple[
 
 
 def closure(
-    task: Task,
-    usable: Iterable[int],
-    seeds: set[int],
-    changing: set[int],
-    deadline: Deadline,
+    task: Task, usable: Iterable[int], seeds: set[int], changing: set[int], deadline: Deadline
 ) -> tuple[set[int], set[int]]:
     """Facts that matter for the seeds, and the actions that change one of them; what is begun goes on."""
     actions, due = task.actions, task.due_for

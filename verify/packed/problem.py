@@ -101,12 +101,7 @@ class PackedProblem:
             return None
         return self.layout.pack(states)
 
-    def search(
-        self,
-        starts: Words,
-        paid: Ints,
-        below: int | None = None,
-    ) -> tuple[PackedSearch, int | None]:
+    def search(self, starts: Words, paid: Ints, below: int | None = None) -> tuple[PackedSearch, int | None]:
         """A search from some states with what was paid so far, and the goal state that it ends in.
 
         Args:

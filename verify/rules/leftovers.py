@@ -26,10 +26,7 @@ class Leftovers:
     """
 
     def __init__(
-        self,
-        solve: Callable[[frozenset[int]], tuple[Result, State] | None],
-        prices: Prices,
-        weight: Fraction,
+        self, solve: Callable[[frozenset[int]], tuple[Result, State] | None], prices: Prices, weight: Fraction
     ) -> None:
         self._solve, self._prices, self._weight = solve, prices, weight
 

@@ -14,13 +14,7 @@ from verify.base.undecided import during
 from verify.limits import limits, uses
 from verify.programs.agents.product import Automaton, SmallAutomata, automata, private_facts
 from verify.programs.automata.linear import plus
-from verify.programs.automata.network import (
-    HumanNetwork,
-    Network,
-    RobotNetwork,
-    distances,
-    goal_states,
-)
+from verify.programs.automata.network import HumanNetwork, Network, RobotNetwork, distances, goal_states
 from verify.programs.automata.program import BYTES_AN_ARC, NetworkProgram
 from verify.programs.automata.pruning import prune, unroll
 from verify.programs.automata.setting import NetworkSetting, outer_needs

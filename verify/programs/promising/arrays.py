@@ -162,11 +162,7 @@ class Arcs:
 
 
 def distances(
-    edges: tuple[Ints, Ints, Ints],
-    values: Ints,
-    far: int,
-    deadline: Deadline,
-    limit: int | None = None,
+    edges: tuple[Ints, Ints, Ints], values: Ints, far: int, deadline: Deadline, limit: int | None = None
 ) -> Ints:
     """Least distances in a graph, from nodes that have one; all nodes of one distance are looked at at once.
 
