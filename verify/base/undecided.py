@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from serendipity.model import LimitReachedError
+from serendipity.model.errors import limit_reason
 
 
 class UndecidedError(Exception):
@@ -30,8 +31,10 @@ UNDECIDED = (UndecidedError, LimitReachedError, MemoryError)
 """What to catch around an examination; :func:`why` puts it into words."""
 
 
-def why(error: UndecidedError | LimitReachedError | MemoryError) -> str:
-    """Why a claim stays undecided, for people."""
+def why(error: UndecidedError | LimitReachedError | MemoryError, doing: str | None = None) -> str:
+    """Why a claim stays undecided, for people; ``doing`` is what was going on when a limit came."""
+    if doing is not None and not isinstance(error, UndecidedError):
+        return str(LimitReachedError(limit_reason(error), doing))
     return "memory is used up" if isinstance(error, MemoryError) else str(error)
 
 

@@ -138,12 +138,8 @@ class ExaminedCall:
     @cached_property
     def is_optimal(self) -> bool:
         """Whether ``pi_H`` costs no more than the human's optimal plan."""
-        worth = self.plans.alone.predicted()
-        return (
-            worth is not None
-            and self.human_plan is not None
-            and worth[0] == self.task.cost_of(self.human_plan)
-        )
+        worth, plan = self.plans.alone.predicted(), self.human_plan
+        return worth is not None and plan is not None and worth[0] == self.task.cost_of(plan)
 
     def better(self, question: Subproblem, than: Score) -> PricedPlan | None:
         """Some plan with a lower score; None: proved that there is none."""

@@ -94,6 +94,5 @@ def _is_too_cheap(said: TiedAnswer, best: Fraction, call: ExaminedCall) -> bool:
     cost = as_written(said.cost)
     if cost >= best or call.options.human_model != "omniscient":
         return cost < best
-    return (
-        decide(call.question.below(None, call.prices.units(cost)), call.effort, call.plans).settled() is None
-    )
+    question = call.question.below(None, call.prices.units(cost))
+    return decide(question, call.effort, call.plans).settled() is None

@@ -8,7 +8,6 @@ from verify.base import wording
 from verify.base.obligations import complete
 from verify.limits import limits
 from verify.rules import CLAIMS, check
-from verify.rules.claims import rule_claim
 
 
 def check_by_rules(task: Task, result: Result, deadline: Deadline) -> tuple[Claim, ...]:
@@ -58,7 +57,7 @@ def _examined(task: Task, result: Result, deadline: Deadline, original: Task) ->
 def _for_plan(task: Task, result: Result, deadline: Deadline) -> Iterator[Claim]:
     report = check(task, result, deadline)
     for name in CLAIMS:
-        claim = rule_claim(result, report, name, wording.FOLLOWED_SO_FAR)
+        claim = report.claim_of(result, name, wording.FOLLOWED_SO_FAR)
         if claim is not None:
             yield claim
         elif name == "lower_bound" and result.lower_bound is not None:

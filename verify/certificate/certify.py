@@ -41,7 +41,6 @@ from verify.programs.alone import least_alone
 from verify.programs.effort import Effort, NoProgramError
 from verify.proofs.book import ProofReader, ProofWriter
 from verify.rules import Checker, RuleReport
-from verify.rules.claims import rule_claim
 from verify.rules.header import require_same_task
 from verify.rules.nobody_pays import under_the_rule
 from verify.rules.replay import replay, replay_human
@@ -214,7 +213,7 @@ class _Certifier:
             learn(replay_human(self.task, names, self.effort.deadline))
 
     def _rule_claims(self, report: RuleReport) -> Iterator[Claim]:
-        claims = (rule_claim(self.result, report, name, wording.FOLLOWED) for name in BY_RULES)
+        claims = (report.claim_of(self.result, name, wording.FOLLOWED) for name in BY_RULES)
         yield from (claim for claim in claims if claim is not None)
         if self.result.status == "unknown" and "replay" not in report.undecided:
             yield Claim("replay", "not_in_scope", wording.NOTHING_TO_EXAMINE)

@@ -62,11 +62,9 @@ class Examiner:
 
     def _how(self, made: list[Attempt], called: list[SolverCall]) -> str:
         """What decided the questions of a claim."""
-        decided = [attempt for attempt in made if attempt.decided]
-        states = max((attempt.states for attempt in decided if attempt.name != "decoupled"), default=0)
-        words = "".join(
-            wording.APART.format(attempt.states) for attempt in decided if attempt.name == "decoupled"
-        )
+        decided = [each for each in made if each.decided]
+        states = max((each.states for each in decided if each.name != "decoupled"), default=0)
+        words = "".join(wording.APART.format(each.states) for each in decided if each.name == "decoupled")
         words += wording.SEARCHED.format(states) if states else ""
         return words or (self._solved(called) if called else wording.CLOSED)
 

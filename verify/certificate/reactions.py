@@ -9,12 +9,12 @@ worse, since robots can do the same from it, only sooner).
 
 from collections.abc import Iterable, Iterator
 
-from serendipity.model import LimitReachedError, Step, surroundings
-from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model import Step, surroundings
+from serendipity.model.errors import LIMITS
 from verify.base.execution import State, applicable, sets_beside
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE, PricedPlan
-from verify.base.undecided import during
+from verify.base.undecided import during, why
 from verify.calls.call import ExaminedCall
 from verify.certificate.simulator import MomentOfPlay, Play, ReplanningPerson
 from verify.exhaustive.without_epochs import LeastLeft
@@ -57,7 +57,7 @@ class _Reactions:
             found = self._run()
         except LIMITS as limit:
             doing = f"playing what robots can do, {len(self.known):,} states and minds so far"
-            return Minimum("undecided", reason=str(LimitReachedError(limit_reason(limit), doing)))
+            return Minimum("undecided", reason=why(limit, doing))
         decided = found.status != "undecided"
         self.call.effort.attempts.append(Attempt("played", decided, states=len(self.known)))
         return found

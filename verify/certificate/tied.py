@@ -117,12 +117,8 @@ def _savings_fault(result: Result, each: EachPlan) -> str | None:
 def _unachieved(result: Result, each: EachPlan, plans: OptimalPlans) -> str | None:
     """Why an answer that was not proved can't be had, or has other figures than what it is made of."""
     listed = tied_answers(result)
-    if (
-        not is_mean(result)
-        and result.options.ties == "expected"
-        and result.opportunity
-        and each.graph.count > 1
-    ):
+    one = not is_mean(result) and result.options.ties == "expected"
+    if one and result.opportunity and each.graph.count > 1:
         return wording.ONE_OF_SEVERAL
     found: list[AchievedFigures] = []
     for said in listed:

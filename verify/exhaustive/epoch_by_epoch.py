@@ -19,8 +19,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from serendipity.model import LimitReachedError, Step, Window
-from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model import Step, Window
+from serendipity.model.errors import LIMITS
 from serendipity.model.options import MAX_EPOCH
 from verify.base.control import ALL, INSIDE, OWN, PREFIX, SUFFIX, Control, HumanControl, Leg
 from verify.base.due import filled
@@ -28,7 +28,7 @@ from verify.base.execution import State, by_epoch, states_along
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant
 from verify.base.subproblem import EXACT, FREE, WINDOW, PricedPlan, Subproblem
-from verify.base.undecided import UndecidedError
+from verify.base.undecided import UndecidedError, why
 from verify.exhaustive.layers import EpochLayer, advance, first
 from verify.exhaustive.team import NOBODY, Bools, Steps, TeamEpochs
 from verify.exhaustive.team_problem import as_operator, team_problem
@@ -118,8 +118,7 @@ class EpochSearch:
         except SumTooLargeError:
             raise
         except LIMITS as limit:
-            doing = f"searching exhaustively, {self.states:,} states so far"
-            reason = str(LimitReachedError(limit_reason(limit), doing))
+            reason = why(limit, f"searching exhaustively, {self.states:,} states so far")
         except TooManyPackedStatesError as error:
             reason = str(error) or "there are too many states"
         bound = None if self._known is None else min(self._known, self._limit() + 1)

@@ -7,12 +7,12 @@ each other in a circle have to stay together.
 
 import numpy as np
 
-from serendipity.model import LimitReachedError, Step
-from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model import Step
+from serendipity.model.errors import LIMITS
 from verify.base.execution import State
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import PricedPlan, Subproblem, least
-from verify.base.undecided import during
+from verify.base.undecided import during, why
 from verify.exhaustive.team_problem import TeamProblem, team_problem
 from verify.packed.cheapest_path import SumTooLargeError, TooManyPackedStatesError
 from verify.packed.problem import TooLargeError
@@ -60,8 +60,7 @@ def _cheapest(question: Subproblem, team: TeamProblem) -> Minimum:
         known = int(problem.bounds(start)[0])
         search, found = problem.search(start, np.zeros(1, np.int64), below)
     except LIMITS as limit:
-        reason = str(LimitReachedError(limit_reason(limit), "searching joint plans"))
-        return Minimum("undecided", bound=known, reason=reason)
+        return Minimum("undecided", bound=known, reason=why(limit, "searching joint plans"))
     except SumTooLargeError:
         raise
     except TooManyPackedStatesError as error:

@@ -6,7 +6,7 @@ be true beside its preconditions and is not deleted.  What is not found is true 
 from one in which all pairs are found ones.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from serendipity.model import Deadline
 from verify.packed.layout import Effects
@@ -38,14 +38,10 @@ class ReachablePairs:
                 if not pre or not stale.isdisjoint(pre):
                     self._happen(pre, add, kept)
 
-    def possible(self, pre: Iterable[int]) -> bool:
+    def possible(self, facts: Collection[int]) -> bool:
         """True if some facts may be true together."""
-        wanted = _bits(pre)
-        return all(not wanted & ~self.beside[fact] for fact in pre)
-
-    def covers(self, state: Iterable[int]) -> bool:
-        """True if all facts of a state may be true together."""
-        return self.possible(tuple(state))
+        wanted = _bits(facts)
+        return all(not wanted & ~self.beside[fact] for fact in facts)
 
     def _happen(self, pre: tuple[int, ...], add: tuple[int, ...], kept: int) -> None:
         beside, wanted = -1, _bits(pre)

@@ -97,7 +97,7 @@ class PackedProblem:
 
     def pack(self, states: Sequence[frozenset[int]]) -> Words | None:
         """States as rows; None if one of them can't be reached."""
-        if not all(self._space.pairs.covers(state) for state in states):
+        if not all(self._space.pairs.possible(state) for state in states):
             return None
         return self.layout.pack(states)
 

@@ -185,11 +185,8 @@ class _Checker:
                 return Claim(
                     "lower_bound", "refuted", wording.BOUND_EXPECTED.format(float(least_sum(bounds)))
                 )
-            if (
-                bounds.lower == NOTHING
-                or board.goal.holds(board.start)
-                or board.at_least(board.start, bounds.lower)
-            ):
+            trivial = bounds.lower == NOTHING or board.goal.holds(board.start)
+            if trivial or board.at_least(board.start, bounds.lower):
                 return Claim("lower_bound", "proved", wording.TOGETHER_PAY.format(show(bounds.lower)))
         except UNDECIDED as error:
             return Claim("lower_bound", "undecided", why(error))

@@ -38,10 +38,8 @@ def combine(ties: str, values: list[Costs]) -> Costs:
     if ties == "robust":
         return max(values)
     if ties == "expected":
-        count = len(values)
-        return sum((v[0] for v in values), Fraction(0)) / count, sum(
-            (v[1] for v in values), Fraction(0)
-        ) / count
+        count, zero = len(values), Fraction(0)
+        return sum((v[0] for v in values), zero) / count, sum((v[1] for v in values), zero) / count
     return min(values)
 
 

@@ -144,11 +144,7 @@ def _better(a: PricedPlan | None, b: PricedPlan | None) -> PricedPlan | None:
 
 def _nothing_to_do(question: Subproblem) -> Minimum:
     """No epoch at all: the empty plan or none; it has no window."""
-    if (
-        not question.goal.holds(question.task.init)
-        or question.rule == WINDOW
-        or (question.most or 0) < 0
-        or (question.most_cost or 0) < 0
-    ):
+    too_much = (question.most or 0) < 0 or (question.most_cost or 0) < 0
+    if too_much or question.rule == WINDOW or not question.goal.holds(question.task.init):
         return Minimum("none")
     return Minimum("found", PricedPlan((), None, 0, 0), 0)

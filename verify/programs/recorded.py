@@ -48,7 +48,8 @@ def write(
     limit = question.most if minimum.found is None else minimum.found.objective - 1
     entry = _described(question, model)
     if cuts:
-        entry["suffixes"] = [{"epoch": xi2, "state": _names(question, state)} for xi2, state in cuts]
+        name = question.task.facts
+        entry["suffixes"] = [{"epoch": xi2, "state": [name[f] for f in sorted(s)]} for xi2, s in cuts]
     refute(writer, entry, model, limit, values, question.deadline)
 
 
@@ -186,10 +187,6 @@ def described(name: str, scale: int, model: Model, deadline: Deadline) -> Entry:
             for row, family in deadline.each(list(rows))
         ],
     }
-
-
-def _names(question: Subproblem, state: State) -> list[str]:
-    return [question.task.facts[f] for f in sorted(state)]
 
 
 def _cuts(entry: Entry, question: Subproblem) -> list[Cut]:

@@ -56,11 +56,8 @@ def objective(case: Case) -> RuleFault | None:
 def most_cost(case: Case) -> RuleFault | None:
     """No plan but ``pi_H`` costs more than ``max_cost`` (eq. 11)."""
     limit = case.result.options.max_cost
-    if (
-        case.result.plan is None
-        or limit is None
-        or (case.human_plan is not None and not case.result.opportunity)
-    ):
+    is_pi_h = case.human_plan is not None and not case.result.opportunity
+    if case.result.plan is None or limit is None or is_pi_h:
         return None
     if limit == "human":
         limit = _baseline(case)

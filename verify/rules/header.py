@@ -131,10 +131,7 @@ def infeasible(case: Case) -> RuleFault | None:
     result = case.result
     if result.status == "infeasible" and case.human_plan is not None and not case.robots_goal:
         return RuleFault("infeasible, though doing nothing is an answer: pi_H")
-    if (
-        result.status in ("optimal", "feasible")
-        and result.mode in ("individual", "serendipity")
-        and case.human_plan is None
-    ):
+    answered = result.status in ("optimal", "feasible")
+    if answered and result.mode in ("individual", "serendipity") and case.human_plan is None:
         return RuleFault(f"an answer in mode {result.mode} without pi_H")
     return None

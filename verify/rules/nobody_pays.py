@@ -188,9 +188,8 @@ def _priced_claims(
     below = as_written(result.lower_bound or 0)
     if result.status == "optimal":
         below = as_written(result.objective) + (weight if result.window is None else 0)
-    verdict = Leftovers(solved, rule.prices, weight).none_below(
-        below
-    )  # first: what examines may take its time
+    # first of all, since what examines may take its time
+    verdict = Leftovers(solved, rule.prices, weight).none_below(below)
     claims = [claim for claim in examine(bound(()), said) if claim.claim not in UNPRICED]
     told: dict[bool | None, Verdict] = {True: "proved", False: "refuted", None: "undecided"}
     asked = (name for name in needed(result) if name in UNPRICED)
@@ -216,9 +215,7 @@ def bound_task(
         kept: priced facts that are kept, too.
     """
     as_idle = {fact: rule.prices[fact][0] for fact in kept}
-    positive, negative = (
-        [fact for fact, true in as_idle.items() if true is value] for value in (True, False)
-    )
+    positive, negative = ([f for f, true in as_idle.items() if true is value] for value in (True, False))
     bound = with_goals(with_goals(task, rule.facts), Condition(tuple(positive), tuple(negative)))
     if options.noticed and plan is not None:
         bound = Noticed(bound, plan, original).task

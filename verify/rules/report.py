@@ -1,8 +1,10 @@
-"""What the rule checker reports."""
+"""What the rule checker reports, and the claims that come of it: ``check`` and ``verify`` make them alike."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
+
+from serendipity.model import Claim, Result
 
 CLAIMS: Final = ("replay", "cost", "window", "lower_bound")
 """The claims of a certificate that need no solver, in the order in which they are checked."""
@@ -64,3 +66,20 @@ class RuleReport:
     def of(self, claim: str) -> Violation | None:
         """The violation that refutes a claim, or None."""
         return next((found for found in self.violations if found.claim == claim), None)
+
+    def claim_of(self, result: Result, name: str, followed: Mapping[str, str]) -> Claim | None:
+        """One claim as far as rules decide it; None where they say nothing of it.
+
+        Args:
+            followed: what is said of claims that following the rules proves, where there is a plan.
+        """
+        violation = self.of(name)
+        if violation is not None:
+            return Claim(name, "refuted", str(violation), seconds=self.seconds)
+        if name in self.unchecked:
+            return Claim(name, "not_in_scope", self.unchecked[name])
+        if name in self.undecided and (name == "replay" or result.plan is not None):
+            return Claim(name, "undecided", self.undecided[name], seconds=self.seconds)
+        if name in followed and result.plan is not None:
+            return Claim(name, "proved", followed[name], seconds=self.seconds)
+        return None

@@ -163,9 +163,8 @@ def _follows(case: Case, *, last: int) -> RuleFault | None:
             continue  # the rule on joint actions names it
         if done != planned:
             expected = "nothing" if planned is None else f"'{case.name(planned)}'"
-            return RuleFault(
-                f"the human should do {expected}", epoch, "noop" if done is None else case.name(done)
-            )
+            did = "noop" if done is None else case.name(done)
+            return RuleFault(f"the human should do {expected}", epoch, did)
     return None
 
 

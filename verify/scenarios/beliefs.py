@@ -46,16 +46,12 @@ def compiled(
         for at in steps:
             pre, add, delete = (*action.pre, at), (*action.add, at + 1), (*action.delete, at)
             actions.append(replace(action, pre=pre, add=add, delete=delete))
-    wanted = (
-        Condition((*goal.positive, last), goal.negative)
-        if embed
-        else Condition(goal.positive, (*goal.negative, last))
-    )
+    positive, negative = ((last,), ()) if embed else ((), (last,))
     return replace(
         task,
         facts=(*task.facts, *(f"matched {k}" for k in range(len(observed) + 1))),
         init=task.init | {first},
-        goal=wanted,
+        goal=Condition((*goal.positive, *positive), (*goal.negative, *negative)),
         robot_goal=Condition(),
         actions=tuple(actions),
     )

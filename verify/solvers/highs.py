@@ -29,9 +29,8 @@ def minimise(model: Model, deadline: Deadline) -> SolverAnswer:
         left, seconds = deadline.left(), limits().solver_seconds
         short = left is not None and left < 4 * seconds  # too short for trying both
         end = _end(deadline) if short else time() + seconds
-        answer = SolverAnswer(
-            **worker.minimise(program, end, presolve=False)
-        )  # nothing to trust but the solver
+        # without a presolve there is nothing to trust but the solver
+        answer = SolverAnswer(**worker.minimise(program, end, presolve=False))
         if short or answer.status != "time-limit":
             return answer
     return _apart(program, deadline, presolve=model.presolve)

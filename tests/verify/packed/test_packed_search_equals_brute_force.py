@@ -82,7 +82,7 @@ def agree(task: Task) -> None:
     states = reached(task)
     expected = distances(task, states)
     pairs = ReachablePairs(len(task.facts), task.init, task.actions, Deadline())
-    assert all(pairs.covers(state) for state in states)
+    assert all(pairs.possible(state) for state in states)
     problem = team_problem(task)
     rows = problem.pack(states)
     assert rows is not None

@@ -108,9 +108,8 @@ def play(
         expected = game.looked(now)
         if len(deeds) >= last and before[:2] == (now.state, expected) and not deed.executed:
             break  # nothing will ever change again
-    cost = sum(
-        (price(task, task.actions[i], options.discount) for d in deeds for i in d.executed), Fraction(0)
-    )
+    done = (i for deed in deeds for i in deed.executed)
+    cost = sum((price(task, task.actions[i], options.discount) for i in done), Fraction(0))
     return PlayedOut(tuple(deeds), game.done(now.state), cost)
 
 

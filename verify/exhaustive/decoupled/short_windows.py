@@ -14,12 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from serendipity.model import Deadline, LimitReachedError
-from serendipity.model.errors import LIMITS, limit_reason
+from serendipity.model import Deadline
+from serendipity.model.errors import LIMITS
 from verify.base.execution import conflicting, states_along
 from verify.base.relevance import Relevant, closure, relevant_part
 from verify.base.subproblem import Subproblem
-from verify.base.undecided import during
+from verify.base.undecided import during, why
 from verify.exhaustive.decoupled.leavings import differences, together
 from verify.exhaustive.decoupled.timeline import RobotTimeline, parts
 from verify.exhaustive.team_problem import as_operator, team_space
@@ -58,8 +58,7 @@ def no_short_window(question: Subproblem) -> Minimum:
         with during("looking at robots one by one"):
             reason = search.run()
     except LIMITS as limit:
-        doing = limit.doing if isinstance(limit, LimitReachedError) else None
-        reason = str(LimitReachedError(limit_reason(limit), doing))
+        reason = why(limit)
     except (TooManyPackedStatesError, TooLargeError):
         reason = "robots one by one have too many states, or costs too large to be added up in machine words"
     return Minimum("undecided" if reason else "none", reason=reason, states=search.states)

@@ -152,9 +152,8 @@ class RobotTimeline:
         for number in numbers:
             own = task.actions[self.part.actions[number]]
             in_the_way[number] = conflicting(own, human, strict=strict)
-            apart = (
-                apart and not in_the_way[number] and not _looks_at(own, human) and not _looks_at(human, own)
-            )
+            looks = _looks_at(own, human) or _looks_at(human, own)
+            apart = apart and not in_the_way[number] and not looks
         return in_the_way, apart
 
     def _moved(self, layer: RowLayer, allowed: Bools | None) -> RowLayer:

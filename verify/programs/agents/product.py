@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
-from serendipity.model import Deadline, GroundAction, Task
+from serendipity.model import Deadline, Task
 from verify.base.relevance import Relevant
 from verify.limits import limits
 
@@ -76,10 +76,7 @@ def automata(
     most = max(limits().automaton_states, limits().states_a_value * largest)
     for agent in range(len(task.agents)):
         mine = frozenset(f for f, a in deadline.each(owner.items()) if a == agent)
-        actions = {
-            i: task.actions[i] for i in deadline.each(part.actions) if agent in task.actions[i].participants
-        }
-        result.append(_Explorer(task, part, agent, actions, most, deadline).largest(mine, units))
+        result.append(_Explorer(task, part, agent, most, deadline).largest(mine, units))
     return tuple(result)
 
 
@@ -135,12 +132,10 @@ class SmallAutomata:
 
     def _small(self, part: Relevant, agent: int, others: tuple[int, ...]) -> Automaton:
         task, facts = self._task, self._group[agent]
-        each = self._deadline.each
-        actions = {i: task.actions[i] for i in each(part.actions) if agent in task.actions[i].participants}
         goals = (*task.goal.positive, *task.goal.negative)
         goal = [f for f in goals if f in self._mine[agent] and f not in facts]
         most = max(limits().automaton_states, _SMALL * len(facts))
-        explorer = _Explorer(task, part, agent, actions, most, self._deadline)
+        explorer = _Explorer(task, part, agent, most, self._deadline)
         found = (
             explorer.explore(facts.union(goal[:1], others))
             or explorer.explore(facts)
@@ -153,19 +148,12 @@ class SmallAutomata:
 class _Explorer:
     """Makes automata of one agent."""
 
-    def __init__(
-        self,
-        task: Task,
-        part: Relevant,
-        agent: int,
-        actions: Mapping[int, GroundAction],
-        most: int,
-        deadline: Deadline,
-    ) -> None:
+    def __init__(self, task: Task, part: Relevant, agent: int, most: int, deadline: Deadline) -> None:
         self._task = task
         self._part = part
         self._agent = agent
-        self._actions = actions
+        actions = ((i, task.actions[i]) for i in deadline.each(part.actions))
+        self._actions = {i: action for i, action in actions if agent in action.participants}
         self._most = most
         self._deadline = deadline
 

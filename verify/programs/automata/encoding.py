@@ -23,27 +23,6 @@ from verify.programs.promising import TeamMoves, keep_promising
 from verify.solvers.mip import Model
 
 
-def bound_suffix(program: NetworkProgram, xi2: int, state: frozenset[int], least: int | None) -> None:
-    """A suffix from ``state`` at ``xi2`` weighs at least ``least``; with None there is none.
-
-    The condition is a sum of literals that is 0 exactly in that case and at most -1 else.
-    """
-    literals, constant = _suffix_starts(program, xi2, state)
-    for f in program.deadline.each(
-        sorted(program.setting.part.facts - program.setting.human.automaton.facts)
-    ):
-        terms, fixed = program.facts.truth(f, xi2 - 1)
-        sign = 1 if f in state else -1
-        literals = plus(literals, terms, sign)
-        constant += fixed - 1 if f in state else -fixed
-    program.model.family = "Def. 2.0a"
-    if least is None:
-        program.model.add(literals, "<=", -1 - constant)
-    else:
-        scaled = {x: -least * c for x, c in literals.items()}
-        program.model.add(plus(scaled, _suffix_weights(program)), ">=", least * (constant + 1))
-
-
 def _suffix_starts(program: NetworkProgram, xi2: int, state: frozenset[int]) -> tuple[dict[int, int], int]:
     """Minus 1 unless the suffix starts at ``xi2`` with the human's private facts as in ``state``."""
     network = program.setting.human
@@ -58,11 +37,10 @@ def _suffix_starts(program: NetworkProgram, xi2: int, state: frozenset[int]) -> 
 
 def _suffix_weights(program: NetworkProgram) -> dict[int, int]:
     weights: dict[int, int] = {}
-    for layer, columns in zip(
-        program.setting.human.layers, program.flows.columns[program.task.human], strict=True
-    ):
+    human, all_columns = program.setting.human, program.flows.columns[program.task.human]
+    for layer, columns in zip(human.layers, all_columns, strict=True):
         for (_, target, _, weight, _), x in zip(program.deadline.each(layer), columns, strict=True):
-            if weight and program.setting.human.controls[target][0] == SUFFIX:
+            if weight and human.controls[target][0] == SUFFIX:
                 weights[x] = weight
     return weights
 
@@ -112,9 +90,8 @@ class AutomataEncoding:
             return
         with during("building the agents' networks"):
             setting = self._setting(part, machines, expected)
-        with during(
-            f"{'pruning' if pruned else 'unrolling'} the agents' automata over {question.horizon} epochs"
-        ):
+        doing = "pruning" if pruned else "unrolling"
+        with during(f"{doing} the agents' automata over {question.horizon} epochs"):
             if prune(setting) if pruned and uses("arc-pruning") else unroll(setting):
                 self.setting = setting
 
@@ -164,8 +141,22 @@ class AutomataEncoding:
         return steps, window
 
     def bound_suffix(self, xi2: int, state: frozenset[int], least: int | None) -> None:
-        """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none."""
-        bound_suffix(self.program, xi2, state, least)
+        """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none.
+
+        The condition is a sum of literals that is 0 exactly in that case and at most -1 else.
+        """
+        program, part = self.program, self.program.setting.part
+        literals, constant = _suffix_starts(program, xi2, state)
+        for f in program.deadline.each(sorted(part.facts - program.setting.human.automaton.facts)):
+            terms, fixed = program.facts.truth(f, xi2 - 1)
+            literals = plus(literals, terms, 1 if f in state else -1)
+            constant += fixed - 1 if f in state else -fixed
+        program.model.family = "Def. 2.0a"
+        if least is None:
+            program.model.add(literals, "<=", -1 - constant)
+        else:
+            scaled = {x: -least * c for x, c in literals.items()}
+            program.model.add(plus(scaled, _suffix_weights(program)), ">=", least * (constant + 1))
 
     def needs_whole_state(self, part: Relevant) -> bool:
         """Whether a suffix may turn out not to be the human's optimal plan, or that plan not to fit.
@@ -259,13 +250,7 @@ class AutomataEncoding:
         """Whether an agent's flow goes on to the end, since its state may count there."""
         if machine.agent == self.question.task.human or self._whole or self.question.task.due:
             return True
-        return self._watched(part, machine, wanted)
-
-    def _watched(self, part: Relevant, machine: Automaton, wanted: frozenset[int]) -> bool:
-        """Whether anybody else looks at a robot's private facts: then they count to the end."""
-        if not machine.facts.isdisjoint(wanted):
-            return True
-        return any(
+        return not machine.facts.isdisjoint(wanted) or any(  # whether anybody else looks at its private facts
             not machine.facts.isdisjoint((*part.pre[i], *part.neg[i]))
             for i in self.deadline.each(part.actions)
             if machine.agent not in self.question.task.actions[i].participants

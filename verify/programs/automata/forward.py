@@ -54,9 +54,8 @@ class Forward:
             candidates = [self._candidates(k, epoch, fresh=fresh) for k in range(len(setting.networks))]
             blocked = self._one_sided(candidates)
             for k, arcs in enumerate(candidates):
-                self._advance(
-                    k, epoch, [arc for arc in arcs if arc[ACTION] not in blocked] if blocked else arcs
-                )
+                kept = [arc for arc in arcs if arc[ACTION] not in blocked] if blocked else arcs
+                self._advance(k, epoch, kept)
             self._learn(epoch)
 
     def _candidates(self, k: int, epoch: int, *, fresh: bool) -> list[Arc]:

@@ -30,7 +30,7 @@ class NetworkProgram:
         *,
         complete: bool,
     ) -> None:
-        """With ``complete`` every relevant fact is represented, as ``suffixes.bound_suffix`` needs."""
+        """With ``complete`` every relevant fact is represented, as bounds on suffixes need."""
         self.question = question
         self.setting = setting
         self.task = setting.task

@@ -163,9 +163,8 @@ class _Through:
         self.cheapest = min(totals, default=self.far)
         least: dict[tuple[int, frozenset[int]], int] = {}
         active, in_suffix = self.far, self.setting.human.in_suffix
-        for (_, target, action, _, needs), total in self.setting.deadline.each(
-            zip(kept, totals, strict=True)
-        ):
+        pairs = zip(kept, totals, strict=True)
+        for (_, target, action, _, needs), total in self.setting.deadline.each(pairs):
             if total < least.get((action, needs), self.far):
                 least[action, needs] = total
             if total < active and not in_suffix(target):

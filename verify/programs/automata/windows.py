@@ -6,9 +6,8 @@ a joint action is done no further from such a state than a window is long, and n
 has to be there by then.
 """
 
-from serendipity.model import Task
 from verify.base.subproblem import WINDOW, Subproblem
-from verify.programs.agents.product import Automaton, Move
+from verify.programs.agents.product import Automaton
 from verify.programs.promising import Windows
 
 
@@ -27,7 +26,7 @@ def keep_within_windows(question: Subproblem, machine: Automaton) -> Windows | N
     windows = _windows(question, machine, longest)
     task, each = question.task, question.deadline.each
     machine.moves = [
-        moves if state in windows.last else [move for move in moves if not _is_joint(task, move)]
+        moves if state in windows.last else [move for move in moves if not task.actions[move[0]].joint]
         for state, moves in enumerate(each(machine.moves))
     ]
     return windows
@@ -84,7 +83,3 @@ def _prefixes(
         paid.append(here)
         layer = after
     return paid, planned
-
-
-def _is_joint(task: Task, move: Move) -> bool:
-    return len(task.actions[move[0]].participants) > 1
