@@ -99,11 +99,7 @@ class FirstInteractionOnTheWay:
     """
 
     def __init__(
-        self,
-        openings: PrefixBounds,
-        spent: Sequence[int],
-        needs: dict[int, Provided | None],
-        outside: int,
+        self, openings: PrefixBounds, spent: Sequence[int], needs: dict[int, Provided | None], outside: int
     ) -> None:
         self._openings = openings
         self._spent = spent

@@ -36,7 +36,6 @@ class TaskTables:
         human: what the human can do alone, where it is not to be found from the packed task.
 
     Attributes:
-        packed: the packed task.
         scaling: its costs as integers, by options.
         human: what the human can do alone.
         positions: the place of each robot, and what moves it.
@@ -80,7 +79,6 @@ class PreparedTask:
     """A task with its packings, and their tables.
 
     Attributes:
-        task: the task.
         plain: packed are the facts that matter to the goals.
         with_human_facts: also packed is every fact of the human's own domain (semantics 3.3).
         with_diversions: also packed is what a human who replans may be kept busy with (semantics 6).

@@ -70,9 +70,6 @@ def with_memory(call: Callable[[int], int], wanted: Callable[[], int], deadline:
 class ClassicalPlanner:
     """The kernel on one problem, with all that it has learnt.
 
-    Args:
-        deadline: asked for memory.
-
     Attributes:
         problem: what it is about.
         told: the same, as the kernel is told of it.

@@ -22,7 +22,6 @@ class _Rest(NamedTuple):
 
     Attributes:
         begun: the first action of ``pi_H`` that is left.
-        state: the packed state.
         left: how many epochs are left.
         skips: whether actions may be left out.
     """

@@ -20,7 +20,6 @@ class Replan:
             affect that goal.
         robot_goal: the robots' goal.
         at_rest: what holds where no robot is at anything.
-        keys: layout of keys.
     """
 
     alone: IndividualPlanner
@@ -68,7 +67,6 @@ class Lasting:
         replan: the rule without time.
         goals: what holds in the end.
         due: what happens anyway.
-        packed: the packed task.
     """
 
     replan: Replan

@@ -106,11 +106,7 @@ class OwnPlanner:
 
 
 def alone_planner(packed: PackedTask, goal: PackedGoal, deadline: Deadline) -> OwnPlanner | None:
-    """The human alone, by the kernel; None without one that could.
-
-    Args:
-        deadline: asked for memory.
-    """
+    """The human alone, by the kernel; None without one that could."""
     kernel, costs = library(), own_costs(packed)
     if kernel is None:
         return None

@@ -49,7 +49,6 @@ class Interruptions:
 
     Attributes:
         human_plan: ``pi_H``.
-        horizon: ``T``.
         baseline: what doing nothing for the human costs the team, or None if that is
             impossible (robots that can't reach their own goal).
         windows: all of them, examined when they are asked for: the largest first, for its plans
@@ -157,7 +156,6 @@ def _ordered(starts: int, horizon: int) -> Iterator[Window]:
 
     Args:
         starts: length of ``pi_H``, at least 1: a window begins no later.
-        horizon: ``T``.
     """
     last = horizon + 1
     yield Window(1, last)

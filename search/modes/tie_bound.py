@@ -42,10 +42,7 @@ def least_over_ties(
     except LIMITS:
         return None
     told = Options(
-        mode="communication",
-        discount=options.discount,
-        horizon=horizon,
-        interference=options.interference,
+        mode="communication", discount=options.discount, horizon=horizon, interference=options.interference
     )
     *_, outcome = solve(prepared, told, deadline=deadline)
     return outcome.cost if outcome.status == "optimal" else None

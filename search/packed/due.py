@@ -15,7 +15,6 @@ class Due:
 
     Args:
         weight: key increment of an op.
-        strict: strict interference (semantics 2).
     """
 
     def __init__(self, packed: PackedTask, weight: Callable[[Operator], int], *, strict: bool) -> None:

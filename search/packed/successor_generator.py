@@ -28,10 +28,7 @@ class Lookup:
     """Weighted ops of one leader; what a value of the index allows is put together once."""
 
     def __init__(
-        self,
-        index: OperatorIndex[Operator],
-        weight: Callable[[Operator], int],
-        barred: Collection[int] = (),
+        self, index: OperatorIndex[Operator], weight: Callable[[Operator], int], barred: Collection[int] = ()
     ) -> None:
         self._index = index
         self._field = index.field
@@ -64,7 +61,6 @@ class Successors:
     Args:
         weight: key increment of an op.
         deadline: polled while sets of several robots' actions are put together, which can be many.
-        strict: strict interference (semantics 2).
         idle: robots do nothing.
         barred: ids of actions of robots, alone or with the human, that nobody may do.
 

@@ -284,7 +284,6 @@ class DecoupledSuccessors(Successors):
         weight: key increment of an op.
         price: of a walk, by its cost (in the unit of :func:`.own_costs`) and its number of ops.
         deadline: polled while deeds are looked for.
-        strict: strict interference (semantics 2).
     """
 
     def __init__(

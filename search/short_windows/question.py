@@ -18,7 +18,6 @@ class ShortWindowQuestion:
     Attributes:
         context: of the call.
         plan: ``pi_H``.
-        horizon: ``T``.
         best: the call's incumbent, which is made better.
     """
 

@@ -33,13 +33,7 @@ from serendipity.model.task.task import HumanPlan
 
 
 def window_space(
-    context: SearchContext,
-    plan: HumanPlan,
-    horizon: int,
-    most_cost: int | None,
-    limit: int,
-    *,
-    idle: bool,
+    context: SearchContext, plan: HumanPlan, horizon: int, most_cost: int | None, limit: int, *, idle: bool
 ) -> Windowed:
     """The space of plans with a window.
 

@@ -22,7 +22,6 @@ class Weighed:
 
     Args:
         plan: ``pi_H``.
-        horizon: ``T``.
         weight: key increment of an op.
         robots: the same for a robots' op by the index of its cost.
         limit: key that a plan has to beat.

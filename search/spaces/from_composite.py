@@ -18,7 +18,6 @@ class Suggestions:
     Args:
         context: of the call; nothing is announced, and ``pi_H`` need not be kept to out of order.
         plan: ``pi_H``; empty where there is none.
-        horizon: ``T``.
         most_cost: largest scaled cost of an acceptable plan, or None.
         limit: key that they have to beat.
     """

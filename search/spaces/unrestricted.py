@@ -24,7 +24,6 @@ class Unrestricted:
         horizon: number of epochs ``T``, or None for any.
         most_cost: largest scaled cost of an acceptable plan, or None.
         goals: what has to hold at the end.
-        keys: layout of keys.
         successors: what agents can do in an epoch.
         bounds: lower bounds on what still has to be paid.
         labels: which nodes make others superfluous.

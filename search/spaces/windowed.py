@@ -70,8 +70,6 @@ class PrivateRest:
     Attributes:
         last: the last epoch in which a window may open.
         bound: their private distances to the goal.
-        keys: layout of keys.
-        horizon: number of epochs.
     """
 
     last: int
@@ -115,11 +113,9 @@ class Windowed:
     Attributes:
         initial: packed initial state.
         idle: per slot 0 where robots' walks are folded, else empty.
-        horizon: number of epochs ``T``.
         last: the last epoch in which a window may open (``xi1 <= |pi_H|``).
         max_window: most epochs of a window.
         most_cost: largest scaled cost of an acceptable plan, or None.
-        keys: layout of keys.
         successors: what agents can do in an epoch.
         bounds: lower bounds on what still has to be paid.
         prefix: rule 1.

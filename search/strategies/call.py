@@ -113,7 +113,6 @@ class Call:
 
         Raises:
             UsageError: the horizon is shorter than ``pi_H``, or one is missing.
-            LimitReachedError: the deadline came.
         """
         self.plan, self.is_planned = plan, True
         horizon = self.horizon

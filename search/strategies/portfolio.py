@@ -153,10 +153,8 @@ def best_plan(
     """A call at its end: its best plan counts, be it an opportunity or not; None where it could not begin.
 
     Args:
-        prepared: the task.
         options: options in force.
         human_plan: ``pi_H``, which works.
-        deadline: deadline and cancellation.
         turns: those that may be taken; of these, those that the options name.
     """
     try:

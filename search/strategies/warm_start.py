@@ -52,11 +52,7 @@ class WarmStart:
 
 
 def replayed(
-    context: SearchContext,
-    plan: HumanPlan,
-    horizon: int | None,
-    most_cost: int | None,
-    warm: WarmStart,
+    context: SearchContext, plan: HumanPlan, horizon: int | None, most_cost: int | None, warm: WarmStart
 ) -> Incumbent | None:
     """The known plan as an incumbent, by the rules of the call; None where it breaks one of them.
 

@@ -97,7 +97,6 @@ class Explainer:
 
         Args:
             observed: names of actions, in the order in which the human did them.
-            deadline: deadline and cancellation.
             canonical: whether plans have to be the canonical ones; any others take less time.
         """
         deadline, names = deadline or Deadline(), tuple(observed)

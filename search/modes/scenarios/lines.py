@@ -254,8 +254,6 @@ class Question(NamedTuple):
         members: all scenarios, before the first epoch.
         acting: what agents can do.
         measure: of worths.
-        horizon: ``T``.
-        deadline: polled.
     """
 
     lines: Sequence[Line]

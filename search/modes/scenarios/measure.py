@@ -23,7 +23,6 @@ class Tail(NamedTuple):
     """A suffix, by the state that it begins in.
 
     Attributes:
-        state: packed.
         left: how many epochs are left then.
         start: ``xi1`` of the window before it.
         done: how many of its actions are done.
@@ -40,7 +39,6 @@ class Member(NamedTuple):
 
     Attributes:
         scenario: its number.
-        state: packed.
         phase: of its window.
         start: ``xi1``, where that still matters, else 0.
         tail: the suffix, once it has begun; None before.

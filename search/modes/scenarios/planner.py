@@ -59,7 +59,6 @@ def solve_scenarios(
         prepared: the task; its own goals play no part.
         options: mode ``serendipity``; ``horizon`` None means the length of the longest plan.
         candidates: at least one; weights add up to 1.
-        deadline: deadline and cancellation.
 
     Raises:
         UsageError: the horizon is shorter than the longest plan.

@@ -68,7 +68,6 @@ class Scenario:
         plain: the task with the goal, packed by itself.
         context: of the call, packed like those of the other scenarios.
         plan: the human's.
-        horizon: ``T``.
     """
 
     plain: PreparedTask
@@ -194,11 +193,7 @@ class Certain:
         return self._due.pending(state) + sum(part.weight for _, part in self.steps[epoch:])
 
     def idle(self, deadline: Deadline) -> int:
-        """What the scenario is worth with idle robots; the human may do better than their plan alone.
-
-        Raises:
-            LimitReachedError: the deadline came first.
-        """
+        """What the scenario is worth with idle robots; the human may do better than their plan alone."""
         scenario, alone = self._scenario, self.alone(self._packed.init, 0)
         optimum = scenario.context.alone.key(self._packed.init)
         if scenario.context.keys.cost(optimum) >= scenario.context.task.cost_of(scenario.plan):

@@ -54,7 +54,6 @@ class HumanInTime(Human):
     """One human who sees everything, in a task of single epochs.
 
     Args:
-        prepared: the task.
         options: discount, weights, and the head start, in which they are not up.
         actions: ids of actions that will be asked about, beyond the useful ones.
     """

@@ -48,7 +48,6 @@ class Epochs:
         after: what follows; asked for bounds.
         lost: by field and value 1 where nothing can follow from it.
         unit: what a unit of its costs is in amounts.
-        deadline: polled, and asked for memory.
 
     Attributes:
         is_hopeless: whether a state has more sets than are gone through.
@@ -101,7 +100,6 @@ class Epochs:
         Args:
             limit: amount from which on nothing is of interest.
             most: states.
-            deadline: polled, and asked for memory.
 
         Returns:
             Whether the states are no more than that; if they are, the same call goes on.
