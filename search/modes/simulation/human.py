@@ -160,7 +160,8 @@ class Human:
 
     def accepts(self, joint: Operator, belief: int, best: int | None) -> bool:
         """Step 2: whether the human takes part, ``best`` being their cost alone now."""
-        if not applicable(joint, belief):
+        after = self.after(joint, belief)
+        if after is None:
             return False
         if best is None:
             return True  # anything may be worth more than no plan at all
@@ -168,7 +169,11 @@ class Human:
         if left < 0:
             return False
         limit = self.key_of(left + 1)
-        return self.alone.key(belief & joint.keep | joint.put, limit) < limit
+        return self.alone.key(after, limit) < limit
+
+    def after(self, joint: Operator, belief: int) -> int | None:
+        """What they believe after an epoch in which a joint action begins; None where it can't."""
+        return belief & joint.keep | joint.put if applicable(joint, belief) else None
 
     def stuck(self, state: int) -> bool:
         """Whether the human has no plan alone from a packed state, as it truly is."""

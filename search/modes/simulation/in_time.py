@@ -62,7 +62,7 @@ class HumanInTime(Human):
         self, prepared: PreparedTask, options: Options, deadline: Deadline, actions: Collection[int] = ()
     ) -> None:
         super().__init__(prepared, options, deadline, human_model="observant", actions=actions)
-        self._due = self.context.successors().due
+        self._due = Due(self.packed, self.weights.team, strict=options.strict)
         self.alone = BesideOthers(self, self.alone, self._due, options)
         self.concern = self.packed.all_ones
 
@@ -94,18 +94,6 @@ class HumanInTime(Human):
             own = intention.op is not None and intention.op.action == part.actions[0]
             yield HumanStep(part, state, intention.rest if own else intention, False)
 
-    def joins(self, joint: Operator, belief: int, look: Glance) -> HumanStep:
-        """See :class:`.Human`."""
-        return HumanStep(as_option(joint, self.weights.team(joint)), belief, look.intention, False)
-
-    def accepts(self, joint: Operator, belief: int, best: int | None) -> bool:
-        """See :class:`.Human`."""
-        option = as_option(joint, self.weights.team(joint))
-        after = self._due.after(belief, (option,)) if applicable(joint, belief) else None
-        if after is None:
-            return False
-        if best is None:
-            return True
-        left = best - self.keys.scaled_cost(self.weights.human[joint.cost])
-        limit = self.key_of(left + 1)
-        return left >= 0 and self.alone.key(after, limit) < limit
+    def after(self, joint: Operator, belief: int) -> int | None:
+        """See :class:`.Human`; others go on meanwhile, and the script does."""
+        return self._due.after(belief, (as_option(joint, 0),)) if applicable(joint, belief) else None
