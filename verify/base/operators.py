@@ -59,10 +59,13 @@ class OwnActions:
             action = task.actions[i]
             facts.update(action.pre, action.neg)
             denominators.add(action.cost.denominator)
+        self._unchosen = unchosen(task)
+        for i in self._unchosen:  # with others, too
+            if task.human in task.actions[i].participants:
+                denominators.add(task.actions[i].cost.denominator)
         self.facts = frozenset(facts)
         self.bits = FactBits(facts)
         self.goal = BitCondition(self.bits.of(task.goal.positive), self.bits.of(task.goal.negative))
-        self._unchosen = unchosen(task)
         self._epoch, longest = (_EPOCH, _EPOCH) if self._unchosen else (0, _LONGEST)
         self._least_cost = longest * (self._epoch or 1)
         self._unit = lcm(*denominators) * self._least_cost

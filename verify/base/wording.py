@@ -42,7 +42,7 @@ NEEDS_MORE_THAN_A_WALK: Final = (
     "not examined: it takes more than a walk through the policy; verify looks at it"
 )
 NOT_IN_TIME: Final = (
-    "not examined in time: actions observed, suffixes of pi_H over scenarios, humans who replan, preserved "
+    "not examined in time: actions observed, suffixes of pi_H over scenarios, local people, preserved "
     "states, ties beside a script"
 )
 NOTHING_TO_EXAMINE: Final = "there is no answer to examine"

@@ -76,13 +76,15 @@ def knows(options: Options) -> bool:
 def _is_known(task: Task, result: Result) -> bool:
     """Whether such a result is examined in time; over ties only where all optimal plans begin at once."""
     options = result.options
-    if not knows(options):
+    if not knows(options) or options.human_model == "local":
         return False
     if result.recognition is not None and result.recognition.observed:
         return False
     if not is_tied(result):
         kind = kind_of(result)
-        return kind == "a plan" or (kind == "a plan for each scenario" and options.suffix == "replan")
+        return kind in ("a plan", "a plan for a human who replans") or (
+            kind == "a plan for each scenario" and options.suffix == "replan"
+        )
     waits = bool(task.script) or options.head_start > 0 or options.human_model != "omniscient"
     return not waits and all(tied.plan is None for tied in result.ties or ())
 
@@ -266,9 +268,13 @@ class SingleEpochs:
         return any(task.human in task.actions[i].participants for i in chosen)
 
     def _goes_on(self, epoch: int, last: int | None, state: State) -> bool:
-        """Whether something may still happen by itself; without ``T`` a plan ends once goals are reached."""
-        task = self.task
-        if last is None or self._result.mode == "individual":
+        """Whether something may still happen by itself.
+
+        Without ``T``, and beside who replans, a plan ends once goals are reached.
+        """
+        task, options = self.task, self._result.options
+        replans = options.human_model != "omniscient" and epoch >= options.head_start
+        if last is None or replans or self._result.mode == "individual":
             theirs = self._result.mode == "individual" or task.robot_goal.holds(state)
             if task.goal.holds(state) and theirs and state.issuperset(task.at_rest):
                 return False

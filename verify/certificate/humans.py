@@ -154,6 +154,6 @@ def _idle_cost(call: ExaminedCall) -> int | None:
         (),
         human_model=call.options.human_model,
         horizon=horizon if isinstance(horizon, int) else None,
-        person=ReplanningPerson(call.task, call.plans),
+        person=ReplanningPerson(call.task, call.plans, strict=call.options.strict),
     )
     return call.prices.units(played.cost) if played.goals_hold else None

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from serendipity.model import Step, surroundings
 from serendipity.model.errors import LIMITS
-from verify.base.execution import State, applicable, sets_beside
+from verify.base.execution import State, applicable, sets_beside, unchosen
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE, PricedPlan
 from verify.base.undecided import during, why
@@ -40,15 +40,16 @@ class _Reactions:
         self.deadline = call.effort.deadline
         tick = self.deadline.tick
         sees = surroundings(task, tick).visible if options.human_model == "local" else None
-        self.game = Play(task, options, ReplanningPerson(task, call.plans), sees)
+        self.game = Play(task, options, ReplanningPerson(task, call.plans, strict=options.strict), sees)
         self.left = left
         self.most = min((limit for limit in limits if limit is not None), default=None)
         self.may_block = options.no_block is False
         self.known: dict[MomentOfPlay, int] = {}
         self.before: dict[tuple[int, MomentOfPlay], tuple[MomentOfPlay, tuple[int, ...]]] = {}
         self.offered: dict[int, list[int]] = {}
+        going_on = unchosen(task)
         for i, action in enumerate(self.deadline.each(task.actions)):
-            if action.participants != (task.human,):
+            if i not in going_on and action.participants != (task.human,):
                 self.offered.setdefault(min(action.pre, default=-1), []).append(i)
 
     def run(self) -> Minimum:
@@ -64,7 +65,7 @@ class _Reactions:
 
     def _run(self) -> Minimum:
         start = self.game.start(self.call.human_plan or ())
-        if self.game.done(start.state):
+        if self.game.done(start):
             affordable = self.most is None or self.most >= 0
             return Minimum("found", PricedPlan((), None, 0, 0), 0) if affordable else Minimum("none")
         self.known[start] = 0
@@ -76,7 +77,7 @@ class _Reactions:
                 if len(self.known) > limits().moments:
                     return Minimum("undecided", best, reason=f"more than {limits().moments} states and minds")
                 for after, total in self._play(epoch, now, spent):
-                    if self.game.done(after.state):
+                    if self.game.done(after):
                         best, self.most = self._found(epoch, after, total), total - 1
                     else:
                         self.known[after] = total

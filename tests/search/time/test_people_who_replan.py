@@ -1,10 +1,14 @@
 """Plans beside somebody observant where actions take time: those of brute force, and they happen."""
 
+from typing import Any
+
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import serendipity
+from search.modes.simulation.human import Human
+from search.modes.simulation.in_time import BesideOthers, HumanInTime
 from serendipity.model import Options, PlanError, Result, Task, TimedPlan, UsageError
 from serendipity.testing.builders import task
 from serendipity.testing.generator.calls import PlanCall
@@ -15,6 +19,10 @@ from serendipity.testing.oracle.reactions import best_reaction
 _KEPT = ("discount", "interference", "head_start")
 
 SEEDS = st.integers(0, 10**6)
+
+
+def _blind(person: BesideOthers, state: int, limit: int = 0) -> int:
+    return person._later._least_from(state & person._later.mask)
 
 
 def observed(call: PlanCall, **more: object) -> tuple[Result, Options]:
@@ -56,6 +64,39 @@ def test_what_is_planned_happens(seed: int) -> None:
     found, _ = observed(call)
     if found.status == "optimal":
         assert serendipity.simulate(call.task, found).realised
+    assert serendipity.verify(call.task, found).verdict == "proved"
+
+
+@pytest.mark.parametrize(
+    ("name", "owner", "method", "bug", "seed"),
+    [
+        ("nobody does anything with robots", Human, "accepts", lambda *_: False, 0),
+        ("they look up before they are up", HumanInTime, "attends_to_nothing", lambda *_: False, 26),
+        ("they see nothing that robots are at", BesideOthers, "_least_from", _blind, 55),
+    ],
+)
+def test_who_forgets_what_the_human_knows_is_refuted(
+    name: str, owner: type, method: str, bug: Any, seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    call = random_call_in_time(seed)
+    monkeypatch.setattr(owner, method, bug)
+    wrong, _ = observed(call)
+    monkeypatch.undo()
+    right, _ = observed(call)
+    verdicts = [serendipity.verify(call.task, found).verdict for found in (wrong, right)]
+    assert verdicts == ["refuted", "proved"], name
+
+
+def test_a_joint_action_is_proved_while_the_script_goes_on() -> None:
+    call = random_call_in_time(1396)
+    found, _ = observed(call)
+    assert (found.cost, serendipity.verify(call.task, found).verdict) == (0.1, "proved")
+
+
+def test_an_answer_ends_before_the_script_undoes_it() -> None:
+    call = random_call_in_time(244)
+    found, _ = observed(call)
+    assert (found.opportunity, serendipity.verify(call.task, found).verdict) == (True, "proved")
 
 
 def test_a_joint_action_is_not_skipped_for_its_variants() -> None:

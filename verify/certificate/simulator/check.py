@@ -6,7 +6,7 @@ from time import perf_counter
 
 from serendipity.model import Claim, PlanError, Result, Step, Task
 from verify.base import wording
-from verify.base.execution import meant_by, price
+from verify.base.execution import meant_by, price, unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
 from verify.certificate.simulator.person import ReplanningPerson
@@ -48,7 +48,7 @@ class _Examination:
     def __init__(self, task: Task, result: Result, plans: OptimalPlans) -> None:
         self.task = task
         self.result = result
-        self.person = ReplanningPerson(task, plans)
+        self.person = ReplanningPerson(task, plans, strict=result.options.strict)
         self.human_plan = (
             () if result.human_plan is None else replay_human(task, result.human_plan, plans.deadline)
         )
@@ -78,7 +78,8 @@ class _Examination:
     def _differences(self, steps: Iterable[Step]) -> Iterator[str]:
         names = {(step.epoch, self.task.actions[step.action].name) for step in steps}
         said = {(step.epoch, step.action) for step in self.result.plan or ()}
-        for epoch, name in sorted(names ^ said):
+        going_on = {self.task.actions[i].name for i in unchosen(self.task)}
+        for epoch, name in sorted(one for one in names ^ said if one[1] not in going_on):
             says = "does not say" if (epoch, name) in names else "says wrongly"
             yield f"epoch {epoch}: the plan {says} '{name}'"
 

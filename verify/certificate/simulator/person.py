@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from serendipity.model import Task
-from verify.base.execution import State, after, applicable
+from verify.base.due import onward
+from verify.base.execution import State
 from verify.base.optimal_plans import OptimalPlans
 
 
@@ -15,8 +16,9 @@ class ReplanningPerson:
     their own problem is too large, and :class:`serendipity.model.LimitReachedError` at the deadline.
     """
 
-    def __init__(self, task: Task, plans: OptimalPlans) -> None:
+    def __init__(self, task: Task, plans: OptimalPlans, *, strict: bool) -> None:
         self._task = task
+        self._strict = strict
         self._plans = plans
         self.deadline = plans.deadline
 
@@ -35,11 +37,9 @@ class ReplanningPerson:
 
     def cost_of(self, plan: Sequence[int], state: State) -> Fraction | None:
         """``c``: what a plan costs if it works from a state, robots idle; None for infinity."""
-        total = Fraction(0)
+        here: State | None = state
         for i in plan:
-            action = self._task.actions[i]
-            if not applicable(action, state):
-                return None
-            state = after(state, action)
-            total += action.cost
-        return total if self._task.goal.holds(state) else None
+            here = None if here is None else onward(self._task, here, (i,), strict=self._strict)
+        if here is None or not self._task.goal.holds(here):
+            return None
+        return sum((self._task.actions[i].cost for i in plan), Fraction(0))

@@ -1,4 +1,7 @@
-"""semantics 6, step by step: what becomes of a plan with a human who replans."""
+"""semantics 6, step by step: what becomes of a plan with a human who replans.
+
+In time (10.6) what somebody is at goes on, and the human looks up when they are up and free.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -6,7 +9,8 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from serendipity.model import Options, Step, Task, Visible, surroundings
-from verify.base.execution import State, after, applicable, fits, price
+from verify.base.due import onward
+from verify.base.execution import State, after, applicable, fits, idling, met, price, unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.certificate.simulator.person import ReplanningPerson
 
@@ -17,7 +21,7 @@ class PlayedEpoch:
 
     Attributes:
         executed: action ids, ascending.
-        skipped: action ids that were inapplicable, in conflict or refused, ascending.
+        skipped: action ids that were inapplicable, in conflict, refused or broken off, ascending.
         blocks: whether robots took the human's last plan away.
     """
 
@@ -27,18 +31,23 @@ class PlayedEpoch:
 
 
 class MomentOfPlay(NamedTuple):
-    """Between two epochs: the true state, the human's belief, and ``rho``, what remains of their plan."""
+    """Between two epochs: the true state, the human's belief, and ``rho``, what remains of their plan.
+
+    ``asleep`` is what is left of their head start.
+    """
 
     state: State
     belief: State
     rho: tuple[int, ...]
+    asleep: int = 0
 
 
 class Look(NamedTuple):
-    """The moment after step 1, with ``h`` (None: infinite)."""
+    """The moment after step 1, with ``h`` (None: infinite), and whether they did look."""
 
     now: MomentOfPlay
     best: Fraction | None
+    up: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,10 +97,11 @@ def play(
         person: their costs, where they are known from an earlier question.
     """
     orders: dict[int, list[int]] = {}
+    going_on = unchosen(task)
     for step in steps:
-        if task.actions[step.action].participants != (task.human,):
+        if task.actions[step.action].participants != (task.human,) and step.action not in going_on:
             orders.setdefault(step.epoch, []).append(step.action)
-    person = person or ReplanningPerson(task, OptimalPlans(task))
+    person = person or ReplanningPerson(task, OptimalPlans(task), strict=options.strict)
     deadline = person.deadline
     if human_model != "local":
         visible = None
@@ -100,17 +110,17 @@ def play(
     game = Play(task, options, person, visible)
     last = max(orders, default=0)
     now, deeds = game.start(human_plan), list[PlayedEpoch]()
-    while not game.done(now.state) and len(deeds) != horizon:
+    while not game.done(now) and len(deeds) != horizon:
         deadline.check()
         before = now
         deed, now = game.epoch(now, orders.get(len(deeds) + 1, ()))
         deeds.append(deed)
-        expected = game.looked(now)
-        if len(deeds) >= last and before[:2] == (now.state, expected) and not deed.executed:
+        expected = now._replace(belief=game.looked(now))
+        if len(deeds) >= last and before == expected and not deed.executed:
             break  # nothing will ever change again
     done = (i for deed in deeds for i in deed.executed)
     cost = sum((price(task, task.actions[i], options.discount) for i in done), Fraction(0))
-    return PlayedOut(tuple(deeds), game.done(now.state), cost)
+    return PlayedOut(tuple(deeds), game.done(now), cost)
 
 
 class Play:
@@ -125,14 +135,18 @@ class Play:
         self.strict = options.strict
         self.person = person
         self.sees = sees
+        self.waiting = idling(task)
+        self._head_start = options.head_start
 
     def start(self, human_plan: Sequence[int]) -> MomentOfPlay:
         """Before the first epoch, with ``pi_H`` in the human's mind."""
-        return MomentOfPlay(self.task.init, self.task.init, tuple(human_plan))
+        return MomentOfPlay(self.task.init, self.task.init, tuple(human_plan), self._head_start)
 
-    def done(self, state: State) -> bool:
-        """Whether the goals hold."""
-        return self.task.goal.holds(state) and self.task.robot_goal.holds(state)
+    def done(self, now: MomentOfPlay) -> bool:
+        """Whether the goals hold, the human is up, and nobody but bystanders is at anything."""
+        task, state = self.task, now.state
+        reached = task.goal.holds(state) and task.robot_goal.holds(state)
+        return reached and not now.asleep and state.issuperset(task.at_rest)
 
     def epoch(self, now: MomentOfPlay, offers: Sequence[int]) -> tuple[PlayedEpoch, MomentOfPlay]:
         """One epoch in which robots try the actions ``offers``, joint ones included."""
@@ -148,20 +162,26 @@ class Play:
 
     def look(self, now: MomentOfPlay) -> Look:
         """Step 1: ``rho`` is kept or replaced."""
+        if now.asleep or any(map(self.with_him, met(self.task, now.state, ()))):
+            return Look(now, None, up=False)
         belief, rho = self.looked(now), now.rho
         kept, best = self.person.cost_of(rho, belief), self.person.cost(belief)
         if best is not None and (kept is None or best < kept):
             rho = tuple(self.person.plan(belief))
-        return Look(MomentOfPlay(now.state, belief, rho), best)
+        return Look(now._replace(belief=belief, rho=rho), best)
 
     def act(self, look: Look, offers: Sequence[int]) -> tuple[PlayedEpoch, MomentOfPlay]:
         """Steps 2 to 4."""
         now = look.now
         offers = [self._as_possible(i, now.state) for i in sorted(offers)]
-        joint = self._accepted(offers, look)
+        joint = self._accepted(offers, look) if look.up else None
         his, learned = self._own_step(look) if joint is None else (joint, None)
-        executed = [] if his is None else [his]
+        going_on = met(self.task, now.state, () if his is None else (his,))
+        executed: list[int] = []
         skipped = [i for i in offers if self.with_him(i) and i != joint]
+        for i in going_on:
+            (executed if self._fits(i, executed, now.state) else skipped).append(i)
+        alone = self._after(now.state, executed)
         for i in offers:
             if not self.with_him(i):
                 (executed if self._fits(i, executed, now.state) else skipped).append(i)
@@ -170,12 +190,11 @@ class Play:
             belief = learned
         elif his is not None:
             belief = self._after(belief, [his])
-        alone = self._after(now.state, [] if his is None else [his])
         state = self._after(now.state, executed)
         blocks = self._stuck(state) and not self._stuck(now.state) and not self._stuck(alone)
-        rho = now.rho[1:] if his is not None and joint is None else now.rho
-        deed = PlayedEpoch(tuple(sorted(executed)), tuple(sorted(skipped)), blocks)
-        return deed, MomentOfPlay(state, belief, rho)
+        deed = PlayedEpoch(tuple(sorted({*executed} - self.waiting)), tuple(sorted(skipped)), blocks)
+        rho = now.rho[1:] if now.rho[:1] == (his,) and joint is None else now.rho
+        return deed, MomentOfPlay(state, belief, rho, max(0, now.asleep - 1))
 
     def with_him(self, i: int) -> bool:
         """Whether the human takes part in an action."""
@@ -194,12 +213,16 @@ class Play:
     def _worth_it(self, joint: int, look: Look) -> bool:
         if look.best is None:
             return True
-        rest = self.person.cost(self._after(look.now.belief, [joint]))
+        begun = onward(self.task, look.now.belief, (joint,), strict=self.strict)
+        rest = None if begun is None else self.person.cost(begun)
         return rest is not None and self.task.actions[joint].cost + rest <= look.best
 
     def _own_step(self, look: Look) -> tuple[int | None, State | None]:
         """Step 3: what the human does alone; where it fails, what they believe then."""
         now = look.now
+        if not look.up:
+            going_on = next(filter(self.with_him, met(self.task, now.state, ())), None)
+            return now.rho[0] if going_on is None and now.rho else going_on, None
         if look.best is None or not now.rho:
             return None, None
         action = self.task.actions[now.rho[0]]
