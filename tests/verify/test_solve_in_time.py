@@ -1,7 +1,7 @@
 """The verifier as a planner, in time: what it answers by itself is what the search answers."""
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 
 import serendipity
 from serendipity.model import Options, Script, Task, UsageError
@@ -19,7 +19,6 @@ FIGURES = (
 @pytest.mark.long
 @given(calls_in_time())
 def test_it_answers_what_the_search_does(call: Call) -> None:
-    assume(call.options.preservation == "kernel")
     keywords = {**call.keywords(), "nobody_pays": False}
     given_plan = keywords.pop("human_plan", None)
     try:
@@ -42,7 +41,6 @@ def slow() -> Task:
     ("options", "said"),
     [
         ({"ties": "robust"}, "ties: solved in time for 'fixed' only"),
-        ({"preservation": "state"}, "preservation: solved in time for 'kernel' only"),
         ({"nobody_pays": True}, "no rules of help"),
         ({"leave_free": "done"}, "no rules of help"),
     ],

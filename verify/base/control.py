@@ -6,7 +6,9 @@ the plan an epoch lies: ``prefix``, ``window`` or ``suffix`` (semantics 3.1), or
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 
+from verify.base.due import turns
 from verify.base.execution import facts_of_his, idling, states_of_pi_h
 from verify.base.subproblem import ALONE, EXACT, FREE, WINDOW, Subproblem, in_plan
 
@@ -90,10 +92,10 @@ class HumanControl:
             return []
         if not self.literal:
             return [frozenset()]
-        last = len(self.plan)
-        if control[0] == INSIDE:
+        last = turns(self.question.task, self.plan, 1)[-1]
+        if control[0] == INSIDE or control[1] < 0:
             return [self.expected[last]]
-        return [frozenset()] if control[1] == last else []
+        return [frozenset()] if control[1] >= last else []
 
     def _prefix(self, control: Control, epoch: int) -> Iterator[Leg]:
         """What is planned; of several plans, what one does that led here."""
@@ -117,7 +119,8 @@ class HumanControl:
     def _suffix_starts(self, xi1: int) -> Iterator[Leg]:
         """Eq. (8): from xi2 on the human is alone."""
         if self.literal:
-            for j in range(xi1 - 1, len(self.plan) + 1):
+            yield Leg((SUFFIX, -xi1, 0), self.begun, wait=False)
+            for j in turns(self.question.task, self.plan, xi1):
                 for leg in self._suffix_goes_on((SUFFIX, j, 0)):
                     yield Leg(leg.after, leg.actions, leg.wait, needs=self.expected[j])
         else:
@@ -125,10 +128,13 @@ class HumanControl:
 
     def _suffix_goes_on(self, control: Control) -> Iterator[Leg]:
         _, done, _ = control
-        if self.literal:
-            yield Leg(control, ())
-            if done < len(self.plan):
-                yield Leg((SUFFIX, done + 1, 0), (self.plan[done],), wait=False)
+        if self.literal and done < 0:  # at something that was begun in the window
+            yield from self._suffix_starts(-done)
+        elif self.literal:
+            yield Leg(control, self.idling)
+            rest = (k for k in range(done, len(self.plan)) if self.plan[k] not in self.idling)
+            for k in islice(rest, 1):
+                yield Leg((SUFFIX, k + 1, 0), (self.plan[k],), wait=False)
         elif self.question.options.suffix == "subplan":
             yield Leg(control, self.idling)
             yield Leg(control, self.begun, wait=False)

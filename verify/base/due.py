@@ -6,7 +6,7 @@ All this is about tasks in single epochs (:mod:`serendipity.model.task.unit_step
 from collections.abc import Iterable, Sequence
 
 from serendipity.model import Step, Task
-from verify.base.execution import State, by_epoch, executed, is_calm, met
+from verify.base.execution import State, by_epoch, executed, idling, is_calm, met
 
 
 def onward(task: Task, state: State, chosen: Iterable[int], *, strict: bool) -> State | None:
@@ -22,6 +22,17 @@ def waited(task: Task, state: State, epochs: int, *, strict: bool, plan: Sequenc
             break
         here = onward(task, here, plan[epoch : epoch + 1], strict=strict)
     return here
+
+
+def turns(task: Task, plan: Sequence[int], xi1: int) -> list[int]:
+    """The epochs of a human plan whose state a window from ``xi1`` on may preserve (semantics 3.3).
+
+    With them ``pi_H[1..j]`` is over, for each j; what is begun before ``xi1`` is part of that.
+    """
+    going_on, waiting = {i for _, i in task.due}, idling(task)
+    acted = [0, *(k for k, i in enumerate(plan, start=1) if i not in waiting)]
+    begun = max(k for k in acted if k < xi1)
+    return [k for k in acted if k >= begun and (k in (0, len(plan)) or plan[k] not in going_on)]
 
 
 def filled(task: Task, steps: Iterable[Step], last: int, *, strict: bool) -> tuple[Step, ...]:

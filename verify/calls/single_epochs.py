@@ -15,7 +15,6 @@ from serendipity.model import (
     Condition,
     Deadline,
     HumanPlan,
-    Options,
     PlanError,
     PlanStep,
     Result,
@@ -68,22 +67,18 @@ def examined_in_time(
     return tuple(map(epochs.told, examine(epochs.task, said)))
 
 
-def knows(options: Options) -> bool:
-    """Whether such calls are known in time: those that preserve no states."""
-    return not (options.windowed and options.preservation == "state")
-
-
 def _is_known(task: Task, result: Result) -> bool:
     """Whether such a result is examined in time; over ties only where all optimal plans begin at once."""
     options = result.options
-    if not knows(options) or options.human_model == "local":
+    if options.human_model == "local":
         return False
     if result.recognition is not None and result.recognition.observed:
         return False
     if not is_tied(result):
         kind = kind_of(result)
         return kind in ("a plan", "a plan for a human who replans") or (
-            kind == "a plan for each scenario" and options.suffix == "replan"
+            kind == "a plan for each scenario"
+            and (options.suffix, options.preservation) == ("replan", "kernel")
         )
     waits = bool(task.script) or options.head_start > 0 or options.human_model != "omniscient"
     return not waits and all(tied.plan is None for tied in result.ties or ())

@@ -11,7 +11,7 @@ from verify.base.optimal_plans import OptimalPlans
 from verify.calls.answer import answer
 from verify.calls.call import ExaminedCall
 from verify.calls.results import to_result
-from verify.calls.single_epochs import begun_steps, bystanders_of, knows
+from verify.calls.single_epochs import begun_steps, bystanders_of
 from verify.programs.effort import Effort
 
 
@@ -26,8 +26,6 @@ def solved_in_time(task: Task, options: Options, given: HumanPlan | None, effort
         raise UsageError(f"ties: solved in time for 'fixed' only, not for '{options.ties}'")
     if effort.encoding != "automata":
         raise UsageError("encoding: the paper's equations know no time; expected automata")
-    if not knows(options):
-        raise UsageError("preservation: solved in time for 'kernel' only, not for 'state'")
     units = unit_steps(task, effort.deadline, options.waiting_cost)
     if given is not None:  # it may come too late, or be in a bystander's way
         late = units.after_waiting(units.plan(given), options.head_start)

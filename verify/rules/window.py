@@ -1,7 +1,9 @@
 """Rules on windows, prefix and suffix (semantics 3.1, 3.3, 3.4)."""
 
 from collections.abc import Iterable
+from itertools import takewhile
 
+from verify.base.due import turns
 from verify.base.execution import facts_of_his, states_of_pi_h
 from verify.rules.case import Case, RuleFault
 
@@ -136,20 +138,26 @@ def preserved_state(case: Case) -> RuleFault | None:
     window, options = case.result.window, case.result.options
     if window is None or options.preservation != "state":
         return None
-    rest = tuple(i for _, i in _between(case, window.end, None))
-    j = len(case.pi_h) - len(rest)
-    names = [case.task.actions[i].name for i in (*case.pi_h[max(j, 0) :], *rest)]  # in whichever variant
-    if j < window.start - 1 or names[: len(rest)] != names[len(rest) :]:
-        return RuleFault(f"from epoch {window.end} the human does not do an end of pi_H", window.end)
-    deadline = case.alone.deadline
-    expected = states_of_pi_h(case.task, case.pi_h[:j], deadline)[-1] & facts_of_his(case.task, deadline)
-    missing = expected - case.replay.state_after(window.end - 1)
+    task, end, deadline = case.task, window.end, case.alone.deadline
+    rest = tuple(i for _, i in _between(case, end, None))
+    begun = {i for _, i in task.due}
+    going_on = len(list(takewhile(begun.__contains__, rest)))
+    end += going_on
+    done = _acts(case, rest[going_on:])  # in whichever variant
+    ends = [k for k in turns(task, case.pi_h, window.start) if _acts(case, case.pi_h[k:]) == done]
+    if not ends:
+        return RuleFault(f"from epoch {end} the human does not do an end of pi_H", end)
+    mentioned = facts_of_his(task, deadline)
+    expected = states_of_pi_h(task, case.pi_h[: ends[0]], deadline)[-1] & mentioned
+    missing = expected - case.replay.state_after(end - 1)
     if not missing:
         return None
-    fact = case.task.facts[min(missing)]
-    return RuleFault(
-        f"the state before epoch {window.end} lacks '{fact}', true after pi_H[1..{j}]", window.end
-    )
+    fact = task.facts[min(missing)]
+    return RuleFault(f"the state before epoch {end} lacks '{fact}', true after pi_H[1..{ends[0]}]", end)
+
+
+def _acts(case: Case, plan: Iterable[int]) -> list[str]:
+    return [case.name(i) for i in plan if i not in case.waiting]
 
 
 def _follows(case: Case, *, last: int) -> RuleFault | None:
