@@ -88,10 +88,13 @@ def priced(call: Request, rule: Kept, keep: Keep) -> Iterator[Answer]:
     """
     calls, number = [_Call(Fraction(0), 0, _NOTHING, _NOTHING)], 0
     best: Answer | None = None
+    alone: Fraction | None = None  # known where nothing is kept, which would be a goal of the robots'
     prices = _Prices(call.task, rule)
     while calls and (best is None or calls[0].bound <= _total(call.options, best)):
         bound, _, kept, paid = heapq.heappop(calls)
         *_, found = keep(kept)
+        alone = found.saving_alone if not kept else alone
+        found = found._replace(saving_alone=alone)
         if found.cost is not None:
             candidate = _with_price(call, rule, found)
             if best is None or _order(call.options, candidate) < _order(call.options, best):

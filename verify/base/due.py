@@ -5,7 +5,8 @@ All this is about tasks in single epochs (:mod:`serendipity.model.task.unit_step
 
 from collections.abc import Iterable, Sequence
 
-from serendipity.model import Step, Task
+from serendipity.model import HumanPlan, Step, Task
+from serendipity.model.task.unit_steps import RESTING, WAITING
 from verify.base.execution import State, by_epoch, executed, idling, is_calm, met
 
 
@@ -22,6 +23,13 @@ def waited(task: Task, state: State, epochs: int, *, strict: bool, plan: Sequenc
             break
         here = onward(task, here, plan[epoch : epoch + 1], strict=strict)
     return here
+
+
+def after_waiting(task: Task, plan: HumanPlan, epochs: int) -> HumanPlan:
+    """A human plan with some epochs of waiting before it; who then does nothing has not waited for that."""
+    acts = not idling(task).issuperset(plan)
+    waiting = (not acts and task.named.get(RESTING)) or task.named.get(WAITING, ())
+    return waiting[:1] * epochs + plan
 
 
 def turns(task: Task, plan: Sequence[int], xi1: int) -> list[int]:

@@ -173,7 +173,7 @@ def facts_of_his(task: Task, deadline: Deadline) -> State:
     for i in deadline.each(task.human_actions):
         action = task.actions[i]
         facts.update(action.pre, action.neg, action.add, action.delete)
-    return frozenset(facts)
+    return frozenset(facts) - awake(task)
 
 
 # -- costs

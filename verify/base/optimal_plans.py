@@ -9,7 +9,7 @@ from heapq import heappop, heappush
 
 from serendipity.model import Condition, HumanPlan, Task
 from verify.base.due import waited
-from verify.base.execution import State
+from verify.base.execution import State, idling
 from verify.base.individual import IndividualOptimum
 
 Worth = tuple[Fraction, int]
@@ -54,6 +54,25 @@ class OptimalPlans:
             if name != last and self.alone.within(successor, least - self.alone.own.weight(i)):
                 last = name
                 yield i, successor
+
+    def earliest(self, state: State) -> Iterator[HumanPlan]:
+        """All optimal plans in time from a state; of those that begin the same, who does so earliest.
+
+        Who acts comes before who waits, so of plans of equal names that one is met first (semantics 10.3).
+        """
+        names, waiting = [action.name for action in self._task.actions], idling(self._task)
+        seen, found = set[tuple[tuple[str, ...], State]](), set[tuple[str, ...]]()
+        left: list[tuple[HumanPlan, State]] = [] if self.worth(state) is None else [((), state)]
+        while left:
+            plan, here = left.pop()
+            acted = tuple(names[i] for i in plan if i not in waiting)
+            if (acted, here) in seen:
+                continue
+            seen.add((acted, here))
+            if self.alone.weight(here) == 0 and acted not in found:
+                found.add(acted)
+                yield plan
+            left += reversed([((*plan, i), following) for i, following in self.steps(here)])
 
     def lasting(
         self, state: State, left: int, reached: Condition, talk: Sequence[int] = (), *, strict: bool

@@ -1,8 +1,10 @@
 """All optimal plans of the human as ways through a graph, which may have far fewer states than ways."""
 
 from collections.abc import Iterator
+from itertools import islice
 
-from serendipity.model import HumanPlan, Task, UsageError
+from serendipity.model import HumanPlan, Options, Task, UsageError
+from verify.base.due import after_waiting
 from verify.base.execution import State
 from verify.base.optimal_plans import OptimalPlans
 
@@ -80,3 +82,31 @@ class OptimalPlanGraph:
             return
         for i, after in self.moves[len(plan)][state]:
             yield from self._continue((*plan, i), after)
+
+
+class OptimalPlanList(OptimalPlanGraph):
+    """The same plan by plan, where they may wait: beside a script, or before they are up (semantics 10.3)."""
+
+    def __init__(self, task: Task, plans: OptimalPlans, most: int, head_start: int) -> None:
+        start = plans.alone.start
+        found = () if start is None else islice(plans.earliest(start), most + 1)
+        late = (after_waiting(task, plan, head_start) for plan in found)
+        self._named = {tuple(task.actions[i].name for i in plan): plan for plan in late}
+        self.count = len(self._named)
+        if self.count > most:
+            raise UsageError(f"max_ties: the human has more than {most} optimal plans")
+
+    def plans(self) -> Iterator[HumanPlan]:
+        """See :class:`OptimalPlanGraph`."""
+        yield from self._named.values()
+
+    def named(self, names: tuple[str, ...]) -> HumanPlan | None:
+        """See :class:`OptimalPlanGraph`."""
+        return self._named.get(names)
+
+
+def plan_graph(task: Task, plans: OptimalPlans, options: Options) -> OptimalPlanGraph:
+    """The human's optimal plans, as a graph if all of them begin at once and never wait."""
+    if task.of_bystanders or options.head_start:
+        return OptimalPlanList(task, plans, options.max_ties, options.head_start)
+    return OptimalPlanGraph(task, plans, options.max_ties)

@@ -39,7 +39,7 @@ from verify.base.execution import (
     plan_step,
     price,
 )
-from verify.base.obligations import is_tied, kind_of, needed
+from verify.base.obligations import kind_of, needed
 from verify.base.undecided import UNDECIDED, why
 from verify.rules.report import Violation
 
@@ -55,7 +55,7 @@ def examined_in_time(
         result: the result, of checked types.
         examine: makes the claims of a task and a result in single epochs.
     """
-    if not _is_known(task, result):
+    if not _is_known(result):
         return tuple(Claim(name, "undecided", wording.NOT_IN_TIME) for name in needed(result))
     try:
         epochs = SingleEpochs(task, result, deadline)
@@ -67,21 +67,17 @@ def examined_in_time(
     return tuple(map(epochs.told, examine(epochs.task, said)))
 
 
-def _is_known(task: Task, result: Result) -> bool:
-    """Whether such a result is examined in time; over ties only where all optimal plans begin at once."""
+def _is_known(result: Result) -> bool:
+    """Whether such a result is examined in time."""
     options = result.options
     if options.human_model == "local":
         return False
     if result.recognition is not None and result.recognition.observed:
         return False
-    if not is_tied(result):
-        kind = kind_of(result)
-        return kind in ("a plan", "a plan for a human who replans") or (
-            kind == "a plan for each scenario"
-            and (options.suffix, options.preservation) == ("replan", "kernel")
-        )
-    waits = bool(task.script) or options.head_start > 0 or options.human_model != "omniscient"
-    return not waits and all(tied.plan is None for tied in result.ties or ())
+    kind = kind_of(result)
+    if kind != "a plan for each scenario":
+        return True
+    return (options.suffix, options.preservation) == ("replan", "kernel")
 
 
 class SingleEpochs:
@@ -137,7 +133,8 @@ class SingleEpochs:
         return replace(said, human_plan=names, human_plan_times=None, plan=steps, goal=goal)
 
     def _tied(self, said: TiedAnswer) -> TiedAnswer:
-        return replace(said, human_plan=self._names_of(said) or (), human_plan_times=None)
+        names, plan = self._names_of(said) or (), self._steps(said.plan)
+        return replace(said, human_plan=names, human_plan_times=None, plan=plan)
 
     def told(self, claim: Claim) -> Claim:
         """A claim whose counter-example is a plan of the task in time."""

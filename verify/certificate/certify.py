@@ -26,10 +26,11 @@ from verify.base.beside_script import alone_of
 from verify.base.obligations import BY_RULES, complete, is_mean, is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
+from verify.calls.answer import answer
 from verify.calls.call import ExaminedCall
 from verify.calls.methods import require_known
+from verify.calls.results import to_result
 from verify.calls.single_epochs import examined_in_time
-from verify.calls.solve import solve
 from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.humans import HumanExaminer
 from verify.certificate.provable import require_programs
@@ -134,11 +135,15 @@ def _examined(task: Task, result: Result, effort: Effort, original: Task) -> tup
         def examine(bound: Task, said: Result) -> tuple[Claim, ...]:
             return _Certifier(bound, said, effort, own).claims()
 
-        def solve_it(bound: Task, options: Options, plan: Sequence[str] | None) -> Result:
-            return solve(bound, options, human_plan=plan, deadline=effort.deadline)
+        def solve_it(bound: Task, options: Options, names: Sequence[str] | None) -> Result | None:
+            plans = OptimalPlans(bound, alone_of(bound, effort.deadline, options))
+            try:
+                plan = None if names is None else replay_human(bound, names, effort.deadline)
+                return to_result(answer(ExaminedCall(bound, options.but(ties="fixed"), plan, plans, effort)))
+            except UNDECIDED:
+                return None
 
-        timed = needs_time(original, options=said.options) or said.in_time
-        return under_the_rule(own, said, original, effort.deadline, examine, None if timed else solve_it)
+        return under_the_rule(own, said, original, effort.deadline, examine, solve_it)
 
     if not result.says("goals"):
         return alone(task, result)

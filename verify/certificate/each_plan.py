@@ -8,7 +8,7 @@ from functools import cached_property
 
 from serendipity.model import HumanPlan, LimitReachedError, Options, Task
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.plan_graph import OptimalPlanGraph
+from verify.base.plan_graph import plan_graph
 from verify.base.subproblem import in_plan
 from verify.calls.answer import answer
 from verify.calls.call import ExaminedCall
@@ -48,7 +48,7 @@ class EachPlan:
 
     def __init__(self, task: Task, options: Options, effort: Effort, plans: OptimalPlans) -> None:
         self._task, self._options, self._effort, self._plans = task, options, effort, plans
-        self.graph = OptimalPlanGraph(task, plans, options.max_ties)
+        self.graph = plan_graph(task, plans, options)
         self.asked = self.graph.count
         self._known: dict[Hashable, SolvedPlan] = {}
 
@@ -106,6 +106,8 @@ class EachPlan:
         call = self._first
         options = call.options
         if self.asked < limits().several_plans or options.human_model != "omniscient":
+            return False
+        if self._task.of_bystanders or options.head_start:
             return False
         return self._effort.encoding == "automata" and options.windowed and ANY_PLAN.applies(call.question)
 

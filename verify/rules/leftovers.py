@@ -23,33 +23,43 @@ class Leftovers:
         solve: the best plan that keeps some facts, and its last state; None undecided.
         prices: of all.
         weight: ``K`` where doing nothing fits a window of one epoch, else 0.
+        idle: a cost from which on the best plan is no help, with what it leaves; None: whatever it costs.
     """
 
     def __init__(
-        self, solve: Callable[[frozenset[int]], tuple[Result, State] | None], prices: Prices, weight: Fraction
+        self,
+        solve: Callable[[frozenset[int]], tuple[Result, State] | None],
+        prices: Prices,
+        weight: Fraction,
+        idle: Fraction | None,
     ) -> None:
-        self._solve, self._prices, self._weight = solve, prices, weight
+        self._solve, self._prices, self._weight, self._idle = solve, prices, weight, idle
+        self._best: tuple[Fraction, Fraction] | None = None
 
-    def none_below(
-        self, total: Fraction, kept: frozenset[int] = frozenset(), paid: frozenset[int] = frozenset()
-    ) -> bool | None:
-        """Whether no plan that keeps and leaves some facts has a smaller total; None if undecided."""
+    def none_below(self, total: Fraction) -> bool | None:
+        """Whether no plan that helps has a smaller total; None if undecided."""
+        if not self._look(total, frozenset(), frozenset()):
+            return None
+        return self._best is None or (self._idle is not None and self._best[1] >= self._idle)
+
+    def _look(self, total: Fraction, kept: frozenset[int], paid: frozenset[int]) -> bool:
+        """Whether the best plan below a total that keeps and leaves some facts is found, if there is one."""
         solved = self._solve(kept)
         if solved is None:
-            return None
+            return False
         found, state = solved
         if found.objective is None:
             return True
         least = as_written(found.objective) + (self._weight if found.window is None else 0)
-        if least + self._sum(paid) >= total:
+        if least + self._sum(paid) >= (total if self._best is None else self._best[0]):
             return True
         leaves = frozenset(left(self._prices, state))
-        if least + self._sum(leaves) < total:
-            return False
+        whole = least + self._sum(leaves), as_written(found.cost or 0) + self._sum(leaves)
+        if whole[0] < total:
+            self._best = whole if self._best is None else min(self._best, whole)
         for fact in sorted(leaves - paid):
-            verdict = self.none_below(total, kept | {fact}, paid)
-            if not verdict:
-                return verdict
+            if not self._look(total, kept | {fact}, paid):
+                return False
             paid |= {fact}
         return True
 

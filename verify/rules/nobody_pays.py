@@ -6,7 +6,6 @@ What bystanders need for the rest of their plans is worked out backward, from th
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import islice
 from typing import Final, NamedTuple
 
 from serendipity.model import Claim, Condition, Deadline, HumanPlan, Options, PlanError, Result, Task
@@ -20,10 +19,12 @@ from serendipity.model.task.metered import Metered
 from serendipity.model.task.noticed import Noticed
 from serendipity.model.task.visibility import surroundings
 from verify.base import wording
+from verify.base.beside_script import alone_of
 from verify.base.due import waited
 from verify.base.execution import State, after, is_calm, is_last, met
 from verify.base.obligations import is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
+from verify.base.plan_graph import plan_graph
 from verify.rules.leftovers import Leftovers, Prices, left
 from verify.rules.noticed import unnoticed
 from verify.rules.replay import replay, replay_human
@@ -46,7 +47,7 @@ class Rule(NamedTuple):
     prices: Prices
 
 
-Solve = Callable[[Task, Options, Sequence[str] | None], Result]
+Solve = Callable[[Task, Options, Sequence[str] | None], Result | None]
 """The best plan for a task beside a plan of the human's, or none."""
 
 UNPRICED: Final = ("optimal", "no_opportunity", "lower_bound")
@@ -116,11 +117,9 @@ def _claims_over_ties(
         return tuple(task.actions[i].name for i in plan)
 
     costs: dict[tuple[str, ...], Fraction] = {}
-    plans = (
-        islice(OptimalPlans(task).plans(), asked.max_ties)
-        if solve and result.status in ("optimal", "infeasible")
-        else ()
-    )
+    plans: Iterable[HumanPlan] = ()
+    if solve is not None and result.status in ("optimal", "infeasible"):
+        plans = plan_graph(task, OptimalPlans(task, alone_of(task, deadline, asked)), asked).plans()
     for plan in plans:
         under = bound(plan)
         found = None if solve is None or under is None else solve(under, asked, named(plan))
@@ -158,9 +157,11 @@ def _priced_claims(
     solve: Solve | None,
 ) -> tuple[Claim, ...]:
     """The claims where leaving something costs something: the plan's by itself, and that none is better."""
+    options = result.options.but(leave_price=None, leave_free=None)
+    if result.status == "infeasible":  # whatever it would cost
+        return tuple(examine(bound(()), replace(result, options=options)))
     if result.plan is None or result.objective is None:
         return tuple(Claim(name, "undecided", wording.NOT_EXAMINED) for name in needed(result))
-    options = result.options.but(leave_price=None, leave_free=None)
 
     def last_state(found: Result) -> State:
         return replay(task, found.plan or (), Deadline(), strict=options.strict).last
@@ -188,8 +189,10 @@ def _priced_claims(
     below = as_written(result.lower_bound or 0)
     if result.status == "optimal":
         below = as_written(result.objective) + (weight if result.window is None else 0)
+    asks = options.windowed and not result.opportunity and result.human_cost is not None
+    alone = as_written(result.human_cost or 0) - idle if asks else None
     # first of all, since what examines may take its time
-    verdict = Leftovers(solved, rule.prices, weight).none_below(below)
+    verdict = Leftovers(solved, rule.prices, weight, alone).none_below(below)
     claims = [claim for claim in examine(bound(()), said) if claim.claim not in UNPRICED]
     told: dict[bool | None, Verdict] = {True: "proved", False: "refuted", None: "undecided"}
     asked = (name for name in needed(result) if name in UNPRICED)

@@ -75,7 +75,7 @@ def solve_for_human(
             gain = Fraction(0) if human_plan is None else None  # known only of an optimal plan
             yield idle._replace(horizon=epochs, saving_alone=gain)
         actions = human_plan or ()
-        if task.due:
+        if task.due or options.head_start:
             human: Human = HumanInTime(prepared, options, deadline, actions=actions)
         else:
             human = Human(

@@ -72,7 +72,8 @@ class Reactive:
     def __post_init__(self) -> None:
         packed = self.human.packed
         self._goals = self.human.context.goals
-        self._offers_idle = self.human.sees_all and not packed.task.robot_goal and not packed.in_time
+        in_time = packed.in_time or self.human.asleep
+        self._offers_idle = self.human.sees_all and not packed.task.robot_goal and not in_time
         self._width = packed.all_ones.bit_length()
         self._labels = ParetoFront()
         self._minds: list[Mind] = []

@@ -137,6 +137,14 @@ def test_nobody_looks_up_before_they_are_up() -> None:
     assert (began, found.horizon, found.opportunity) == ([5], 7, True)
 
 
+def test_nobody_takes_part_before_they_are_up_where_nothing_takes_longer() -> None:
+    about = task(init="a", goal="d", actions={"go h": "a -> d !a @ 5", "lift h r": "a -> d !a @ 1"})
+    for late in range(3):
+        found = serendipity.plan(about, human_model="observant", head_start=late)
+        assert [step.epoch for step in found.plan or ()] == [late + 1]
+        assert serendipity.verify(about, found).verdict == "proved"
+
+
 def test_what_is_not_settled_is_refused() -> None:
     with pytest.raises(UsageError, match="expected omniscient or observant, got local"):
         serendipity.plan(gate(opening=2), human_model="local")

@@ -33,15 +33,13 @@ def test_answers_are_proved(call: Call, method: str) -> None:
     assert all(claim.verdict != "refuted" for claim in serendipity.check(call.task, result).claims)
 
 
+@pytest.mark.long
 @given(
     calls_in_time(modes=("serendipity", "communication")),
     st.sampled_from(["robust", "optimistic", "expected"]),
 )
-def test_answers_over_ties_are_proved_beside_no_script(call: Call, ties: Ties) -> None:
-    if call.task.script:
-        return
-    options = call.options.but(ties=ties, head_start=0)
-    result = answered(replace(call, options=options, human_plan=None))
+def test_answers_over_ties_are_proved(call: Call, ties: Ties) -> None:
+    result = answered(replace(call, options=call.options.but(ties=ties), human_plan=None))
     assert serendipity.verify(call.task, result).verdict == "proved"
 
 
