@@ -92,9 +92,10 @@ def under_the_rule(
     def bound(kept: Iterable[int] = ()) -> Task:
         return bound_task(task, result.options, rule, kept, plan, original, deadline)
 
-    if rule.prices:
+    binds = result.statistics.get("rule_binds") or left(rule.prices, _last_state(task, result))
+    if rule.prices and binds:
         return _priced_claims(task, result, rule, bound, examine, solve)
-    return tuple(examine(bound() if result.statistics.get("rule_binds") else task, result))
+    return tuple(examine(bound() if binds else task, result))
 
 
 def _claims_over_ties(
@@ -163,19 +164,16 @@ def _priced_claims(
     if result.plan is None or result.objective is None:
         return tuple(Claim(name, "undecided", wording.NOT_EXAMINED) for name in needed(result))
 
-    def last_state(found: Result) -> State:
-        return replay(task, found.plan or (), Deadline(), strict=options.strict).last
-
     def solved(kept: frozenset[int]) -> tuple[Result, State] | None:
         found = None if solve is None else solve(bound(kept), options, result.human_plan)
         if found is None or found.status not in ("optimal", "infeasible"):
             return None
-        return found, last_state(found)
+        return found, _last_state(task, found)
 
     idle = max(Fraction(0), as_written(result.saving_alone or 0))
     if result.opportunity and as_written(result.saving or 0) <= idle:
         return (Claim("cost", "refuted", wording.LEFT_TOO_DEAR),)
-    price = sum(left(rule.prices, last_state(result)).values(), Fraction(0))
+    price = sum(left(rule.prices, _last_state(task, result)).values(), Fraction(0))
     said = replace(
         result,
         options=options,
@@ -197,6 +195,10 @@ def _priced_claims(
     told: dict[bool | None, Verdict] = {True: "proved", False: "refuted", None: "undecided"}
     asked = (name for name in needed(result) if name in UNPRICED)
     return (*claims, *(Claim(name, told[verdict], wording.PRICED[verdict]) for name in asked))
+
+
+def _last_state(task: Task, found: Result) -> State:
+    return replay(task, found.plan or (), Deadline(), strict=found.options.strict).last
 
 
 def _less(value: float | None, amount: Fraction) -> float | None:
