@@ -12,8 +12,6 @@ def option(shown: str, help: str, **more: Any) -> Any:  # noqa: A002 - typer's w
     Args:
         shown: its names, and what stands for its value: ``-o, --output FILE``.  Legal values are separated
             by ``|``, and completed by shells; those in capitals stand for many, such as ``N``.
-        help: what it is for.
-        more: keywords of ``typer.Option``.
     """
     words = re.split(r",? +", shown)
     names = [word for word in words if word.startswith("-")]

@@ -24,11 +24,7 @@ PROVED: Final = ("optimal", "infeasible")
 
 
 class Ask:
-    """Repeats one planning call with some options changed; equal calls are made once.
-
-    Args:
-        options: of the call that is explained.
-    """
+    """Repeats one planning call with some options changed; equal calls are made once."""
 
     def __init__(
         self, task: Task, options: Options, human_plan: Sequence[PlanEntry] | None, deadline: Deadline

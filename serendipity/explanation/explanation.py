@@ -114,8 +114,6 @@ class Miss:
 
     Attributes:
         rule: a key of ``RULES``.
-        cost: of the answer then.
-        saving: against the human's own plan.
         window: of the answer then, or the shortest that its cost needs.
         removal: what would disappear from their plan, and what would replace it.
     """

@@ -25,7 +25,6 @@ class Sign(Written):
     """Something that robots see, and what they know by it.
 
     Attributes:
-        epoch: in which they see it.
         action: what the human does; None where they wait.
         before: scenarios that were possible, by their places in the answer.
         after: those that still are.

@@ -26,9 +26,6 @@ class Wait(Written):
     """An action that begins no sooner, and why.
 
     Attributes:
-        action: its name.
-        agents: who takes part in it.
-        epoch: in which it begins.
         alone: whether it is one of the human's own plan; else of the answer's.
         why: ``fact`` or ``bystander`` (of the script), ``head-start``, or ``plan``: the human has it so,
             and nothing else.
@@ -72,10 +69,6 @@ class _Plan:
     """A plan beside the script.
 
     Attributes:
-        task: the task.
-        answer: whose plan it is.
-        steps: the plan.
-        epochs: how many it has.
         alone: whether it is the human's own.
     """
 

@@ -13,12 +13,7 @@ from serendipity.pddl.parsing.files import read_text
 
 
 def file_findings(task: Task, units: Sequence[lifted.Unit]) -> Iterator[Finding]:
-    """All findings for which files are needed.
-
-    Args:
-        task: that was read from them.
-        units: domains and problems, one for each agent or for all.
-    """
+    """All findings for which files are needed."""
     yield from _missing_goals(units)
     yield from _actions(task, units)
     yield from _predicates(units)

@@ -22,9 +22,6 @@ def reachable(task: Task, actions: Sequence[GroundAction], deadline: Deadline) -
 
     Made true once, a literal stays so, beside its opposite; so what is not reached here can't
     be reached at all, and what is may still be out of reach.
-
-    Args:
-        actions: those to use.
     """
     reached = {(fact, fact in task.init) for fact in range(len(task.facts))}
     waiting: defaultdict[Fact, list[GroundAction]] = defaultdict(list)

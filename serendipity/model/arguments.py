@@ -13,12 +13,7 @@ from serendipity.model.task.task import Task
 
 
 class Kind(NamedTuple):
-    """A kind of arguments.
-
-    Attributes:
-        words: for people.
-        fits: whether a value is one.
-    """
+    """A kind of arguments."""
 
     words: str
     fits: Callable[[object], bool]

@@ -2,12 +2,7 @@
 
 
 def schema_fault(found: object, expected: str) -> str | None:
-    """The fault in the schema of a file, in one line; None without one.
-
-    Args:
-        found: what the file says.
-        expected: the schema that is read here.
-    """
+    """The fault in the schema of a file, in one line; None without one."""
     if found == expected:
         return None
     kind, _, known = expected.rpartition("/")

@@ -40,7 +40,6 @@ class ClassicalFiles:
     """A task as one problem of a single agent, who is the whole team.
 
     Attributes:
-        domain: its text.
         problem: its text; the goal is that of all agents.
         scale: costs in the texts are whole numbers: team costs times this.
     """
@@ -65,7 +64,6 @@ def lifted_files(unit: Unit, shares: Mapping[str, Fraction]) -> ClassicalFiles:
     spoils a precondition of another (``interference="paper"``), no sequence does the same.
 
     Args:
-        unit: a task in MA-PDDL.
         shares: the agents that may act, each with the share of an action's cost that counts: 1
             for the human, what the discount leaves for robots.
 

@@ -1,4 +1,10 @@
-"""The three layouts of PDDL input."""
+"""The three layouts of PDDL input.
+
+``human`` is a name, or None for the only agent with a goal, or ``any``, where no agent is called that, for
+the first of those with goals.  ``epoch`` is how long an epoch is, in the unit of PDDL's durations, which are
+rounded up to whole epochs; None: the greatest common divisor of all that can come up.  With MA-PDDL in one
+pair of files no ``robots``, or ``all``, are all the other objects that can be an ``:agent``.
+"""
 
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
@@ -35,15 +41,6 @@ def read_folder(
     on_progress: OnProgress | None = None,
 ) -> Task:
     """Read a directory: a folder per agent and ``superagent/``, each with two files.
-
-    Args:
-        path: the directory; agents are called as their folders.
-        human: name of the human, or None for the only agent with a goal; ``any``, where no agent is called
-            that, for the first of those with goals.
-        epoch: how long an epoch is, in the unit of PDDL's durations, which are rounded up to whole
-            epochs; None for the greatest common divisor of all that can come up.
-        deadline: how long it may take, and in how much memory.
-        on_progress: is told what is being done, and how many ground actions there are so far.
 
     Raises:
         InputError: a file is missing, can't be read or is wrong.
@@ -87,17 +84,6 @@ def read_agents(
     An agent's actions range over the objects of its own files.  Actions of the team
     that no agent owns are joint: their participants are the agents whose names occur
     among the parts of the ground action's name, split at ``_`` and blanks.
-
-    Args:
-        agents: domain and problem file of each agent, by its name.
-        team: domain and problem file of the joint actions, or None.
-        human: name of the human, or None for the only agent with a goal; ``any``, where no agent is called
-            that, for the first of those with goals.
-        name: of the task; default is that of the human's problem.
-        epoch: how long an epoch is, in the unit of PDDL's durations, which are rounded up to whole
-            epochs; None for the greatest common divisor of all that can come up.
-        deadline: how long it may take, and in how much memory.
-        on_progress: is told what is being done, and how many ground actions there are so far.
 
     Raises:
         InputError: a file is missing, can't be read or is wrong.
@@ -161,18 +147,6 @@ def read_pddl(
     The participants of a ground action are the agents among its arguments; of an action with
     ``:agent`` (MA-PDDL) it is that agent alone; those of others are not even ground.  An action
     in which nobody takes part is left out, with a warning.
-
-    Args:
-        domain: the domain file.
-        problem: the problem file; its goal is the human's.
-        human: the object that is the human.
-        robots: the objects that are robots, at least one; with MA-PDDL none, or ``all`` where no
-            object is called that, means all the other objects that can be an ``:agent``.
-        name: of the task; default is that of the problem.
-        epoch: how long an epoch is, in the unit of PDDL's durations, which are rounded up to whole
-            epochs; None for the greatest common divisor of all that can come up.
-        deadline: how long it may take, and in how much memory.
-        on_progress: is told what is being done, and how many ground actions there are so far.
 
     Raises:
         InputError: a file is missing, can't be read or is wrong.

@@ -17,16 +17,7 @@ _LONG: Final = 10**15
 
 
 class Work:
-    """One task being loaded.
-
-    Args:
-        deadline: what it may take; None for no limit.
-        on_progress: is told what is being done.
-
-    Attributes:
-        deadline: to be asked by every stage.
-        doing: what is being done, for people.
-    """
+    """One task being loaded."""
 
     def __init__(self, deadline: Deadline | None = None, on_progress: OnProgress | None = None) -> None:
         self.deadline = Deadline() if deadline is None else deadline
@@ -56,11 +47,6 @@ def within_limits(
     load: Callable[[Work], T], deadline: Deadline | None = None, on_progress: OnProgress | None = None
 ) -> T:
     """The value that ``load`` makes.
-
-    Args:
-        load: does the work, and polls what it is given.
-        deadline: None for no limit.
-        on_progress: told now and then what is being done.
 
     Raises:
         LimitReachedError: a limit came first, or memory is used up; it says what was being done.

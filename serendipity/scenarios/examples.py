@@ -19,10 +19,7 @@ class Example:
 
     Attributes:
         name: what ``--example`` takes.
-        summary: one line for people.
         domain: the PDDL domain, relative to the data folder.
-        problem: the PDDL problem, relative to the data folder.
-        robots: the robots' names.
         bystanders: of these the ones whose plans are fixed, with their actions one after another.
     """
 

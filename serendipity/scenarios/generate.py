@@ -68,8 +68,6 @@ def make_usar(
 
     Args:
         rooms: how many locations, halls included.
-        seed: of the building and of the positions.
-        extra_edges: connections beyond a tree.
         corridors: how many the halls form; fewer are longer.  By default by chance, a fifth
             as many as halls.
         preset: ``figure2`` (the paper's building instead of a random one: ``rooms``,

@@ -140,12 +140,9 @@ class Usar:
     """A building, its agents, its medkits, and where the human has to conduct triage.
 
     Attributes:
-        name: the PDDL problem's name.
-        building: the map.
         robots: names of the robots; the human is ``commx``.
         agents_at: location of each agent, the human first.
         medkits_at: location of each medkit: ``mk1``, ``mk2``...
-        triage_in: where the human has to conduct triage.
 
     Raises:
         UsageError: a location is not in the building, or positions and agents differ in number.

@@ -17,7 +17,6 @@ class Builder:
 
     Args:
         agents: their names; an agent's id is its index.
-        name: of the task.
         separator: between literals; None for blanks.
         alphabetical: whether facts are numbered in the order of their names instead.
     """
@@ -47,11 +46,8 @@ class Builder:
         """Add an action of that very name.
 
         Args:
-            name: of the action.
-            agents: ids of the participants.
             pre: precondition literals; of an action of several epochs ``at start / over all / at end``.
             effects: effect literals; of an action of several epochs ``at start / at end``, or at end alone.
-            cost: undiscounted.
             duration: in epochs.
         """
         conditions = [*map(self._words, pre.split("/")), ([], []), ([], [])][:3]

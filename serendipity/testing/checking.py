@@ -43,11 +43,8 @@ class Draw:
     """The random calls that a planner is asked.
 
     Attributes:
-        modes: drawn from.
         options: names of the options that calls may differ in, and ``human_plan``; others are the default.
         actions: the most ground actions that a task has.
-        seed: of the first call.
-        count: of calls in each check.
         call_limit: seconds for each call: a planner that takes longer hangs.
     """
 
@@ -116,10 +113,7 @@ class Probed:
     """The outcome of a check.
 
     Attributes:
-        calls: how many were asked.
         refused: how many of them the planner, or the oracle, had no answer to.
-        found: the smallest case in which it is wrong, or None.
-        seed: of the call in which that was found.
     """
 
     calls: int

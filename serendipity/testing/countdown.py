@@ -14,8 +14,6 @@ class Countdown(Deadline):
     """Runs out at the ``looks``-th look, ticks and requests for memory included, or at that look alone.
 
     Args:
-        looks: how often it may be looked at.
-        limit: makes what it raises then.
         once: whether the looks after that one are free, as memory may be again.
     """
 

@@ -21,9 +21,6 @@ class Disagreement:
     """Judges that differ on a call, with what each says; or a law that the search's answer breaks.
 
     Attributes:
-        call: the call.
-        said: by judge, or law.
-        law: that is broken, or None.
         plans: in words, with costs: a wrong one and a better one, where there are such.
     """
 

@@ -71,10 +71,6 @@ def report(
     """The smallest case: who says what, the task in Python and in PDDL, the call, and how to see it again.
 
     Args:
-        judge: the planner.
-        check: what it failed.
-        outcome: of the check.
-        found: what was found.
         folder: for its files, which get a folder of their own there; None writes none.
         again: the command that finds it again.
 

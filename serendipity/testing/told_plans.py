@@ -11,11 +11,7 @@ from serendipity.testing.judges.claims import Proposal, cost_of
 def both_plans(
     call: PlanCall, claim: Proposal, options: Options, human_plan: Iterable[str] | None
 ) -> dict[str, str]:
-    """The plan of a claim, and ours; the first only where there is one.
-
-    Args:
-        human_plan: what the human was said to do, or None.
-    """
+    """The plan of a claim, and ours; the first only where there is one."""
     ours = plan(call.task, human_plan=human_plan, **options.to_dict())
     return claimed_plan(call, claim, "its") | told_plan(ours)
 

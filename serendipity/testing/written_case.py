@@ -22,8 +22,6 @@ def write_case(
     """Write ``folder`` (task, ``plan.txt`` where a plan is given, ``commands.txt``) whole; returns the last.
 
     Args:
-        found: the disagreement.
-        folder: where to.
         outside: the words that name judges from outside: then what they were given is written, too.
         again: the command that found it; None is the one of ``crosscheck``, where a seed is known.
 
@@ -58,12 +56,7 @@ def write_case(
 
 
 def command_line(call: PlanCall, folder: Path, command: str = "plan") -> str:
-    """The command line that makes the call on the task written to ``folder``.
-
-    Args:
-        folder: where its task was written.
-        command: the command to show.
-    """
+    """The command line that makes the call on the task written to ``folder``."""
     words = ["serendipity", *command.split(), str(folder), "--human", call.task.agents[call.task.human]]
     words += call.command_words()
     if call.human_plan is not None:

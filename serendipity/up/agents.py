@@ -20,9 +20,7 @@ class Cast:
     """The agents of a task.
 
     Attributes:
-        names: the agents' words.
         human: index of the human.
-        goals: the human's.
         other_goals: those of the robots and of the team.
         owners: the agents of a ``MultiAgentProblem``, in the order of the names.
         objects: whether the agents are objects.

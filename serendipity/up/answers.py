@@ -28,15 +28,7 @@ _OWN: Final = ("human", "robots", "human_plan", "predict_with")
 
 @dataclass(frozen=True, slots=True)
 class EngineCall:
-    """Parameters of the engine.
-
-    Attributes:
-        human: who is the human; None if nobody said.
-        robots: who are the robots; None if nobody said.
-        human_plan: what the human is going to do, or None.
-        predict_with: the engine that predicts it, or None.
-        given: the parameters as they were given.
-    """
+    """Parameters of the engine."""
 
     options: Options
     human: Any = None
@@ -120,7 +112,6 @@ class Answers:
     """The answers to one call, each better than those before it.
 
     Args:
-        problem: what is asked about.
         timeout: seconds, or None.
         ignored: what the caller gave that plays no part.
     """

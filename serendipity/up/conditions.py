@@ -34,9 +34,6 @@ class Term(NamedTuple):
 class Reader:
     """Reads the expressions of one action or goal.
 
-    Args:
-        owner: whose action or goal it is.
-
     Attributes:
         quantified: whether there were quantifiers in what was read.
     """

@@ -23,11 +23,6 @@ def durative_schema(
 ) -> lifted.Schema:
     """A durative action.
 
-    Args:
-        reader: of its expressions.
-        name: what the grounder calls it.
-        increases: what it costs.
-
     Raises:
         InputError: it has something that is not supported; it says what.
     """

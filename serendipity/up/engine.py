@@ -32,7 +32,6 @@ class PlanVerdict:
 
     Attributes:
         valid: whether every order of it can be executed and reaches all goals; None if there are too many.
-        cost: what it costs, if it is valid.
         at_fault: the action that is not applicable, in some order; None if it is the goals that are missed.
     """
 

@@ -15,8 +15,6 @@ def number_of(reader: Reader, node: FNode, what: str) -> lifted.Expression:
     """A number, or what it is calculated from.
 
     Args:
-        reader: of the objects in it.
-        node: the number.
         what: how an error calls it.
 
     Raises:

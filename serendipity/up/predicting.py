@@ -22,7 +22,6 @@ class EngineAnswer:
     """What an engine answered.
 
     Attributes:
-        status: in its own words.
         actions: indices of the problem's actions; None without a plan.
     """
 

@@ -45,8 +45,6 @@ class Reading:
     """A problem that was read.
 
     Attributes:
-        task: the task.
-        vocabulary: what it calls things.
         left_out: actions of the problem in which none of the agents takes part: the task is without them.
     """
 

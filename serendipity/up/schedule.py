@@ -28,7 +28,6 @@ class Event:
     """A start or an end of an action of a plan.
 
     Attributes:
-        step: index of the action.
         offset: the time from its start.
         epoch: with which it comes.
         action: what takes effect, with what has to hold before it.

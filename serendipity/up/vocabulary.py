@@ -63,9 +63,6 @@ ALONE: Final = "agent"
 class Vocabulary:
     """The names of a problem, both ways.
 
-    Args:
-        problem: a ``Problem`` or a ``MultiAgentProblem``.
-
     Raises:
         InputError: the problem is of another class.
     """

@@ -86,11 +86,7 @@ class _Refutation:
             self._first.append(self._first[-1] + (2 if sense == "==" else 1))
 
     def formula(self, about: str) -> Iterator[str]:
-        """The lines of the OPB file.
-
-        Args:
-            about: which program of which claim it is.
-        """
+        """The lines of the OPB file."""
         program = self._program
         yield f"* #variable= {len(program['columns'])} #constraint= {len(self._rows)}"
         yield f"* {about}: {program['name']}"

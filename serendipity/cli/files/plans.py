@@ -55,10 +55,6 @@ def plan_file(task: Task, result: Result) -> str:
     Within an epoch an action comes before those that would undo what it needs, so that the
     lines can also be executed one after another; a comment says where no order does.  In time
     each line says when it begins and how long it takes: ``12.000: (walk ann bed sink) [4.000]``.
-
-    Args:
-        task: that the result answers.
-        result: with a plan.
     """
     return "".join(f"{line}\n" for line in _lines(task, result))
 

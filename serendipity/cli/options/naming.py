@@ -122,10 +122,6 @@ class TaskName(Group):
     def with_result(self, command: str, deadline: Deadline | None = None) -> tuple[Task, Path, Result]:
         """The task of all files but the last, which is that of a result; that file; the result.
 
-        Args:
-            command: named in errors.
-            deadline: of reading the task.
-
         Raises:
             UsageError: the last file can't be a result.
             InputError: it can't be read, or is no result; or as for :meth:`load`.

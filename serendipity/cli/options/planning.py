@@ -143,7 +143,6 @@ class Planning(Group):
     """Options of a planning call.
 
     Attributes:
-        human_plan: the file of ``--human-plan``.
         given: the others that the user gave, by name; what is left out keeps its default.
     """
 

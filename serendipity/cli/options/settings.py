@@ -35,7 +35,6 @@ class Settings:
 
     Attributes:
         file: where it stands; None without any.
-        human: the human's name, or None.
         robots: names of robots, for tasks that are DOMAIN PROBLEM.
         agents: words of ``--agent``, for when the command line names no task.
         team: the word of ``--team`` beside them.
@@ -57,9 +56,6 @@ _in_force: ContextVar[Settings] = ContextVar("settings", default=_NONE)
 
 def begin(command: str) -> dict[str, Any]:
     """Put the settings for the working directory in force.
-
-    Args:
-        command: one of :data:`COMMANDS`.
 
     Returns:
         what its options are where the command line says nothing.

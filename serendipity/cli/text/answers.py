@@ -15,9 +15,6 @@ def plan_report(task: Task, result: Result, certificate: Certificate, *, each_cl
     """The answer of ``plan``.
 
     Args:
-        task: what was asked.
-        result: what was answered.
-        certificate: what the checker says of it.
         each_claim: show each claim of the certificate, not the verdict only.
     """
     robots = [task.agents[i] for i in task.robots]

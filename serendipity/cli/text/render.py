@@ -37,8 +37,6 @@ def shown(answer: Any, form: str, **how: Any) -> str | bytes:
 
     Args:
         answer: with ``to_json``, ``told`` and, where it has rows, ``table``.
-        form: a format of the command.
-        how: keywords of ``told``.
     """
     if form == "json":
         return str(answer.to_json())

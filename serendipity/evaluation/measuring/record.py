@@ -20,7 +20,6 @@ class Lines:
 
     Args:
         path: the file; made when the first line is written.
-        what: is expected in it, for errors.
         begins: what its lines begin with, so that the end of another file is not taken for one
             that was cut off.
     """

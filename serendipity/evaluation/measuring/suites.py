@@ -46,8 +46,6 @@ class Roles:
     """Roles of a problem's agents.
 
     Attributes:
-        human: the human.
-        robots: the robots.
         alone: whether the human is known to have a plan alone.
     """
 
@@ -76,9 +74,7 @@ def problems(folder: Path, domains: Sequence[str] = (), stride: int = 1) -> list
     """Every ``stride``-th problem of each domain.
 
     Args:
-        folder: with a folder for each domain.
         domains: only these of them; none means all.
-        stride: 1 for all of a domain's problems.
 
     Raises:
         UsageError: there is no such domain.
@@ -105,10 +101,6 @@ def _problem_files(folder: Path) -> list[Path]:
 
 def roles(problem: Problem, robots: int, can_alone: Callable[[Problem, Roles], bool]) -> Roles:
     """The first agent of the file who can do it alone, or else the first, and the next others.
-
-    Args:
-        robots: how many there are at most.
-        can_alone: whether a human is known to have a plan alone.
 
     Raises:
         InputError: a file is wrong, or there are fewer than two agents.

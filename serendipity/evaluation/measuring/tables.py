@@ -24,13 +24,7 @@ def table(
     groups: Mapping[N, Sequence[R]],
     columns: Mapping[str, Callable[[Sequence[R]], object]],
 ) -> Grid:
-    """A row for each group: what names it, and a cell for each column.
-
-    Args:
-        names: headings of what names a group.
-        groups: the rows of each.
-        columns: by heading what a group comes to.
-    """
+    """A row for each group: what names it, and a cell for each column."""
     lines = [[*key, *(str(cell(of)) for cell in columns.values())] for key, of in groups.items()]
     return Grid([*names, *columns], lines)
 

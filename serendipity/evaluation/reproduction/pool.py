@@ -22,10 +22,7 @@ def on_dask(work: Work, assignments: Sequence[Assignment], address: str, jobs: i
     The workers need the program and the folder of tasks under the same path.
 
     Args:
-        work: done for each assignment.
-        assignments: what to do.
         address: of a scheduler, or ``local`` for a cluster of ``jobs`` processes on this machine.
-        jobs: see ``address``.
 
     Raises:
         UsageError: Dask is not installed, or there is no scheduler at the address.

@@ -32,11 +32,7 @@ _BEGINS: Final = (json.dumps({"schema": SCHEMA})[:-1].encode(), b'{"test": ')
 
 
 class Journal:
-    """Rows of finished tasks on disk; a task whose line was cut off is simply done again.
-
-    Args:
-        path: the file; made when the first task is finished.
-    """
+    """Rows of finished tasks on disk; a task whose line was cut off is simply done again."""
 
     def __init__(self, path: Path) -> None:
         self.path = path

@@ -18,7 +18,6 @@ class TaskFolder:
 
     Attributes:
         test: its number, for a folder ``testN``; else the folder's name.
-        path: the folder.
         fingerprint: changes when a file of the task does.
     """
 

@@ -44,12 +44,9 @@ class Entry(NamedTuple):
     """One entry of Table I.
 
     Attributes:
-        discount: what robots do costs so much less.
         variant: a mode, or ``serendipity, best tie`` and ``serendipity, worst tie``: over
             the human's optimal plans.
         mean_cost: over the tasks that have a plan, or None without any.
-        improved: number of tasks in which a robot helps.
-        tasks: number of tasks that have a plan.
         paper_mean_cost: in the paper, where the tasks are the paper's.
         paper_improved: likewise.
     """

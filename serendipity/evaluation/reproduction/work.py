@@ -30,8 +30,6 @@ class Assignment(NamedTuple):
     """A task, the calls that are still to be made for it, and limits that other processes can be told.
 
     Attributes:
-        task: its folder.
-        calls: to be made.
         time_limit: seconds for reading a task, and for each call; or None.
         memory_limit: what a process may have in memory, in MiB, or None.
         until: when the whole run has to be over, by the clock of ``time.time()``, or None.

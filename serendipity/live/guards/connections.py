@@ -35,7 +35,6 @@ def listening(host: str, port: int) -> socket.socket:
     """A socket that listens.
 
     Args:
-        host: a name or an address.
         port: 0 for any that is free.
 
     Raises:
@@ -165,8 +164,6 @@ def serve(app: Any, listener: socket.socket, draining: Draining | None = None, s
     """Answer requests to an ASGI application, on a socket that listens, until a signal ends it.
 
     Args:
-        app: the application.
-        listener: the socket.
         draining: of the application, where SIGTERM has it answer what it has begun first.
         seconds: that it may take for that.
     """

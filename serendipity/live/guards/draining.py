@@ -10,12 +10,7 @@ _HEADERS: Final = {"Retry-After": "1", "Connection": "close"}
 
 
 class Draining:
-    """Whether a server takes requests, and how many it has not answered yet.
-
-    Attributes:
-        begun: whether it is ready only to end.
-        open: requests that are not answered.
-    """
+    """Whether a server takes requests, and how many it has not answered yet."""
 
     def __init__(self) -> None:
         self.begun = False
@@ -23,11 +18,7 @@ class Draining:
 
 
 class Drained:
-    """Middleware that refuses what is asked of a draining server; what only looks at it is still answered.
-
-    Args:
-        draining: of the server.
-    """
+    """Middleware that refuses what is asked of a draining server; what only looks at it is still answered."""
 
     def __init__(self, app: ASGIApp, draining: Draining) -> None:
         self._app = app

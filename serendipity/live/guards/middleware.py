@@ -141,7 +141,6 @@ class Responses:
 
     Args:
         inline: whether pages have scripts in them, and not beside them.
-        count: told of each response, too.
     """
 
     def __init__(self, app: ASGIApp, *, inline: bool, count: Count | None = None) -> None:

@@ -25,13 +25,7 @@ _INSTRUCTIONS: Final = (
 
 
 class _Call(NamedTuple):
-    """A tool.
-
-    Attributes:
-        job: what workers call it.
-        arguments: what it asks for.
-        description: for the agent that chooses.
-    """
+    """A tool."""
 
     job: str
     arguments: type[asked.RequestPart]
@@ -66,7 +60,6 @@ def agent_server(pool: Pool, body_limit: int) -> Server[Any]:
     """A server of the protocol, for any transport.
 
     Args:
-        pool: who works.
         body_limit: bytes of a call's arguments, at most.
     """
 

@@ -30,14 +30,7 @@ async def _over_streams(limits: PoolLimits, body_limit: int) -> None:
 
 
 def over_http(limits: PoolLimits, body_limit: int, hosts: Sequence[str], token: str | None) -> Starlette:
-    """An application that answers under :data:`PATH`; each call stands for itself.
-
-    Args:
-        limits: what it lets others use.
-        body_limit: bytes of a request.
-        hosts: names under which it may be asked, ports apart.
-        token: what requests have to bring, or None.
-    """
+    """An application that answers under :data:`PATH`; each call stands for itself."""
     pool = Pool(limits)
     tools = agent_server(pool, body_limit).streamable_http_app(
         streamable_http_path=PATH,

@@ -48,11 +48,7 @@ class Host(Protocol):
 
 
 def application(host: Host, hosts: Sequence[str]) -> FastAPI:
-    """The application.
-
-    Args:
-        hosts: names under which it may be asked, ports apart.
-    """
+    """The application."""
     app = FastAPI(
         openapi_url=None,
         middleware=[

@@ -11,13 +11,7 @@ from serendipity.model.numbers import plain
 
 
 class ClockView:
-    """Time as the person sees it, and what happens in it.
-
-    Args:
-        task: where the round begins.
-        words: for its domain.
-        say: the language.
-    """
+    """Time as the person sees it, and what happens in it."""
 
     def __init__(self, task: Task, words: Phrases, say: Language) -> None:
         self._task = task

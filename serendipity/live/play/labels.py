@@ -136,7 +136,6 @@ class Phrases:
 
     Args:
         labels: of its domain; what has none is said by its name.
-        say: the language.
     """
 
     def __init__(

@@ -18,7 +18,6 @@ class Knowledge:
     """What a person takes to be true.
 
     Args:
-        task: where it begins, which they know.
         view: ``observant`` sees everything; ``local`` what is where they are.
 
     Attributes:
@@ -42,12 +41,7 @@ class Knowledge:
         return self._around is None or self._around.visible(self._human, fact, state)
 
     def look(self, state: frozenset[int], done: GroundAction | None) -> None:
-        """Take in an epoch.
-
-        Args:
-            state: how things are now.
-            done: what they did themselves, of which they know what it does.
-        """
+        """Take in an epoch."""
         if self._around is None or not self._around.located:
             self.belief = state
             return

@@ -26,13 +26,7 @@ class Download(NamedTuple):
 
 
 class Records:
-    """The events of one person.
-
-    Args:
-        participant: goes into each event.
-        file: is added to, line by line, or None.
-        events: that it holds already.
-    """
+    """The events of one person."""
 
     def __init__(self, participant: str, file: Path | None = None, events: Iterable[Event] = ()) -> None:
         self._participant = participant

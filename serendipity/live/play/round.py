@@ -37,15 +37,12 @@ class RoundSetting:
 
     Attributes:
         task: where it begins; its goal is the person's.
-        discount: of robots' costs.
         view: one of ``VIEWS``.
         condition: one of ``CONDITIONS``.
         goals: goals that robots think possible, as :func:`serendipity.recognise` takes them; None: they
             know the person's.
         deadline: seconds for each decision of the robots, or None.
-        labels: words for its domain.
         most_epochs: after which it is over, whatever has been reached; None: without end.
-        say: the language.
     """
 
     name: str
@@ -157,9 +154,6 @@ class Round:
 
     def again(self, event: Event, file: Path | None = None) -> None:
         """Play a recorded epoch: what robots had decided, and what the person did.
-
-        Args:
-            file: named in errors.
 
         Raises:
             InputError: the record is of another round.

@@ -18,9 +18,6 @@ class RecordedRounds:
 
     What is not recorded has not happened.
 
-    Args:
-        records: of what they did.
-
     Attributes:
         round: the number of the round that was begun last; 0 before, and for practice.
     """

@@ -163,7 +163,6 @@ def line_of(error: Mapping[str, Any], whole: str) -> str:
     """What is wrong with a part of a request, in a line.
 
     Args:
-        error: as pydantic tells it.
         whole: what all parts are called together.
     """
     where = ".".join(str(part) for part in error["loc"]) or whole

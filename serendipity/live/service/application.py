@@ -170,14 +170,10 @@ class ServiceLimits:
     """What a service lets others use.
 
     Attributes:
-        pool: processes, queue, time and memory.
         body: bytes of a request.
         body_seconds: until all of them have to be there.
-        sessions: how many are remembered.
-        session_bytes: what all of them may take.
         session_seconds: after which an unused one is forgotten.
         keys: answers that are kept for requests with an ``Idempotency-Key``.
-        key_bytes: what these may take.
         key_seconds: after which they are forgotten.
     """
 
@@ -195,14 +191,7 @@ class ServiceLimits:
 def service(
     limits: ServiceLimits, hosts: Sequence[str], token: str | None = None, draining: Draining | None = None
 ) -> FastAPI:
-    """The application.
-
-    Args:
-        limits: what it lets others use.
-        hosts: names under which it may be asked, ports apart.
-        token: what requests have to bring, or None.
-        draining: whether it is about to end.
-    """
+    """The application."""
     drains = draining or Draining()
     pool = Pool(limits.pool)
     sessions = SessionStore(limits.sessions, limits.session_bytes, limits.session_seconds)

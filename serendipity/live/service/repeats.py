@@ -26,14 +26,7 @@ _STREAMED: Final = b"text/event-stream"
 
 @dataclass(slots=True)
 class _Kept:
-    """A request under a key, and its answer.
-
-    Attributes:
-        digest: of the request.
-        used: when it was asked last.
-        answer: the messages of its response, once it is there.
-        done: set then.
-    """
+    """A request under a key, and its answer."""
 
     digest: bytes
     used: float
@@ -49,8 +42,6 @@ class Repeats:
     """Middleware that answers a request which is repeated under its key as it was answered before.
 
     Args:
-        most: keys that are kept.
-        bytes_: what their answers may take.
         seconds: after which an answer is forgotten.
     """
 

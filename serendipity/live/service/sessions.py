@@ -19,12 +19,7 @@ class Remembered:
     """One session; what may be large of it is kept as JSON text.
 
     Attributes:
-        name: its id; nobody guesses it.
-        begun: the request that began it.
         state: where it stands, as workers write it; ``null`` before the first call.
-        version: calls so far.
-        used: when it was used last.
-        busy: whether a call is under way.
     """
 
     name: str
@@ -68,8 +63,6 @@ class SessionStore:
     """The sessions of a server: those that nobody uses are forgotten after a while, and free their room.
 
     Args:
-        most: how many there may be.
-        bytes_: how many bytes all of them may take.
         seconds: after which an unused one is forgotten.
     """
 
@@ -91,7 +84,6 @@ class SessionStore:
         """A session that :meth:`add` makes known.
 
         Args:
-            begun: the request that begins it.
             state: where it stood on another server, or None.
 
         Raises:

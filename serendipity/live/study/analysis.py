@@ -42,7 +42,6 @@ def read_rounds(file: Path, *, attentive: bool = False) -> list[Row]:
     """The rounds that count.
 
     Args:
-        file: ``rounds.csv`` of the study.
         attentive: leave out participants who have not understood, or failed what checks their attention.
 
     Raises:
@@ -133,10 +132,6 @@ def summary(rows: Sequence[Row]) -> str:
 
 def drawn(rows: Sequence[Row], measures: Sequence[str] = ("spared", "saved")) -> "Figure":
     """Means with their intervals by condition, and a point for each person.
-
-    Args:
-        rows: as :func:`read_rounds` has them.
-        measures: one picture each.
 
     Raises:
         UsageError: matplotlib is not installed.

@@ -41,15 +41,8 @@ class Design:
     """A study before anybody takes part.
 
     Attributes:
-        texts: what participants read and are asked, and the conditions.
-        scenarios: by name.
-        practice: the round to practise with, or None.
-        seed: of all draws.
         secret: whoever has it may see and save everything.
-        code: what participants get at the end.
         mark: the hash of all this, but for the secret; it stands in each record.
-        report: the rehearsals in words.
-        language: of the page.
     """
 
     texts: StudyFile
@@ -81,7 +74,6 @@ def open_design(
 
     Args:
         folder: made where it is missing.
-        labels: words for scenarios of the study's own.
         language: of the page, where the folder's file does not say it; None: as begun, or English.
         **given: ``rounds``, ``seed``, ``discount``, ``view``, ``deadline``; None: as begun, or as usual.
 

@@ -27,9 +27,6 @@ class RehearsedRound:
     """What a round came to.
 
     Attributes:
-        reached: whether the goal was.
-        human_cost: what the person paid.
-        cost: what the team paid.
         helped: in how many epochs robots did something.
     """
 
@@ -113,11 +110,6 @@ def places(conditions: Sequence[str], rounds: int, seed: int) -> Iterator[tuple[
     In every block each condition has each row once.  Within it, conditions come in groups, drawn in their
     order and in their size, that hold each of them once or twice: so nobody can tell the next one from those
     before, and the numbers are never far apart.
-
-    Args:
-        conditions: to be shared out.
-        rounds: of each participant.
-        seed: of the draws.
     """
     block = 0
     while True:
@@ -161,9 +153,6 @@ def draw(
     """Scenarios in which conditions show what they promise, with what they come to.
 
     Args:
-        count: how many.
-        seed: of the draws.
-        conditions: of the study.
         **how: fields of :class:`.setting.RoundSetting`.
 
     Raises:

@@ -41,11 +41,7 @@ _OVER: Final = ("end", "withdrawn")
 class Participant(RecordedRounds):
     """Somebody who takes part.
 
-    Args:
-        records: theirs, which begin with how they joined.
-
     Attributes:
-        joined: the first event.
         stage: ``instructions``, ``comprehension``, ``play``, ``questions``, ``closing``, ``end`` or
             ``withdrawn``.
 

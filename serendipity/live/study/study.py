@@ -150,9 +150,6 @@ _ID: Final = re.compile(r"[A-Za-z0-9._~@:+=-]{1,100}")
 class Study:
     """Participants, each with a link and a file of their own.
 
-    Args:
-        folder: where the files are; whoever has begun goes on.
-
     Attributes:
         faults: lines about what could not be read.
     """

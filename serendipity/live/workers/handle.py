@@ -20,7 +20,6 @@ class Handle:
     """One process on one job at a time; :meth:`start` makes it.
 
     Attributes:
-        working: whether it has a job that it has not ended.
         resident: bytes that it had in memory at the end of its last job.
     """
 

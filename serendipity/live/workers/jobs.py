@@ -21,11 +21,7 @@ _FOLDER_NAME: Final = re.compile(r"\w[\w.-]{0,59}")
 
 
 class GivenTasks:
-    """Reads tasks, and keeps the last few: who asks once about a task often asks again.
-
-    Args:
-        most: how many are kept.
-    """
+    """Reads tasks, and keeps the last few: who asks once about a task often asks again."""
 
     def __init__(self, most: int) -> None:
         self._most = most
@@ -118,12 +114,7 @@ has it, or None at the beginning."""
 
 
 class HeldSessions:
-    """The sessions that were used last, by id and version.
-
-    Args:
-        most: how many are held.
-        tasks: reads their tasks.
-    """
+    """The sessions that were used last, by id and version."""
 
     def __init__(self, most: int, tasks: GivenTasks) -> None:
         self._most = most

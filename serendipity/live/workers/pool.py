@@ -36,8 +36,6 @@ class PoolLimits:
     """What a pool may use.
 
     Attributes:
-        workers: how many processes.
-        queue: how many jobs may wait for one.
         time_limit: seconds for a job.
         memory_limit: MiB for a process.
     """
@@ -53,9 +51,6 @@ class PoolFigures:
     """What has happened so far.
 
     Attributes:
-        waiting: jobs that wait now.
-        busy: workers at work now.
-        refused: jobs that found the queue full.
         replaced: workers that were replaced, by reason.
     """
 

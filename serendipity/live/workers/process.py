@@ -36,8 +36,6 @@ class Worker:
     """One job after the other, each under its limits; a job may be cancelled while it runs.
 
     Args:
-        source: where jobs come from.
-        sink: where answers go to.
         memory_limit: of the process, in MiB.
         folder: its own, for temporary files: gone when it ends.
     """

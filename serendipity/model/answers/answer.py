@@ -40,12 +40,8 @@ class ServedGoal:
     """The answer for one goal that the human may have (semantics 8).
 
     Attributes:
-        name: of the goal, for people.
-        probability: among the goals that are considered.
         human_plan: the human's current plan, if that is their goal; None where that is not known.
-        steps: what everybody does, or None.
         window: in which that plan is interrupted, or None where it is left alone.
-        cost: what it costs the team, or None.
         goal: literals of the goal, where neither the task nor a recognition says it.
     """
 
@@ -63,8 +59,6 @@ class Tried:
     """One strategy of a planning call: what it took, and what came of it.
 
     Attributes:
-        name: of the strategy.
-        seconds: that it took.
         better: how often it has made the answer better.
         bound: the lower bound on the objective that it left, where it has raised it; else None.
         settled: whether nothing better was left after it.

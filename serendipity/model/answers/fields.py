@@ -69,7 +69,6 @@ def form(kind: type, special: dict[str, Form], *, closed: bool = False) -> None:
     """Declare what of the form of a dataclass does not follow from the types of its fields.
 
     Args:
-        kind: the dataclass.
         special: forms of fields, by name.
         closed: whether an object has no other fields than the dataclass.
     """
@@ -91,11 +90,6 @@ def written(value: Any, names: Iterable[str] | None = None) -> dict[str, Any]:
 def read(kind: Callable[..., T], value: Any, where: str) -> T:
     """The dataclass that a JSON object writes down; fields that have a default may be missing.
 
-    Args:
-        kind: the dataclass.
-        value: what stands in the file.
-        where: its place there, for errors.
-
     Raises:
         MalformedError: naming a field that is missing or of another form.
     """
@@ -115,9 +109,6 @@ def read_fields(
     """The values of some fields of a dataclass, by name.
 
     Args:
-        kind: the dataclass.
-        given: a JSON object.
-        names: of the fields, each of which has to be there.
         where: the object's place in the file; empty for the whole of it.
 
     Raises:

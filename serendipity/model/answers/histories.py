@@ -12,7 +12,6 @@ class History:
     """Epochs in which the same scenarios are possible.
 
     Attributes:
-        start: the first of these epochs.
         end: the first epoch after them.
         scenarios: those that are possible, by their places in the answer.
         robots: what robots take part in then, in any of the scenarios.
@@ -38,9 +37,6 @@ def histories(scenarios: Sequence[GoalAnswer], human: str, horizon: int, *, watc
     """The histories of an answer.
 
     Args:
-        scenarios: of the answer, each with a plan.
-        human: the human's name.
-        horizon: ``T``.
         watching: whether robots tell scenarios apart by what the human does.
     """
     done = [{step.epoch: step for step in s.plan or () if human in step.agents} for s in scenarios]

@@ -21,7 +21,6 @@ def goal_of(result: "Result", entry: GoalAnswer) -> tuple[str, ...] | None:
     """The literals of a scenario's goal; None for that of the task.
 
     Args:
-        result: the answer.
         entry: one of its scenarios, which has the name of its goal, or that and a plan's number.
     """
     known = {} if result.recognition is None else {one.name: one.goal for one in result.recognition.goals}

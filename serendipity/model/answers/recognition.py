@@ -35,7 +35,6 @@ class Errors(NamedTuple):
     """What was wrong and missed in the likeliest reading of noisy observations.
 
     Attributes:
-        cost: of the plan that it reads them in.
         wrong: observations that are none of the plan's actions.
         missed: actions of it, before the last one that was seen, which were not seen.
     """

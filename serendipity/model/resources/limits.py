@@ -19,7 +19,6 @@ def limits_from(
         time_limit: seconds of the call, or None.
         memory_limit: what the process may have in memory, in MiB, or None.
         deadline: one that other work shares; it holds as well.
-        cancelled: set from another thread to end the call.
 
     Raises:
         UsageError: a limit is not a number of at least 0, or one of the others is of another type.

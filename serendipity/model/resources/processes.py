@@ -24,9 +24,6 @@ def in_processes(
     Where a process is killed, what may have been its assignment is done again, in a process of its own.
 
     Args:
-        work: a function of a module, which is done for each assignment.
-        assignments: what to do.
-        jobs: how many processes.
         lost: what an assignment comes to whose process is killed again.
 
     Raises:

@@ -52,7 +52,6 @@ class Disjunction:
     """A fact that is true iff one of some literals is.
 
     Attributes:
-        fact: its id.
         literals: facts, and whether each of them has to be true.
     """
 
@@ -186,10 +185,6 @@ def conflicting(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
     They can't if an agent takes part in both, if both delete a fact, or if one
     deletes what the other adds; with ``strict`` also if one deletes or negates a
     precondition of the other.
-
-    Args:
-        a: one action.
-        b: another.
     """
     for agent in a.participants:  # loops: this is asked for millions of pairs
         if agent in b.participants:
@@ -210,9 +205,6 @@ def disables(a: GroundAction, b: GroundAction) -> bool:
 
 def in_turn(variants: Sequence[Sequence[GroundAction]]) -> tuple[list[int], list[int]]:
     """The order of an epoch's actions in which each comes before those that disable it.
-
-    Args:
-        variants: of each action.
 
     Returns:
         The indices of those that can be done one after another, in that order, and of those for which no

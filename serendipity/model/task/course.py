@@ -14,12 +14,7 @@ from serendipity.model.task.script import Timeline
 
 
 class BrokenPlanError(Exception):
-    """Something can't go on as it should; its text says why, for people.
-
-    Args:
-        action: what can't be done.
-        reason: why.
-    """
+    """Something can't go on as it should; its text says why, for people."""
 
     def __init__(self, action: GroundAction, reason: str) -> None:
         self.action = action
@@ -37,12 +32,6 @@ class _Going:
 
 class PlayedPlan:
     """The states of a plan: each epoch is told what begins in it.
-
-    Args:
-        facts: names, for messages.
-        init: the state to begin with.
-        script: what happens beside the plan.
-        strict: whether interference is strict (semantics 2).
 
     Attributes:
         epoch: the last one that is over; 0 at first.

@@ -61,12 +61,9 @@ class Weighed:
 
     Args:
         task: in single epochs.
-        kinds: what counts.
         original: the task as it was given, whose facts count.
 
     Attributes:
-        task: the new one.
-        weights: of its actions.
         original: their ids in the task that was given.
     """
 

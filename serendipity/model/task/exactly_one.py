@@ -16,18 +16,11 @@ class Balance:
     number of actions that touch a group.
 
     Attributes:
-        init: ids of the facts true initially.
-        actions: every ground action.
         adds: by action, what it adds.
         adders: by fact, the actions that add it.
         consumers: by fact, the actions that consume it.
         sources: by fact, what is consumed, initially true facts only, where it is made true.
         unbalanced: facts that were added to some group without one of its members being consumed.
-
-    Args:
-        n_facts: how many facts there are.
-        init: see above.
-        actions: see above.
     """
 
     def __init__(

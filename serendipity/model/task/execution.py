@@ -18,7 +18,6 @@ def actions_named(task: Task, name: str, agents: Iterable[str]) -> tuple[int, ..
 
     Args:
         name: as plans write it, in canonical form.
-        agents: names of the participants, in any order.
     """
     wanted = sorted(agents)
     return tuple(

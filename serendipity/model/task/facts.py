@@ -9,11 +9,7 @@ from serendipity.model.task.task import canonical_name
 
 
 class Facts:
-    """Ids of facts by name.
-
-    Args:
-        names: of the facts, by id.
-    """
+    """Ids of facts by name."""
 
     def __init__(self, names: Sequence[str]) -> None:
         self._ids = {name: fact for fact, name in enumerate(names)}

@@ -21,7 +21,6 @@ def grown_groups(balance: Balance, deadline: Deadline, apart: Iterable[Group] = 
     """Groups that share no fact.
 
     Args:
-        balance: of the task.
         apart: groups that are known; these share no fact with them, either.
     """
     return _Grower(balance, deadline, apart).groups()

@@ -26,7 +26,6 @@ class Slot(NamedTuple):
 
     Attributes:
         predicate: its name, and how many arguments it has.
-        position: from 0.
     """
 
     predicate: tuple[str, int]
@@ -42,13 +41,7 @@ _Facts = Mapping[int, frozenset[Slot]]
 
 @dataclass(frozen=True, slots=True)
 class _Change:
-    """The changes of an action to the facts that mention an object.
-
-    Attributes:
-        needs: what has to be true.
-        adds: what it makes true.
-        deletes: what it makes false.
-    """
+    """The changes of an action to the facts that mention an object."""
 
     needs: _Facts
     adds: _Facts
@@ -81,12 +74,7 @@ class _Change:
 
 
 def groups_by_form(facts: Sequence[str], balance: Balance, deadline: Deadline) -> list[Group]:
-    """Exactly-one groups that share no fact; none where names have no form.
-
-    Args:
-        facts: their names.
-        balance: of the task.
-    """
+    """Exactly-one groups that share no fact; none where names have no form."""
     atoms = [_atom(name) for name in deadline.each(facts)]
     changes = _by_part(_changes(_examples(deadline.each(balance.actions)), atoms))
     instances = {}

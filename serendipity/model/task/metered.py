@@ -26,13 +26,8 @@ class Metered:
 
     Args:
         task: in single epochs.
-        most: that may be paid.
-        deadline: polled.
         prices: of its actions; None: what the human pays for them.
         name: of what is paid, for the facts.
-
-    Attributes:
-        task: the new one.
 
     Raises:
         LimitReachedError: the deadline came, or all this does not fit into memory.

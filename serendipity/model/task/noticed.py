@@ -28,11 +28,7 @@ class Noticed:
 
     Args:
         task: without time.
-        plan: the human's.
         original: the task as it was given, whose facts say what is to be seen.
-
-    Attributes:
-        task: the new one.
     """
 
     def __init__(self, task: Task, plan: HumanPlan, original: Task) -> None:

@@ -20,9 +20,7 @@ def epoch_later(task: Task, begun: Iterable[GroundAction], *, strict: bool = Fal
     """The task after an epoch.
 
     Args:
-        task: the task.
         begun: what began in it, apart from the script.
-        strict: whether interference is strict.
 
     Raises:
         BrokenPlanError: something can't begin, go on or end, or two actions are in each other's way.

@@ -170,7 +170,6 @@ def checked_entries(entries: Iterable[PlanEntry], what: str) -> tuple[PlanEntry,
     """The entries of a plan that is given: all of them names, or all of them with epochs.
 
     Args:
-        entries: a list, or whatever can be gone through.
         what: how an error calls it.
 
     Raises:

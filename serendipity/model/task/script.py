@@ -35,8 +35,6 @@ class Deed:
     """An action of a bystander, begun in an epoch.
 
     Attributes:
-        epoch: in which it begins.
-        agent: id of the bystander.
         variants: the actions of its name, of which the first that is applicable then is done.
     """
 
@@ -60,8 +58,6 @@ class Timeline:
     """What happens anyway, by epoch; false where nothing does.
 
     Attributes:
-        facts: that change, by epoch.
-        deeds: of bystanders, by epoch.
         people: ids of the bystanders, of those who do nothing too.
 
     Raises:

@@ -31,7 +31,6 @@ def several(names: Iterable[str], what: str) -> tuple[str, ...]:
     """The names of a list; a text by itself, whose letters would be taken for names, is refused.
 
     Args:
-        names: a list, or whatever can be gone through.
         what: how an error calls it.
 
     Raises:

@@ -50,7 +50,6 @@ class UnitSteps:
 
     Attributes:
         task: the task, with :attr:`.Task.due`.
-        original: the task that it was made of.
         chains: by id of an original action its ids in the task, epoch by epoch.
         waiting: id of the human's waiting, which given plans may have.
         resting: the same after their last action; where waiting costs nothing it is no other.
@@ -123,7 +122,6 @@ def unit_steps(task: Task, deadline: Deadline | None = None, waiting_cost: Fract
     """The task in single epochs.
 
     Args:
-        task: a task.
         waiting_cost: of each epoch in which the human waits before an action of theirs.
 
     Raises:
@@ -153,12 +151,7 @@ def _kept_by(task: Task) -> list[frozenset[int]]:
 
 
 class _Steps:
-    """Facts and actions of the new task, as they are found.
-
-    Args:
-        task: the original.
-        waiting_cost: of an epoch of waiting before an action.
-    """
+    """Facts and actions of the new task, as they are found."""
 
     def __init__(self, task: Task, waiting_cost: Fraction) -> None:
         self._task = task

@@ -50,11 +50,6 @@ def find_variables(
 
     Sound for every input: a group that is not exactly-one under each action is not
     reported, whatever the names.  Not complete: some groups that exist may be missed.
-
-    Args:
-        facts: their names; ids are indices.
-        init: ids of those that hold in ``I``.
-        actions: every ground action.
     """
     deadline = deadline or Deadline()
     balance = Balance(len(facts), init, actions, deadline)

@@ -26,7 +26,6 @@ class Surroundings:
     one place, and visible.
 
     Attributes:
-        agents: names of the agents.
         parts: per fact id the words that it is about.
         located: per location fact who or what it places, and where.
     """

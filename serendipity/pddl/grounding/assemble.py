@@ -31,9 +31,6 @@ class Source:
     """Files, with the actions of theirs that count and the agents that take part in these.
 
     Attributes:
-        unit: the files.
-        schemas: the actions that count.
-        participants: see :data:`Participants`.
         actors: what the first parameter of the actions may be, where that is known; else None.
     """
 
@@ -48,14 +45,9 @@ class Blueprint:
     """All that a task is made of, before grounding.
 
     Attributes:
-        name: for people.
-        agents: names.
-        human: id of the human.
-        sources: the files.
         goals: the unit that states the human's goal.
         robot_goals: units that state goals beyond the human's.
         left_out: why an action in which nobody takes part is left out.
-        warnings: about the input.
         epoch: how long an epoch is, in the unit of durations; None to find out.
     """
 

@@ -53,7 +53,6 @@ class Block:
 
     Attributes:
         keys: names, ``(name, arguments...)``.
-        participants: agent ids.
         columns: what must be true, must be false, becomes true, and becomes false (where it does not become
             true as well); of durative actions these are of their start and end, and there are six more: what
             must be true, and false, while they go on, and for their end; what their start makes true, and

@@ -33,12 +33,10 @@ class Clock:
     """The length of an epoch, in the unit of the input, and what it makes of durations.
 
     Args:
-        blocks: the actions that can be executed.
         epoch: how long one is; None for the greatest common divisor of all durations and times of the
             script, where an action that is not durative has one unit of time.
 
     Attributes:
-        epoch: how long one is.
         rounded: the durations that are no whole epochs, each with the action that has it.
         rounded_times: whether that goes for a time of the script, too.
     """

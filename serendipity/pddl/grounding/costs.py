@@ -46,11 +46,7 @@ Cost = Fraction | BadCost
 
 
 class Costs:
-    """The costs and durations of ground actions.
-
-    Args:
-        values: of function terms.
-    """
+    """The costs and durations of ground actions."""
 
     def __init__(self, values: dict[Key, Fraction]) -> None:
         self._values = values

@@ -20,7 +20,6 @@ class Goal:
     """A goal in conjunctive normal form.
 
     Attributes:
-        unit: the files that state it.
         literals: what has to hold, in one order in every run.
         disjunctions: of each of them, one literal has to hold; ordered as well.
     """

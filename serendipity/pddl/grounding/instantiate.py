@@ -44,11 +44,6 @@ _LARGE: Final = 5_000
 class Instantiator:
     """Grounds schemas over one united initial state.
 
-    Args:
-        relations: what holds initially.
-        values: of function terms.
-        work: limits and progress.
-
     Attributes:
         facts: ids of the ground atoms so far, in the order of first use.
     """
@@ -73,9 +68,7 @@ class Instantiator:
         """Make the ground actions of a schema whose static preconditions hold.
 
         Args:
-            schema: the action.
             unit: the files that it is from; its parameters range over their objects.
-            participants: who takes part in the ground actions of given names.
             actors: what the first parameter may be; None means all that its type allows.
 
         Raises:

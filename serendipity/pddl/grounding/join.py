@@ -37,7 +37,6 @@ class Relations:
     """The atoms of the united initial state, by predicate.
 
     Args:
-        init: the atoms.
         fluent: predicates that some action adds or deletes.
         added: predicates that some action adds.
     """
@@ -89,10 +88,6 @@ def bindings(
     """All bindings under which the preconditions that can't change hold.
 
     Args:
-        lifted: whose variables are bound.
-        unit: the files that it is from.
-        relations: what holds initially.
-        work: limits.
         actors: what the first parameter may be; None means all that its type allows.
 
     Raises:

@@ -61,12 +61,10 @@ class Lifted:
     """A schema whose conditions are sorted out.
 
     Attributes:
-        schema: the action.
         parameters: declared ones, then hidden ones.
         precondition: literals, equalities among them.
         choices: further conditions, disjunctive ones.
         effects: unconditional effects; of a durative action those at end.
-        conditional: pairs of a condition and the effect that it has.
         over_all: literals that a durative action needs while it goes on.
         at_end: literals that it needs to end.
         start_effects: its effects at start.
@@ -221,7 +219,6 @@ class Disjuncts:
     Args:
         unit: whose objects quantifiers range over.
         decide: the truth of what does not depend on the state.
-        work: its deadline is asked.
     """
 
     def __init__(self, unit: Unit, decide: Decide, work: Work) -> None:

@@ -22,8 +22,6 @@ class Changes:
     Args:
         facts: ids of ground atoms, in ascending order.
         init: ids of those that are true initially.
-        blocks: the actions that can be executed.
-        work: its deadline is asked.
         script: ids of those that become true, and false, anyway.
 
     Attributes:
@@ -62,11 +60,7 @@ class Numbering:
 
     Args:
         facts: ids of ground atoms, in ascending order.
-        init: ids of those that are true initially.
-        blocks: the actions that can be executed.
-        changes: what they change.
         goals: ids of atoms that goals name; they stay facts in any case.
-        work: its deadline is asked.
 
     Attributes:
         names: of the facts that matter, ascending.

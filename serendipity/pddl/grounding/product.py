@@ -44,7 +44,6 @@ class Product:
     of the tables are numbered likewise.
 
     Attributes:
-        size: how many bindings there are.
         everything: all tables that leave a choice.
         fixed: values of the variables that are in none of those.
     """

@@ -14,11 +14,7 @@ _BOUNDS: Final = ("=", "<=", ">=")
 
 
 class DurativeReader:
-    """Reads the parts of durative actions.
-
-    Args:
-        scope: the names that may occur in them, parameters included.
-    """
+    """Reads the parts of durative actions."""
 
     def __init__(self, scope: Scope) -> None:
         self._scope = scope

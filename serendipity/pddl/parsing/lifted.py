@@ -99,8 +99,6 @@ class DurativeParts:
         least: its duration is at least each of these.
         most: and at most each of these.
         over_all: in negation normal form.
-        at_end: likewise.
-        start_effects: on facts.
     """
 
     least: tuple[Expression, ...]
@@ -120,9 +118,6 @@ class Schema:
     """A lifted action.
 
     Attributes:
-        name: lower case.
-        line: where it is in the domain file.
-        parameters: its declared parameters.
         precondition: in negation normal form; of a durative action its condition at start.
         effects: on facts; of a durative action at end.
         increases: what is added to the total cost.
@@ -185,14 +180,9 @@ class Problem:
     """A checked problem file, with the objects of its domain among its own.
 
     Attributes:
-        name: of the problem.
-        domain_name: the domain it says it belongs to, or None.
-        objects: type of each object.
         init: the atoms that are true, in the order of the file, each once.
         denied: the atoms that it says are false, with their lines.
-        values: values of function terms.
         goal: in negation normal form; an empty ``And`` where there is none.
-        goal_line: where the goal is, or None.
         metric: whether it asks to minimise the total cost.
         empty_lists: the lines where a type stands behind no object.
         timed: the literals that become true later.
@@ -219,10 +209,6 @@ class Unit:
 
     Attributes:
         owner: the agent, or None for a whole task and for the team.
-        domain_file: for messages.
-        problem_file: for messages.
-        domain: the checked domain.
-        problem: the checked problem.
     """
 
     owner: str | None

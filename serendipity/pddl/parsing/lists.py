@@ -27,8 +27,6 @@ def actions_in(text: str, path: object, what: str = "") -> list[tuple[str, int]]
     """The names of the actions of a file, as they stand there, each with its line.
 
     Args:
-        text: of the file.
-        path: named in errors.
         what: what errors begin with: ``"human plan: "``.
 
     Raises:

@@ -89,12 +89,6 @@ RESERVED: Final = frozenset(
 class Scope:
     """The names that may occur in a place.
 
-    Args:
-        predicates: types of their parameters, by name.
-        functions: types of their parameters, by name.
-        objects: types, by name.
-        work: its deadline is asked at each atom.
-
     Attributes:
         variables: types of those in scope, by name.
         when: the part of a durative action that is read; None within it, and in what is not durative.

@@ -105,8 +105,6 @@ class PddlFile:
     """A file ``(define (KIND NAME) SECTION ...)``.
 
     Attributes:
-        name: of the domain or problem.
-        requirements: what it says it requires.
         sections: by keyword, all but the actions.
         actions: the sections ``(:action ...)`` and ``(:durative-action ...)``.
     """

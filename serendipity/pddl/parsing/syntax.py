@@ -38,10 +38,6 @@ class ActionText:
     """The parts of a section ``(:action ...)`` or ``(:durative-action ...)``.
 
     Attributes:
-        name: of the action.
-        line: of the section.
-        durative: whether it is a durative action.
-        agent: what stands behind ``:agent``.
         parts: what stands behind ``:parameters``, ``:precondition`` (or ``:duration`` and ``:condition``)
             and ``:effect``.
     """
@@ -59,8 +55,6 @@ def typed_list(
     """``a b - type c``, from item ``start`` of a node.
 
     Args:
-        node: what it stands in.
-        start: its first item.
         what: how an error calls its names; ``a variable`` if they begin with ``?``.
         private: where the names in ``(:private ...)`` start; 0 if there may be none.
         empty: takes the lines of types before which no name stands; None where that is an error.

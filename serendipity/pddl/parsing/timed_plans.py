@@ -32,8 +32,6 @@ class PlanLine(NamedTuple):
     """An action of a plan file.
 
     Attributes:
-        name: as it stands there.
-        line: where.
         time: when it begins, from 0, in the unit of durations; None where that is not said.
         epoch: in which it begins, from 1; None where that is not said.
         duration: that it is said to take, or None.
@@ -55,8 +53,6 @@ def plan_lines(text: str, path: object, what: str = "") -> list[PlanLine]:
     """The actions of a plan file: all of them with times, or none.
 
     Args:
-        text: of the file.
-        path: named in errors.
         what: what errors begin with: ``"human plan: "``.
 
     Raises:
@@ -103,9 +99,7 @@ def timed_line(task: Task, epoch: int, name: str, duration: int) -> str:
     Where an epoch is no round number its times are, within a hundredth of one.
 
     Args:
-        task: whose epochs these are.
         epoch: in which it begins, from 1.
-        name: of the action.
         duration: epochs that it takes.
     """
     digits = 3

@@ -26,7 +26,6 @@ def page(scene: Scene, others: Iterable[Scene] = ()) -> str:
     """A scene as a self-contained HTML page; it asks for nothing from any network.
 
     Args:
-        scene: what the page begins with.
         others: the same answer's other scenarios, which can be chosen on it.
     """
     return Template(_text("page.html")).substitute(

@@ -13,7 +13,6 @@ def svg(picture: drawing.Picture, *, inline: bool = False, **attributes: str) ->
 
     Args:
         inline: for a page, which sets the size; else a file of its own, on white.
-        **attributes: of the element, e.g. ``id``.
     """
     width, height = number(picture.width), number(picture.height)
     own: dict[str, str | float] = {

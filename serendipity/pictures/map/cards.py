@@ -25,9 +25,6 @@ class Card:
     """A thing or an agent, and what is with it.
 
     Attributes:
-        key: of its token.
-        name: in full.
-        width, height: of itself.
         beside: who rides it; they stand in its first row.
         inside: what it carries.
         loose: whether it stands behind those with agents.
@@ -54,7 +51,6 @@ class Spot:
 
     Attributes:
         key: of its token; ``frame-...`` is the frame of a card.
-        x, y, width, height: in the picture's units.
         depth: in how many frames it is.
         names: of what a frame holds.
     """

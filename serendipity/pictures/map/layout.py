@@ -162,11 +162,8 @@ class MapLayout:
     """All places, from (0, 0) to (width, height).
 
     Attributes:
-        boxes: by place.
-        links: pairs of connected places.
         doors: the links through a wall that both places share (a floor plan); the others
             are drawn as lines.
-        width, height: in the picture's units.
     """
 
     boxes: dict[str, Box]

@@ -24,10 +24,7 @@ class Whereabouts:
     """Where an object is: in a place, held by somebody, in or on another object; and who rides it.
 
     Attributes:
-        place: of an object that nobody holds.
         holder: the agent that holds it, or rides what carries it.
-        carrier: the object that it is in or on.
-        riders: agents that are in or on it.
     """
 
     place: str | None = None
@@ -243,7 +240,6 @@ class _PlaceFinder:
     """Finds the place, agent or object that a fact's name mentions.
 
     Args:
-        places: names of places.
         predicates: of facts that tell where something is, rather than who holds it.
     """
 

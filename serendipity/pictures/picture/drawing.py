@@ -146,9 +146,6 @@ def fitted(text: str, width: float, size: float, least: float, *, bold: bool = F
 
     Args:
         width: in pixels.
-        size: font size to begin with, in pixels.
-        least: the smallest font size.
-        bold: whether the font is bold.
     """
     room = width / (BOLD if bold else 1)
     wanted = min(size, room / max(0.1, ems(text)))
@@ -164,10 +161,7 @@ def wrapped(
 
     Args:
         text: the text; it is broken at blanks and after ``_`` and ``-``.
-        width: in pixels.
         sizes: font sizes, the best one first, in pixels.
-        lines: at most so many.
-        bold: whether the font is bold.
     """
     for size in sizes:
         room = width / size / (BOLD if bold else 1)

@@ -25,11 +25,6 @@ def heat_map(maps: Mapping[str, Savings], starts: int, horizon: int) -> Picture:
     """Maps beside each other, by what stands above them.
 
     Grey cells are windows that no plan fits; where none is, a limit came before it was examined.
-
-    Args:
-        maps: what is saved.
-        starts: how many epochs a window may begin with.
-        horizon: the last epoch of a window.
     """
     width = _LEFT + horizon * _CELL + _GAP
     groups = tuple(

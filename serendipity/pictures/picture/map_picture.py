@@ -53,7 +53,6 @@ class Token:
     """Where a token stands.
 
     Attributes:
-        spot: its centre and size on the map.
         holder: the agent that holds the object, or whose card a frame is about.
     """
 

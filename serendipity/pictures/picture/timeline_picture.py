@@ -98,7 +98,6 @@ def timeline_picture(
     Args:
         first: the first epoch; 0 is the start.
         last: the last epoch; None, or one after the end, for the end.
-        now: the epoch that is marked.
     """
     end = min(scene.frames[-1].epoch, scene.frames[-1].epoch if last is None else last)
     width = (end - first + 1) * column(scene)

@@ -92,8 +92,6 @@ def build_scene(task: Task, result: Result, scenario: str | None = None) -> Scen
     """The scene of a result; without a plan, of the human's own plan, or of the initial state.
 
     Args:
-        task: the task.
-        result: the result.
         scenario: what is played of an answer over scenarios, by its name or number; None: the most probable.
 
     Raises:

@@ -12,11 +12,7 @@ from serendipity.pictures.map.places import Places, Whereabouts
 
 
 class Finder:
-    """Where agents and objects are.
-
-    Args:
-        places: the map of their task.
-    """
+    """Where agents and objects are."""
 
     def __init__(self, places: Places) -> None:
         self._places = places

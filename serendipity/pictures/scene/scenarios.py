@@ -12,7 +12,6 @@ def find_scenario(result: Result, name: str | None) -> int | None:
     """The place of a scenario in a result; None where that is about none.
 
     Args:
-        result: the result.
         name: of the scenario, or its number; None for the most probable one.
 
     Raises:

@@ -49,7 +49,6 @@ def find_changes(
     Goals that hold all the time say nothing; they have a lane only where that is all there is to say.
 
     Args:
-        task: whose facts they are.
         states: after each epoch, from 0.
         last: epoch up to which lanes are drawn; the last state lasts till then.
         hidden: facts that the map shows already.
@@ -109,11 +108,9 @@ class Act:
     """An action of the timeline.
 
     Attributes:
-        epoch: from 1.
         agents: ids of the participants, ascending; two or more act jointly.
         verb, detail: the action in two short lines; a move is "go to" and the place.
         action: its full name; where it takes several epochs, with their number.
-        duration: epochs that it takes.
     """
 
     epoch: int
@@ -134,10 +131,7 @@ class Meeting:
     """Something changes hands, or agents act jointly.
 
     Attributes:
-        epoch: when.
         place: where, or None without a map.
-        objects: what changes hands.
-        text: for people.
     """
 
     epoch: int
@@ -151,7 +145,6 @@ class Frame:
     """The world after an epoch (0: initially).
 
     Attributes:
-        epoch: from 0.
         at: place by agent id, for agents with a position.
         objects: where each object is.
         former_at: where the human would be with their former plan, or None without a map.
@@ -159,7 +152,6 @@ class Frame:
         spent: team costs so far by agent id; joint actions are shared equally.
         former_spent: cost of the human's former plan so far.
         caption: who does what, for people.
-        in_window: whether the epoch belongs to the window.
     """
 
     epoch: int
@@ -184,9 +176,7 @@ class Scene:
     """A plan ready to be drawn.
 
     Attributes:
-        name: of the task.
         agents: names by id; ``human`` is an id.
-        result: what is shown.
         frames: epoch 0, 1, ... to the end of the plan or of the former plan, whichever is later.
         layout: of the map, or None where the task has none.
         goals: places that the human's goal names.

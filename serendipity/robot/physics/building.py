@@ -23,7 +23,6 @@ class Rooms:
     """Rooms on a floor.
 
     Args:
-        engine: where it stands.
         layout: of the map; ``y`` of pictures grows downwards, that of the building away from who looks.
 
     Attributes:

@@ -22,7 +22,6 @@ class Engine:
     """A world of its own, without a window.
 
     Attributes:
-        bullet: the module ``pybullet``.
         seconds: that have passed in it.
 
     Raises:

@@ -23,11 +23,6 @@ _CLOSE: Final = 0.02  # metres
 class Figure:
     """A body that walks.
 
-    Args:
-        at: where it stands.
-        colour: of its trunk.
-        cap: of its head.
-
     Attributes:
         body: its number in the engine.
     """
@@ -96,10 +91,6 @@ _BROWN: Final[Colour] = (0.72, 0.53, 0.34, 1)
 
 class Kit:
     """A box; a first-aid kit is red, with a cross on it.
-
-    Args:
-        at: where it lies.
-        first_aid: whether it is one.
 
     Attributes:
         holder: who holds it; None where it lies.

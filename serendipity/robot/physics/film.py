@@ -42,9 +42,6 @@ class Camera:
 
     Args:
         width: of its pictures in pixels; their height follows from the building.
-
-    Attributes:
-        width, height: of its pictures.
     """
 
     def __init__(self, engine: Engine, building: Rooms, width: int) -> None:
@@ -181,9 +178,6 @@ class Film:
 
     def pages(self, log: Sequence[Mapping[str, Any]]) -> "list[tuple[int, Image.Image]]":
         """All frames with the words above them, each with its epoch.
-
-        Args:
-            log: of the run.
 
         Raises:
             UsageError: nothing was recorded.

@@ -39,7 +39,6 @@ class Stage:
         task: where things stand; it has to have a map.
         epoch: how many seconds an epoch lasts at least, 5 by default, until the person is done, too.
         rubble: kilograms of it in doorways, by pairs of places.
-        film: records what happens.
 
     Raises:
         UsageError: pybullet is missing, there is no such doorway, or the task has no map.

@@ -53,11 +53,7 @@ def oddly_priced(dice: Random, task: Task) -> Task:
 
 
 def odd_options(dice: Random, options: dict[str, str]) -> dict[str, str]:
-    """The same options with other numbers, where there are any.
-
-    Args:
-        options: of a call, as text.
-    """
+    """The same options with other numbers, where there are any."""
     changed = {"discount": dice.choice(DISCOUNTS), "window_weight": dice.choice(WEIGHTS)}
     if options.get("communication_weight", "0") != "0":
         changed["communication_weight"] = dice.choice(WEIGHTS)

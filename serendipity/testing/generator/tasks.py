@@ -205,7 +205,6 @@ def strips(
     """Random actions, negative preconditions and goals included.
 
     Args:
-        dice: decides everything.
         sizes: how many facts, from and to.
         crowds: how many agents, one of these.
         costs: what the human's and joint actions may cost.

@@ -24,7 +24,6 @@ class Timely:
     An answer that comes too late is nobody's: the next question waits until it has come.
 
     Args:
-        ask: who is asked.
         end: called when nobody asks any more.
     """
 

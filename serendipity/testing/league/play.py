@@ -21,12 +21,8 @@ class Played:
     """What became of one person.
 
     Attributes:
-        scenario: what they were about to do.
         paid: what they paid; alone at least, where they came later than anybody would alone.
         arrived: the epoch by the end of which they were there; None: never.
-        epochs: decisions that were asked for.
-        late: those that came too late.
-        faults: what was wrong with others.
     """
 
     scenario: Scenario

@@ -46,9 +46,7 @@ class Helper:
     """Whoever decides for robots in a league.
 
     Attributes:
-        name: in tables.
         robots: those of a case, given the seconds that they have before the first epoch.
-        close: called when there is nothing more to decide.
         seconds: for each decision, where that is its own affair; None: the league's deadline.
         plans: whether time before the first epoch is for a first decision.
     """
@@ -64,12 +62,7 @@ class AskedRobots:
     """Robots that ask a helper in each epoch: what the loop of :class:`serendipity.Execution` takes.
 
     Args:
-        case: what is played.
-        ask: the helper.
         setup: seconds to get ready, before the first epoch; None: as long as it takes.
-
-    Attributes:
-        faults: what was wrong with answers.
     """
 
     def __init__(self, case: Case, ask: Ask, setup: float | None = None) -> None:

@@ -36,12 +36,7 @@ def check(problem: Problem, proof: str) -> int | None:
 
 
 class _Checked:
-    """What a proof has derived so far.
-
-    Attributes:
-        best: the least objective of its solutions, or None.
-        ended: whether its conclusion holds.
-    """
+    """What a proof has derived so far."""
 
     def __init__(self, problem: Problem) -> None:
         self.best: int | None = None

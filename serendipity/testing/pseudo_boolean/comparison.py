@@ -20,12 +20,6 @@ def difference(task: Task, result: Result, entry: Mapping[str, Any], least: Solv
     Where the entry has a solution, the optimum has to be one above its limit; else nothing may be at or
     below the limit.
 
-    Args:
-        task: the task that the proof is about.
-        result: the answer that it proves.
-        entry: the program.
-        least: has the second program solved.
-
     Raises:
         NotMadeError: it is not made a second time.
     """

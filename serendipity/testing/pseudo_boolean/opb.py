@@ -26,7 +26,6 @@ class Problem:
     """A problem; an equality is two constraints, first ``>=``, as VeriPB counts them.
 
     Attributes:
-        constraints: in order.
         objective: coefficients by variable; None where there is none.
     """
 

@@ -23,10 +23,7 @@ class Question:
 
     Attributes:
         human_plan: ``pi_H`` by ids; empty where there is none.
-        epochs: how many.
         rule: ``all plans``, ``every window``, or ``pi_H as planned``.
-        robots: whether they take part at all.
-        most_cost: a plan may not cost more, or None.
         suffixes: epochs and states from which the human's optimal plan is to be known (Def. 2.0a).
     """
 
@@ -42,11 +39,6 @@ class Question:
 
 def question_of(task: Task, result: Result, entry: Mapping[str, Any]) -> Question:
     """The question that a program answers.
-
-    Args:
-        task: the task that the proof is about.
-        result: the answer that it proves.
-        entry: the program.
 
     Raises:
         NotMadeError: it is about something else, or about one of several plans of the human's.

@@ -50,11 +50,7 @@ def timed_tasks(draw: st.DrawFn, *, of: st.SearchStrategy[Task] | None = None) -
 
 @st.composite
 def scripts(draw: st.DrawFn, built: Task, *, most: int = 3) -> Script:
-    """Facts of a task that become true or false in its first epochs.
-
-    Args:
-        most: how many at most.
-    """
+    """Facts of a task that become true or false in its first epochs."""
     moments = st.tuples(st.integers(1, _LAST_EPOCH), st.sampled_from(built.facts))
     chosen = draw(st.lists(moments, max_size=most, unique=True))
     return Script(facts=[(epoch, f"{draw(st.sampled_from(['', '!']))}{fact}") for epoch, fact in chosen])
@@ -135,7 +131,6 @@ def calls_in_time(
     """A task with time, a mode and options that are legal for it, often with a plan that is given.
 
     Args:
-        modes: drawn from.
         of: tasks, or None for any with time.
     """
     task = draw(tasks_in_time() if of is None else of)

@@ -19,7 +19,6 @@ def blocks(dice: Random, size: int, agents: tuple[str, ...]) -> Task:
     There may be a shelf beside the table, which leaves a choice.
 
     Args:
-        size: how many blocks.
         agents: the human first.
     """
     price, hands = prices(dice), dice.random() < 0.5

@@ -17,7 +17,6 @@ def logistics(dice: Random, size: int, agents: tuple[str, ...]) -> Task:
     One parcel may take two to load it, and a pair of vehicles may reload where they meet.
 
     Args:
-        size: how many parcels.
         agents: the human first.
     """
     price = prices(dice)

@@ -12,7 +12,6 @@ def switches(dice: Random, size: int, agents: tuple[str, ...]) -> Task:
     """Switches to set: a panel with conditions and side effects, or a circle in which each disables the next.
 
     Args:
-        size: how many switches.
         agents: the human first.
     """
     builder = Builder(agents, "switches")
