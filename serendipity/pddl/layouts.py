@@ -4,6 +4,9 @@
 the first of those with goals.  ``epoch`` is how long an epoch is, in the unit of PDDL's durations, which are
 rounded up to whole epochs; None: the greatest common divisor of all that can come up.  With MA-PDDL in one
 pair of files no ``robots``, or ``all``, are all the other objects that can be an ``:agent``.
+
+A file that is missing or wrong is an ``InputError``; a human, robots or an epoch that can't be meant are a
+``UsageError``; ``LimitReachedError``: the deadline came first, or there is not enough memory.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -40,13 +43,7 @@ def read_folder(
     deadline: Deadline | None = None,
     on_progress: OnProgress | None = None,
 ) -> Task:
-    """Read a directory: a folder per agent and ``superagent/``, each with two files.
-
-    Raises:
-        InputError: a file is missing, can't be read or is wrong.
-        UsageError: nobody, or more than one agent, could be the human; an epoch is no time.
-        LimitReachedError: the deadline came first, or there is not enough memory.
-    """
+    """Read a directory: a folder per agent and ``superagent/``, each with two files."""
     root = Path(path)
     try:
         is_folder = root.is_dir()
@@ -84,11 +81,6 @@ def read_agents(
     An agent's actions range over the objects of its own files.  Actions of the team
     that no agent owns are joint: their participants are the agents whose names occur
     among the parts of the ground action's name, split at ``_`` and blanks.
-
-    Raises:
-        InputError: a file is missing, can't be read or is wrong.
-        UsageError: nobody, or more than one agent, could be the human; an epoch is no time.
-        LimitReachedError: the deadline came first, or there is not enough memory.
     """
     names, length = _unique_names(agents), epoch_length(epoch)
 
@@ -147,11 +139,6 @@ def read_pddl(
     The participants of a ground action are the agents among its arguments; of an action with
     ``:agent`` (MA-PDDL) it is that agent alone; those of others are not even ground.  An action
     in which nobody takes part is left out, with a warning.
-
-    Raises:
-        InputError: a file is missing, can't be read or is wrong.
-        UsageError: an agent is not an object of the task, or is named twice; an epoch is no time.
-        LimitReachedError: the deadline came first, or there is not enough memory.
     """
     length = epoch_length(epoch)
 

@@ -13,11 +13,7 @@ _LISTED = 3
 
 
 def check_objects(units: Sequence[Unit]) -> None:
-    """Check that an object has comparable types, and a predicate one arity, everywhere.
-
-    Raises:
-        InputError: naming the later file of two that disagree.
-    """
+    """Check that an object has comparable types, and a predicate one arity, everywhere."""
     objects: dict[str, tuple[Type, Unit]] = {}
     predicates: dict[str, tuple[int, Unit]] = {}
     for unit in units:
@@ -36,11 +32,7 @@ def check_objects(units: Sequence[Unit]) -> None:
 
 
 def check_initial(units: Sequence[Unit]) -> None:
-    """Check that no file says that something is false which another says is true.
-
-    Raises:
-        InputError: naming the file and line that say it is false.
-    """
+    """Check that no file says that something is false which another says is true."""
     for unit in units:
         for key, line in unit.problem.denied.items():
             other = next((other for other in units if key in other.problem.init), None)

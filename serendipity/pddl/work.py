@@ -32,11 +32,7 @@ class Work:
         self.deadline.check()
 
     def require(self, size: float, what: str) -> None:
-        """Return if ``size`` bytes more fit into memory; ``what`` says whose they are.
-
-        Raises:
-            LimitReachedError: they don't.
-        """
+        """Return if ``size`` bytes more fit into memory; ``what`` says whose they are."""
         try:
             self.deadline.require(size)
         except LimitReachedError as error:

@@ -33,7 +33,6 @@ def write_pddl(task: Task, directory: str | Path) -> None:
 
     Raises:
         OSError: it can't be written.
-        InputError: it has bystanders, whose plans are no part of PDDL.
     """
     for folder, (domain, problem) in task_files(task).items():
         place = Path(directory, folder)

@@ -41,31 +41,19 @@ def draw(
 
 
 def check_epoch(scene: Scene, epoch: int | None) -> None:
-    """Whether there is such an epoch.
-
-    Raises:
-        UsageError: there is none.
-    """
+    """Whether there is such an epoch."""
     last = scene.frames[-1].epoch
     if epoch is not None and not 0 <= epoch <= last:
         raise UsageError(f"epoch: expected one from 0 to {last}, got {epoch}")
 
 
 def draw_windows(maps: Mapping[str, Savings], starts: int, horizon: int, suffix: str) -> str | bytes:
-    """Heat maps over windows, ``.svg`` or ``.png``; see :func:`.picture.heat_map.heat_map`.
-
-    Raises:
-        UsageError: there is no such form, or PNG lacks the extra ``plot``.
-    """
+    """Heat maps over windows, ``.svg`` or ``.png``; see :func:`.picture.heat_map.heat_map`."""
     return _written(heat_map(maps, starts, horizon), suffix, ".svg or .png")
 
 
 def draw_front(points: Sequence[tuple[Fraction, Fraction]], suffix: str) -> str | bytes:
-    """A front of disturbance and saving, ``.svg`` or ``.png``; see :func:`.picture.front.front_picture`.
-
-    Raises:
-        UsageError: there is no such form, or PNG lacks the extra ``plot``.
-    """
+    """A front of disturbance and saving, ``.svg`` or ``.png``; see :func:`.picture.front.front_picture`."""
     return _written(front_picture(points), suffix, ".svg or .png")
 
 

@@ -73,9 +73,6 @@ def report(
     Args:
         folder: for its files, which get a folder of their own there; None writes none.
         again: the command that finds it again.
-
-    Raises:
-        OSError: the files can't be written.
     """
     call = found.call
     what = f"breaks the law '{found.law}'" if found.law else "is wrong"

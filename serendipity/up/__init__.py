@@ -7,6 +7,9 @@ Importing this registers the engine ``serendipity``::
 
     with OneshotPlanner(name="serendipity", params={"mode": "serendipity", "human": "ann"}) as planner:
         print(planner.solve(problem).plan)
+
+What of a problem is not supported is an ``InputError``, an agent, plan or engine that there is not
+a ``UsageError``.
 """
 
 try:

@@ -35,11 +35,7 @@ class Cast:
 
 
 def cast_of(vocabulary: Vocabulary, human: Any, robots: Any) -> Cast:
-    """Who is who; see :func:`serendipity.up.from_problem`.
-
-    Raises:
-        UsageError: an agent is not of the problem, is named twice, or it is not clear who is the human.
-    """
+    """Who is who; see :func:`serendipity.up.from_problem`."""
     if isinstance(vocabulary.problem, MultiAgentProblem):
         return _of_agents(vocabulary, vocabulary.problem, human, robots)
     goals = tuple((None, goal) for goal in vocabulary.problem.goals)

@@ -78,11 +78,7 @@ class EngineCall:
 
 
 def call_of(parameters: dict[str, Any]) -> EngineCall:
-    """Parameters of the engine, checked.
-
-    Raises:
-        UsageError: one is unknown or has no legal value.
-    """
+    """Parameters of the engine, checked."""
     own = {name: parameters[name] for name in _OWN if name in parameters}
     others: dict[str, Any] = {"mode": "composite", "interference": "strict"}
     others.update({name: value for name, value in parameters.items() if name not in own})

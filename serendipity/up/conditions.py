@@ -46,11 +46,7 @@ class Reader:
         self._nnf = Nnf(vocabulary.problem.environment)
 
     def formula(self, node: FNode, bound: Bound | None = None) -> lifted.Formula:
-        """A condition.
-
-        Raises:
-            InputError: it is about numbers, or anything else that is not supported.
-        """
+        """A condition."""
         return self._normal(self._nnf.get_nnf_expression(node), bound or {})
 
     def denied(self, node: FNode, bound: Bound) -> lifted.Formula:
@@ -95,11 +91,7 @@ class Reader:
         return inner.fluent(), self._fluent(node, bound).words
 
     def term(self, node: FNode, bound: Bound) -> Term:
-        """An object, or what stands for one.
-
-        Raises:
-            InputError: it is no object.
-        """
+        """An object, or what stands for one."""
         if node.is_object_exp():
             return Term((self.vocabulary.object(node.object()),))
         if node.is_parameter_exp() and node.type.is_user_type():
@@ -166,11 +158,7 @@ class Reader:
 
 
 def effects_of(reader: Reader, effect: UPEffect, precondition: lifted.Formula) -> Iterator[lifted.Effect]:
-    """What one effect does.
-
-    Raises:
-        InputError: it changes a number.
-    """
+    """What one effect does."""
     if not effect.is_assignment():
         raise reader.error(f"effect '{effect}': numbers that change are not supported")
     bound, parameters = reader.bind(list(effect.forall), {})

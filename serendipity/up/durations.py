@@ -21,11 +21,7 @@ _EDGES: Final = "expected conditions and effects at start, over all or at end"
 def durative_schema(
     reader: Reader, action: DurativeAction, name: str, increases: tuple[lifted.Expression, ...]
 ) -> lifted.Schema:
-    """A durative action.
-
-    Raises:
-        InputError: it has something that is not supported; it says what.
-    """
+    """A durative action."""
     where = f"action '{action.name}'"
     if action.simulated_effects or action.continuous_effects:
         raise reader.error(f"{where}: simulated and continuous effects are not supported")
@@ -88,11 +84,7 @@ def _moment(reader: Reader, timing: Timing, where: str) -> int:
 def timed_literals(
     reader: Reader, timing: Timing, effects: Iterable[UPEffect]
 ) -> Iterator[lifted.TimedLiteral]:
-    """The literals that become true at a time, whatever anybody does.
-
-    Raises:
-        InputError: an effect is conditional or no fixed value, or not after the beginning.
-    """
+    """The literals that become true at a time, whatever anybody does."""
     time = Fraction(timing.delay)
     if not timing.is_from_start() or time <= 0:
         raise reader.error(f"timed effect at {timing}: expected a time after the beginning")

@@ -41,11 +41,7 @@ class PlanVerdict:
 
 
 def judged(plan: Plan, reading: Reading) -> PlanVerdict:
-    """Whether a plan is one of a problem.
-
-    Raises:
-        UsageError: it is of another kind, or has an action of another problem.
-    """
+    """Whether a plan is one of a problem."""
     instances = in_order(plan)
     run = _PlanRun(reading, instances)
     verdict = run.in_turn()

@@ -16,9 +16,6 @@ def number_of(reader: Reader, node: FNode, what: str) -> lifted.Expression:
 
     Args:
         what: how an error calls it.
-
-    Raises:
-        InputError: it depends on something that is no number.
     """
     if node.is_constant():
         return Fraction(node.constant_value())

@@ -81,11 +81,7 @@ def supported_kind() -> ProblemKind:
 
 
 def require_supported(problem: AbstractProblem) -> None:
-    """Refuse a problem of another kind.
-
-    Raises:
-        InputError: naming what it has that is not supported.
-    """
+    """Refuse a problem of another kind."""
     kind = problem.kind
     if not kind <= supported_kind():
         beyond = sorted(f for f in kind.features if f not in _FEATURES)

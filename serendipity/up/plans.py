@@ -172,9 +172,6 @@ def human_plan_of(plan: Plan | Iterable[str], reading: Reading) -> tuple[PlanEnt
 
     Args:
         plan: a plan of the problem, in which others may act as well, or names.
-
-    Raises:
-        UsageError: it is a plan of another kind, or of another problem.
     """
     if not isinstance(plan, Plan):
         return tuple(plan)
@@ -201,11 +198,7 @@ def _by_time(plan: TimeTriggeredPlan) -> list[tuple[Fraction, ActionInstance, Fr
 
 
 def in_order(plan: Plan) -> list[ActionInstance]:
-    """The actions of a plan, one after another.
-
-    Raises:
-        UsageError: it is a plan of another kind.
-    """
+    """The actions of a plan, one after another."""
     if plan.kind == PlanKind.SEQUENTIAL_PLAN:
         return list(plan.actions)
     if plan.kind == PlanKind.PARTIAL_ORDER_PLAN:

@@ -65,11 +65,7 @@ def predict(task: Task, engine: str, *, time_limit: float | None = None) -> tupl
 
 
 def solve_with(engine: str, problem: Problem, time_limit: float | None = None) -> EngineAnswer:
-    """What an engine makes of a ground problem.
-
-    Raises:
-        UsageError: there is no such engine, or it can't have such problems.
-    """
+    """What an engine makes of a ground problem."""
     factory = get_environment().factory
     try:
         with _no_credits(), factory.OneshotPlanner(name=_known(engine)) as planner:
@@ -89,11 +85,7 @@ def solve_with(engine: str, problem: Problem, time_limit: float | None = None) -
 
 
 def counts_actions_only(engine: str) -> bool:
-    """Whether an engine can't have actions of different costs.
-
-    Raises:
-        UsageError: there is no such engine.
-    """
+    """Whether an engine can't have actions of different costs."""
     kind = ProblemKind(("ACTION_BASED", "ACTIONS_COST"), version=LATEST_PROBLEM_KIND_VERSION)
     return not get_environment().factory.engine(_known(engine)).supports(kind)
 

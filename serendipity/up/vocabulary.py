@@ -61,11 +61,7 @@ ALONE: Final = "agent"
 
 
 class Vocabulary:
-    """The names of a problem, both ways.
-
-    Raises:
-        InputError: the problem is of another class.
-    """
+    """The names of a problem, both ways."""
 
     def __init__(self, problem: UPProblem) -> None:
         if not isinstance(problem, UPProblem):
@@ -122,11 +118,7 @@ class Vocabulary:
         return self._objects[thing.name]
 
     def type(self, kind: UPType) -> Type:
-        """A user type's.
-
-        Raises:
-            InputError: it is another type.
-        """
+        """A user type's."""
         if not kind.is_user_type():
             raise refusal(self.problem, f"parameters of type '{kind}' are not supported")
         return (self._types[kind.name],)
@@ -155,11 +147,7 @@ class Vocabulary:
         return ActionInstance(action, tuple(things), agent=owner)
 
     def name_of(self, instance: ActionInstance) -> str:
-        """What an action of a plan is called in the task.
-
-        Raises:
-            UsageError: it is none of the problem's.
-        """
+        """What an action of a plan is called in the task."""
         try:
             owner = None
             if self.agents and instance.agent is not None:

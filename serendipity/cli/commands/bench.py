@@ -199,11 +199,7 @@ def _suite(
 
 
 def _covered(rows: "Sequence[Row]", where: list[Line | Grid], tell: _Tell, *, markdown: bool) -> int:
-    """Tell what the rows of a suite, measured somewhere, come to.
-
-    Raises:
-        DisagreementError: contenders have proved what can't all be true.
-    """
+    """Tell what the rows of a suite, measured somewhere, come to."""
     from serendipity.evaluation.benchmark import coverage as report
     from serendipity.evaluation.benchmark.rows import disagreements
     from serendipity.evaluation.measuring.tables import as_markdown
@@ -267,11 +263,7 @@ def _present(names: Sequence[str], known: "Mapping[str, Contender]") -> tuple[li
 
 
 def _loaded(folder: Path, stride: int, errors: dict[str, Exception]) -> Iterator[Task]:
-    """The tasks of a folder; those that can't be read are ``errors`` by name.
-
-    Raises:
-        InputError: there is none that can be read.
-    """
+    """The tasks of a folder; those that can't be read are ``errors`` by name."""
     from serendipity.evaluation.measuring.suites import folders
     from serendipity.pddl import read_folder
 

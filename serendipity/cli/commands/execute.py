@@ -150,11 +150,7 @@ def execute(
 
 
 def _film(clip: Path, adapter: str | None, runs: int) -> "Film":
-    """What a run is filmed with.
-
-    Raises:
-        UsageError: there is nothing to be seen, or it can't be written like that.
-    """
+    """What a run is filmed with."""
     if adapter != "pybullet" or runs != 1:
         raise UsageError("--clip: expected --adapter pybullet, and a single run")
     from serendipity.robot.physics import Film, check_format

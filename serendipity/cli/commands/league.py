@@ -68,11 +68,7 @@ def league(
 
 
 def _given(folder: Path) -> Iterator[Task]:
-    """The tasks of a suite whose person has something to do alone that is soon found out, the smallest first.
-
-    Raises:
-        InputError: the folder is no suite.
-    """
+    """The tasks of a suite whose person soon finds something to do alone, the smallest first."""
     from serendipity.evaluation.measuring.suites import is_suite, may_alone, problems, roles
     from serendipity.testing.league.cases import LONGEST
 

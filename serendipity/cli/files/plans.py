@@ -35,11 +35,7 @@ def timed_plan(path: Path, task: Task) -> tuple[PlanEntry, ...]:
 
 
 def bystanders_plan(path: Path, task: Task, person: str) -> tuple[PlanEntry, ...]:
-    """The plan of a bystander in a file; waiting is part of it where actions have times.
-
-    Raises:
-        InputError: ``file:line`` and what was expected.
-    """
+    """The plan of a bystander in a file; waiting is part of it where actions have times."""
     what = f"plan of {person}: "
     return tuple(entries(_actions_in(path, what), task, path, what))
 

@@ -15,11 +15,7 @@ Strict = Annotated[
 
 
 def read_text(path: Path) -> str:
-    """The text of a file, with or without a byte order mark; its lines may end as on any system.
-
-    Raises:
-        InputError: it can't be read, or is not UTF-8.
-    """
+    """The text of a file, with or without a byte order mark; its lines may end as on any system."""
     try:
         return path.read_text(encoding="utf-8-sig")
     except UnicodeDecodeError:
@@ -49,11 +45,7 @@ def about(file: Path | None) -> Iterator[None]:
 
 
 def broken_rule(task: Task, result: Result, file: Path, deadline: Deadline | None = None) -> str | None:
-    """What is wrong with a result that does not replay, as a warning; None where nothing is.
-
-    Raises:
-        InputError: the result is for another task.
-    """
+    """What is wrong with a result that does not replay, as a warning; None where nothing is."""
     with about(file):
         wrong = serendipity.check(task, result, deadline=deadline).refuted
     return None if wrong is None else f"{file} does not hold: {wrong.claim}: {wrong.reason}"

@@ -41,9 +41,6 @@ class Limits(Group):
             modules: those that the command is going to use, or ``module:function`` for a function that
                 loads them.  They are loaded first, if time is limited: like the start of the interpreter,
                 that takes as long for every task.
-
-        Raises:
-            UsageError: a limit is not a number of at least 0.
         """
         if self.time_limit is not None:
             load(("serendipity.facade.loading", *modules))

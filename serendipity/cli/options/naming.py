@@ -120,12 +120,7 @@ class TaskName(Group):
         return task
 
     def with_result(self, command: str, deadline: Deadline | None = None) -> tuple[Task, Path, Result]:
-        """The task of all files but the last, which is that of a result; that file; the result.
-
-        Raises:
-            UsageError: the last file can't be a result.
-            InputError: it can't be read, or is no result; or as for :meth:`load`.
-        """
+        """The task of all files but the last, which is that of a result; that file; the result."""
         *named, answer = self.files or []
         if answer.suffix == ".pddl" or answer.is_dir():
             raise UsageError(f"{command}: expected TASK and then RESULT.json, got {answer} last")
@@ -230,11 +225,7 @@ class TaskName(Group):
         return self.human is not None and canonical_name(self.human) == ANYBODY
 
     def pairs(self) -> tuple[dict[str, tuple[Path, Path]], tuple[Path, Path] | None]:
-        """Domain and problem of each agent, and of the team.
-
-        Raises:
-            UsageError: an agent is named twice, or not by two files.
-        """
+        """Domain and problem of each agent, and of the team."""
         found: dict[str, tuple[Path, Path]] = {}
         for text in self.agent or []:
             name, _, files = text.partition("=")

@@ -30,12 +30,7 @@ class Listening(Group):
     ] = None
 
     def token(self) -> str | None:
-        """The token, or None.
-
-        Raises:
-            UsageError: others can reach the address, and there is none; or it has other characters.
-            InputError: its file can't be read.
-        """
+        """The token, or None."""
         from serendipity.live.guards import connections
 
         token = os.environ.get(_TOKEN) if self.token_file is None else read_text(self.token_file)
@@ -63,11 +58,7 @@ class Serving(Group):
     memory_limit: Annotated[str, option("--memory-limit MIB", "The most that a process may use.")] = "2000"
 
     def pool(self) -> "PoolLimits":
-        """What the workers may use.
-
-        Raises:
-            UsageError: a limit is none.
-        """
+        """What the workers may use."""
         from serendipity.live.workers.pool import PoolLimits
 
         for name, number, least in (("--workers", self.workers, 1), ("--queue", self.queue, 0)):
@@ -81,20 +72,12 @@ class Serving(Group):
         )
 
     def body(self) -> int:
-        """Bytes of a request, at most.
-
-        Raises:
-            UsageError: it is no number.
-        """
+        """Bytes of a request, at most."""
         return int(limit("body_limit", self.body_limit, "MiB") * _MIB)
 
 
 def limit(name: str, value: str, unit: str) -> float:
-    """A limit that there has to be.
-
-    Raises:
-        UsageError: it is none.
-    """
+    """A limit that there has to be."""
     found = limit_of(name, value, unit)
     if found == float("inf"):
         raise UsageError(f"{name}: expected {unit}, got {value}")

@@ -59,9 +59,6 @@ def begin(command: str) -> dict[str, Any]:
 
     Returns:
         what its options are where the command line says nothing.
-
-    Raises:
-        InputError: there is something wrong with them; it names the file and the key.
     """
     try:
         found = find(Path.cwd())
@@ -84,11 +81,7 @@ def origin(message: str) -> str:
 
 
 def find(folder: Path) -> Settings:
-    """The settings for a working directory: those of the nearest folder, from it upwards, that has some.
-
-    Raises:
-        InputError: there is something wrong with them; it names the file and the key.
-    """
+    """The settings for a working directory: those of the nearest folder, from it upwards, that has some."""
     for place in (folder, *folder.parents):
         own, shared = place / _FILE, place / _SHARED
         if _there(own):

@@ -40,11 +40,7 @@ class Destination(Group):
     output_file: Annotated[Path | None, option("-o, --output FILE", "Write the answer here.")] = None
 
     def prepare(self, formats: Collection[str] = FORMATS) -> str:
-        """Before the work: what can be known to be wrong with ``-o``, and the format in force.
-
-        Raises:
-            UsageError: there is no such format, or ``-o`` can't be written.
-        """
+        """Before the work: what can be known to be wrong with ``-o``, and the format in force."""
         form = choose_format(self.format, self.output_file, formats)
         check_output(self.output_file)
         return form
@@ -70,11 +66,7 @@ class Answer(NamedTuple):
 
 
 def choose_format(wanted: str | None, output: Path | None, formats: Collection[str] = FORMATS) -> str:
-    """The format in force: the one asked for, else the one that ``-o`` ends in, else the first.
-
-    Raises:
-        UsageError: there is no such format, or it can't be written here.
-    """
+    """The format in force: the one asked for, else the one that ``-o`` ends in, else the first."""
     if wanted is None:
         suffix = "" if output is None else output.suffix[1:]
         wanted = suffix if suffix in formats else next(iter(formats))
@@ -87,11 +79,7 @@ def choose_format(wanted: str | None, output: Path | None, formats: Collection[s
 
 
 def check_output(output: Path | None, option: str = "-o") -> None:
-    """Complain about a file to be written before the work is done, not after.
-
-    Raises:
-        UsageError: its folder is missing or can't be written to, or it is a folder itself.
-    """
+    """Complain about a file to be written before the work is done, not after."""
     if output is None:
         return
     if output.is_dir():
@@ -103,20 +91,12 @@ def check_output(output: Path | None, option: str = "-o") -> None:
 
 
 def write_answer(answer: str | bytes, output: Path | None) -> None:
-    """Write an answer to ``output``; a text to stdout where that is None.
-
-    Raises:
-        UsageError: it can't be written, with the system's reason.
-    """
+    """Write an answer to ``output``; a text to stdout where that is None."""
     write_answers([Answer(answer, output)])
 
 
 def write_answers(answers: list[Answer]) -> None:
-    """Write several answers: all of them, or none.
-
-    Raises:
-        UsageError: one of them can't be written, with the system's reason.
-    """
+    """Write several answers: all of them, or none."""
     options = {str(answer.file): answer.option for answer in answers if answer.file is not None}
     files = {answer.file: answer.encoded for answer in answers if answer.file is not None}
     together: Any = nullcontext()
@@ -135,11 +115,7 @@ def write_answers(answers: list[Answer]) -> None:
 
 
 def say(text: str) -> None:
-    """Write a text to stdout.
-
-    Raises:
-        UsageError: it is closed or full.
-    """
+    """Write a text to stdout."""
     if sys.stdout is None:
         raise UsageError("standard output is closed")
     try:
@@ -154,11 +130,7 @@ def say(text: str) -> None:
 
 
 def flush() -> None:
-    """Make sure that what others have written to stdout, such as help, is there.
-
-    Raises:
-        UsageError: stdout is full.
-    """
+    """Make sure that what others have written to stdout, such as help, is there."""
     if sys.stdout is not None:
         say("")
 

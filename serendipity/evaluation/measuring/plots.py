@@ -57,11 +57,7 @@ def as_bytes(drawn: "Figure", suffix: str) -> bytes:
 
 
 def lines(labels: Labels, series: Mapping[str, Sequence[tuple[float, float]]], *, log_x: bool = False) -> str:
-    """A line chart as an element of a page; with ``log_x`` the horizontal axis is logarithmic.
-
-    Raises:
-        UsageError: matplotlib is not installed.
-    """
+    """A line chart as an element of a page; with ``log_x`` the horizontal axis is logarithmic."""
     chart, axes = _empty(labels)
     for (name, points), colour, dash in zip(series.items(), cycle(COLOURS), cycle(_DASHES), strict=False):
         axes.plot(*zip(*points, strict=True), color=colour, linestyle=dash, label=name)

@@ -29,11 +29,7 @@ class Problem:
     problem_file: Path
 
     def unit(self) -> Unit:
-        """The problem as it is written.
-
-        Raises:
-            InputError: a file of it is wrong.
-        """
+        """The problem as it is written."""
         return read_unit(None, self.domain_file, self.problem_file, Work())
 
     def task(self, who: "Roles") -> Task:

@@ -36,9 +36,6 @@ def listening(host: str, port: int) -> socket.socket:
 
     Args:
         port: 0 for any that is free.
-
-    Raises:
-        UsageError: the port is in use or not allowed, or the host is not this machine's.
     """
     if not 0 <= port <= 65535:
         raise UsageError(f"--port: expected a number from 0 to 65535, got {port}")

@@ -89,11 +89,7 @@ class DomainLabels(BaseModel):
 
 
 def labels_for(task: Task, file: Path | None = None) -> DomainLabels:
-    """The labels of a file, or else those that are shipped for the task's domain, if any are.
-
-    Raises:
-        InputError: the file is wrong; it says where.
-    """
+    """The labels of a file, or else those that are shipped for the task's domain, if any are."""
     if file is not None:
         labels = read_settings(file, DomainLabels)
         if fault := labels.fault(task):
@@ -211,11 +207,7 @@ Held = TypeVar("Held", bound=BaseModel)
 
 
 def read_settings(file: Path, model: type[Held]) -> Held:
-    """What a file holds.
-
-    Raises:
-        InputError: it can't be read, is no TOML, or holds something else; it says what and where.
-    """
+    """What a file holds."""
     try:
         return model.model_validate(tomllib.loads(file.read_text(encoding="utf-8-sig")))
     except OSError as error:

@@ -46,11 +46,7 @@ ENGLISH: Final = Language()
 
 
 def language(name: str, folder: Path) -> Language:
-    """A language that is shipped, by its code, or one that a file of a folder has.
-
-    Raises:
-        InputError: there is none, or the file is wrong; it says where.
-    """
+    """A language that is shipped, by its code, or one that a file of a folder has."""
     if name == "en":
         return ENGLISH
     shipped = sorted(

@@ -98,9 +98,6 @@ def record_in(place: Path) -> Path:
     Args:
         place: a file that is there, to go on with; or a folder, which is made, for a new file named after
             the time.
-
-    Raises:
-        UsageError: the folder can't be made.
     """
     if place.is_file():
         return place
@@ -111,11 +108,7 @@ def record_in(place: Path) -> Path:
 
 
 def made(folder: Path, option: str) -> None:
-    """Make a folder where it is missing.
-
-    Raises:
-        UsageError: it can't be made.
-    """
+    """Make a folder where it is missing."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -116,9 +116,6 @@ class Round:
 
         Returns:
             The epoch, as it is recorded: what was shown and said before it, and what came of it.
-
-        Raises:
-            UsageError: the round is over, or there is no such action.
         """
         if self.done:
             raise UsageError("the round is over")
@@ -153,11 +150,7 @@ class Round:
         }
 
     def again(self, event: Event, file: Path | None = None) -> None:
-        """Play a recorded epoch: what robots had decided, and what the person did.
-
-        Raises:
-            InputError: the record is of another round.
-        """
+        """Play a recorded epoch: what robots had decided, and what the person did."""
         try:
             self.run.recall(decision_of(event["decision"], self.run.epoch))
             passed = self._step(event["chosen"])

@@ -38,11 +38,7 @@ class RecordedRounds:
         raise NotImplementedError
 
     def _playing(self) -> Round:
-        """The round, as far as it is recorded.
-
-        Raises:
-            InputError: the record is of other rounds.
-        """
+        """The round, as far as it is recorded."""
         if self._now is None:
             played, file = Round(self._setting(self.round)), self._records.file
             if not self._beginning(played, self.round).items() <= self._begun.items():
@@ -95,9 +91,6 @@ class SharedRounds(RecordedRounds):
     Args:
         file: where every event is written down when it happens; None: nowhere.  A round in it that is not
             over goes on.
-
-    Raises:
-        InputError: the file is of other rounds.
     """
 
     @property
@@ -144,11 +137,7 @@ class SharedRounds(RecordedRounds):
         return {**shown, **self._playing().view()}
 
     def do(self, message: Message) -> dict[str, Any] | None:
-        """What a page asks for; an answer for it alone, or None where all pages are to be told.
-
-        Raises:
-            UsageError: it asks for what there is not.
-        """
+        """What a page asks for; an answer for it alone, or None where all pages are to be told."""
         what = message.get("do")
         if what == "hello":
             return {}

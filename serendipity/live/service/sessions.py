@@ -85,9 +85,6 @@ class SessionStore:
 
         Args:
             state: where it stood on another server, or None.
-
-        Raises:
-            HTTPException: there are too many, or they take too much memory.
         """
         request, stands = (json.dumps(part, ensure_ascii=False).encode() for part in (begun, state))
         session = Remembered(secrets.token_urlsafe(16), request, time.monotonic(), stands)
@@ -95,11 +92,7 @@ class SessionStore:
         return session
 
     def add(self, session: Remembered) -> None:
-        """Make a session known.
-
-        Raises:
-            HTTPException: meanwhile there are too many, or they take too much memory.
-        """
+        """Make a session known."""
         self._require_room(session)
         self._known[session.name] = session
 
@@ -114,11 +107,7 @@ class SessionStore:
             )
 
     def named(self, name: str) -> Remembered:
-        """A session.
-
-        Raises:
-            HTTPException: there is none of that name.
-        """
+        """A session."""
         self._forget()
         if name not in self._known:
             raise HTTPException(404, f"session '{name:.50}': there is none, or no more")
@@ -127,20 +116,12 @@ class SessionStore:
         return session
 
     def end(self, name: str) -> None:
-        """Forget a session.
-
-        Raises:
-            HTTPException: there is none of that name.
-        """
+        """Forget a session."""
         del self._known[self.named(name).name]
 
     @contextmanager
     def calling(self, name: str) -> Iterator[Remembered]:
-        """A session for one call, which no other call may come into.
-
-        Raises:
-            HTTPException: there is none, or another call is under way.
-        """
+        """A session for one call, which no other call may come into."""
         session = self.named(name)
         if session.busy:
             raise HTTPException(409, f"session '{name}': another call of it is under way")

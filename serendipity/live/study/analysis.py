@@ -43,9 +43,6 @@ def read_rounds(file: Path, *, attentive: bool = False) -> list[Row]:
 
     Args:
         attentive: leave out participants who have not understood, or failed what checks their attention.
-
-    Raises:
-        InputError: it is not such a table.
     """
     try:
         with file.open(encoding="utf-8", newline="") as opened:
@@ -131,11 +128,7 @@ def summary(rows: Sequence[Row]) -> str:
 
 
 def drawn(rows: Sequence[Row], measures: Sequence[str] = ("spared", "saved")) -> "Figure":
-    """Means with their intervals by condition, and a point for each person.
-
-    Raises:
-        UsageError: matplotlib is not installed.
-    """
+    """Means with their intervals by condition, and a point for each person."""
     try:
         from matplotlib.figure import Figure
     except ImportError:

@@ -76,10 +76,6 @@ def open_design(
         folder: made where it is missing.
         language: of the page, where the folder's file does not say it; None: as begun, or English.
         **given: ``rounds``, ``seed``, ``discount``, ``view``, ``deadline``; None: as begun, or as usual.
-
-    Raises:
-        UsageError: the folder can't be made, or the study was begun otherwise, or conditions don't differ.
-        InputError: a file of the folder is wrong.
     """
     made(folder, "--study")
     file = folder / _TEXTS

@@ -154,9 +154,6 @@ def draw(
 
     Args:
         **how: fields of :class:`.setting.RoundSetting`.
-
-    Raises:
-        UsageError: there are too few.
     """
     dice, found = Random(f"{seed} scenarios"), set()
     for _ in range(_TRIES * count):

@@ -44,9 +44,6 @@ class Participant(RecordedRounds):
     Attributes:
         stage: ``instructions``, ``comprehension``, ``play``, ``questions``, ``closing``, ``end`` or
             ``withdrawn``.
-
-    Raises:
-        InputError: the record is no participant's.
     """
 
     def __init__(self, design: Design, records: Records) -> None:
@@ -115,11 +112,7 @@ class Participant(RecordedRounds):
     # -- what pages do
 
     def do(self, message: Mapping[str, Any]) -> dict[str, Any] | None:
-        """What a page asks for; an answer for it alone, or None where all of theirs are to be told.
-
-        Raises:
-            UsageError: it asks for what there is not.
-        """
+        """What a page asks for; an answer for it alone, or None where all of theirs are to be told."""
         if message.get("do") == "hello":
             self._add("opened", version=serendipity.__version__, **page_facts(message))
             return {}

@@ -220,11 +220,7 @@ class Study:
         return list(self._design.texts.consent)
 
     def join(self, message: Mapping[str, Any]) -> Participant:
-        """Somebody agrees to take part; who has done so before, by what the address says, goes on.
-
-        Raises:
-            UsageError: they don't agree, the address has no good id, or no file can be made.
-        """
+        """Somebody agrees to take part; who has done so before, by what the address says, goes on."""
         if message.get("agree") is not True:
             raise UsageError("consent: nobody takes part without it")
         visit, address = message.get("visit"), message.get("address")
@@ -339,11 +335,7 @@ class _Lobby:
         }
 
     def do(self, message: Mapping[str, Any]) -> dict[str, Any]:
-        """Join.
-
-        Raises:
-            UsageError: see :meth:`Study.join`.
-        """
+        """Join."""
         if message.get("do") == "hello":
             return {}
         if message.get("do") != "join":

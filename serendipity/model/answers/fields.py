@@ -88,11 +88,7 @@ def written(value: Any, names: Iterable[str] | None = None) -> dict[str, Any]:
 
 
 def read(kind: Callable[..., T], value: Any, where: str) -> T:
-    """The dataclass that a JSON object writes down; fields that have a default may be missing.
-
-    Raises:
-        MalformedError: naming a field that is missing or of another form.
-    """
+    """The dataclass that a JSON object writes down; fields that have a default may be missing."""
     given, forms = mapping(value, where), _forms(kind)
     if kind in _CLOSED and not (given.keys() <= forms.keys() and given.keys() >= {*_needed(kind)}):
         raise MalformedError(f"{where}: expected an object with {', '.join(forms)} only, got {value!r:.50}")
@@ -110,9 +106,6 @@ def read_fields(
 
     Args:
         where: the object's place in the file; empty for the whole of it.
-
-    Raises:
-        MalformedError: naming a field that is missing or of another form.
     """
     forms, found = _forms(kind), {}
     for name in names:
@@ -123,11 +116,7 @@ def read_fields(
 
 
 def checked(value: T, where: str, expected: str, fits: bool) -> T:
-    """The value itself.
-
-    Raises:
-        MalformedError: it does not fit.
-    """
+    """The value itself, if it fits."""
     if not fits:
         raise MalformedError(f"{where}: expected {expected}, got {value!r:.50}")
     return value

@@ -121,11 +121,7 @@ class Policy(Output):
 
 
 def read_policy(value: Any, where: str) -> Policy:
-    """The policy that a part of a file writes down.
-
-    Raises:
-        MalformedError: a field is missing or of another form.
-    """
+    """The policy that a part of a file writes down."""
     given = mapping(value, where)
     if given.get("otherwise") != NOOP:
         raise MalformedError(f"{where}: expected an object with states, otherwise '{NOOP}' and floors")

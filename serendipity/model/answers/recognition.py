@@ -158,11 +158,7 @@ class Recognition(Tabular, Output):
 
 
 def read_recognition(value: Any, where: str) -> Recognition:
-    """The posterior that a result rests on, as :meth:`Recognition.to_dict` wrote it.
-
-    Raises:
-        MalformedError: a field is missing or of another type.
-    """
+    """The posterior that a result rests on, as :meth:`Recognition.to_dict` wrote it."""
     if fault := schema_fault(mapping(value, where).get("schema"), SCHEMA):
         raise MalformedError(f"{where}: {fault}")
     return read(Recognition, value, where)

@@ -80,11 +80,7 @@ def object_of(result: Any) -> dict[str, Any]:
 
 
 def fields_of(kind: type, data: Any) -> dict[str, Any]:
-    """The fields that the JSON object of a result writes down; ``kind`` is the class that has them.
-
-    Raises:
-        MalformedError: another schema, or a field that is missing or of another form.
-    """
+    """The fields that the JSON object of a result writes down; ``kind`` is the class that has them."""
     if not isinstance(data, dict):
         raise MalformedError(f"expected a JSON object, got {type(data).__name__}")
     if fault := schema_fault(data.get("schema"), SCHEMA):
@@ -174,11 +170,7 @@ def exact_texts(value: Any) -> Any:
 
 
 def with_exact(value: Any, texts: Any, where: str) -> Any:
-    """A JSON value with the exact figures that :func:`exact_texts` made of it.
-
-    Raises:
-        MalformedError: a text is no rational, or that of another float.
-    """
+    """A JSON value with the exact figures that :func:`exact_texts` made of it."""
     if isinstance(texts, dict):
         parts = {str(key): part for key, part in _parts(value)}
         for key, text in texts.items():

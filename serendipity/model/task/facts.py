@@ -26,22 +26,14 @@ class Facts:
         return fact
 
     def condition(self, literals: Iterable[str]) -> Condition:
-        """The conjunction of literals, ``!`` in front of those to be false.
-
-        Raises:
-            UsageError: there is no such fact.
-        """
+        """The conjunction of literals, ``!`` in front of those to be false."""
         given = [*literals]
         positive = sorted(self.id(name) for name in given if not name.startswith("!"))
         negative = sorted(self.id(name[1:]) for name in given if name.startswith("!"))
         return Condition(tuple(positive), tuple(negative))
 
     def seen(self, state: frozenset[int], facts: Iterable[tuple[str, bool]]) -> frozenset[int]:
-        """A state in which some facts are true, or false, as somebody has seen them.
-
-        Raises:
-            UsageError: there is no such fact.
-        """
+        """A state in which some facts are true, or false, as somebody has seen them."""
         found = set(state)
         for name, true in facts:
             fact = self.id(name)

@@ -72,7 +72,6 @@ def assemble(blueprint: Blueprint, work: Work) -> Task:
 
     Raises:
         InputError: costs, goals or conditions that are not supported.
-        LimitReachedError: a limit came first, or memory is used up.
     """
     relations = _relations(blueprint.sources)
     work.stage("reading the goal")

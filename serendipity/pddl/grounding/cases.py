@@ -37,11 +37,7 @@ class Cases:
         self.disjuncts = Disjuncts(unit, relations.decide, work)
 
     def expanded(self, records: Iterable[Grounded], bindings: Iterable[Values]) -> Iterator[Grounded]:
-        """The cases of records and the values of their variables.
-
-        Raises:
-            InputError: there are too many.
-        """
+        """The cases of records and the values of their variables."""
         for record, values in zip(records, bindings, strict=True):
             try:
                 yield from self._cases(record, values)

@@ -64,11 +64,7 @@ class Clock:
         return number
 
     def epoch_of(self, literal: TimedLiteral, unit: Unit) -> int:
-        """The epoch with which a literal of the script becomes true.
-
-        Raises:
-            InputError: it is too late.
-        """
+        """The epoch with which a literal of the script becomes true."""
         number = ceil(literal.time / self.epoch)
         if number > MAX_EPOCH:
             raise unit.problem_error(f"timed literal: {self._too_long(number)}", literal.line)

@@ -42,7 +42,6 @@ def with_disjunctions(
 
     Raises:
         NotExactError: one of them can't be expressed exactly.
-        LimitReachedError: a limit came first.
     """
     compiled = _Compiled(task, work)
     literals = [literal for disjunction in disjunctions for literal in compiled.literals(disjunction)]

@@ -77,7 +77,6 @@ def read_goal(unit: Unit, relations: Relations, work: Work) -> Goal:
 
     Raises:
         InputError: it can never hold, or has too many cases.
-        LimitReachedError: its quantifiers stand for more than fits into memory.
     """
     reader = _Reader(Goal(unit), relations, work)
     formula = simplified(unit.problem.goal, unit)

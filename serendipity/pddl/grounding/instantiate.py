@@ -70,10 +70,6 @@ class Instantiator:
         Args:
             unit: the files that it is from; its parameters range over their objects.
             actors: what the first parameter may be; None means all that its type allows.
-
-        Raises:
-            InputError: there are too many cases.
-            LimitReachedError: there are more ground actions than fit into memory.
         """
         try:
             lifted = lifted_of(schema, unit, self.work)

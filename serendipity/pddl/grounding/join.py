@@ -89,9 +89,6 @@ def bindings(
 
     Args:
         actors: what the first parameter may be; None means all that its type allows.
-
-    Raises:
-        LimitReachedError: tables of them don't fit into memory.
     """
     join = _Join(lifted, unit, relations, work)
     if actors is not None:

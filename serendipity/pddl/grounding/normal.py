@@ -87,11 +87,7 @@ class Lifted:
 
 
 def lifted_of(schema: Schema, unit: Unit, work: Work) -> Lifted:
-    """The lifted action of a schema over the objects of its own files.
-
-    Raises:
-        LimitReachedError: its quantifiers stand for more than fits into memory.
-    """
+    """The lifted action of a schema over the objects of its own files."""
     precondition: Formula = schema.precondition
     effects: Sequence[Effect] = schema.effects
     if schema.quantified:
@@ -139,11 +135,7 @@ def _literals(schema: Schema, formula: Formula, when: str, unit: Unit, work: Wor
 
 
 def require_literals(number: int, place: str, work: Work) -> None:
-    """Check that so many literals fit into memory.
-
-    Raises:
-        LimitReachedError: they don't; it names the place and the number.
-    """
+    """Check that so many literals fit into memory."""
     if number > _FEW:
         work.require(
             number * _BYTES, f"reading {place} comes to {about(number)} literals without quantifiers"
@@ -250,11 +242,7 @@ class Disjuncts:
                 return self._minimal(clause for part in instances for clause in self.of(part))
 
     def of_all(self, parts: Iterable[Formula]) -> list[Clause]:
-        """The disjuncts of the conjunction of some ground conditions.
-
-        Raises:
-            TooManyCasesError: there are more than ``MAX_CASES``.
-        """
+        """The disjuncts of the conjunction of some ground conditions."""
         certain: set[Literal] = set()
         choices: list[list[Clause]] = []
         for part in parts:

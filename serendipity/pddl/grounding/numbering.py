@@ -113,9 +113,6 @@ class Numbering:
 
         Args:
             epochs: how many an action of that name takes, given its duration.
-
-        Raises:
-            InputError: an action's cost is not what it should be.
         """
         actions: list[GroundAction] = []
         for block in self._work.deadline.each(self.blocks, 1):

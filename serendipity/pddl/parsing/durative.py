@@ -22,11 +22,7 @@ class DurativeReader:
     def read(
         self, parts: Mapping[str, SExpression]
     ) -> tuple[Formula, list[Effect], list[Expression], DurativeParts]:
-        """Conditions at start, effects at end, what is added to the total cost, and the rest.
-
-        Raises:
-            InputError: something is not of that form, or not supported; with the line.
-        """
+        """Conditions at start, effects at end, what is added to the total cost, and the rest."""
         least, most = self._duration(parts[":duration"])
         asked, changed = parts.get(":condition", SExpression(0)), parts[":effect"]
         start, inside, end = (self._scope.condition_at(when, asked) for when in (START, INSIDE, END))

@@ -30,11 +30,7 @@ PathArgument = str | PathLike[str]
 
 
 def read_unit(owner: str | None, domain: PathArgument, problem: PathArgument, work: Work) -> Unit:
-    """Read and check a domain file and its problem file.
-
-    Raises:
-        InputError: with file, line and what was expected.
-    """
+    """Read and check a domain file and its problem file."""
     with _reading(domain, work):
         checked_domain = read_domain(read_text(domain, work), work)
     with _reading(problem, work):
@@ -43,11 +39,7 @@ def read_unit(owner: str | None, domain: PathArgument, problem: PathArgument, wo
 
 
 def read_text(path: PathArgument, work: Work | None = None) -> str:
-    """The text of a file; all its lines end as in Unix.
-
-    Raises:
-        InputError: it is missing, can't be read, or is not text.
-    """
+    """The text of a file; all its lines end as in Unix."""
     try:
         return _read(path, work or Work())
     except FileNotFoundError:

@@ -24,11 +24,7 @@ class Initial:
 
 
 def read_initial(section: SExpression, scope: Scope, work: Work) -> Initial:
-    """The initial state that a section describes.
-
-    Raises:
-        InputError: what is wrong with it; with the line.
-    """
+    """The initial state that a section describes."""
     initial = Initial()
     fitting = _Fitting(scope)
     for i in work.deadline.each(range(1, len(section.items))):

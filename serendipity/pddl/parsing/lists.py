@@ -28,9 +28,6 @@ def actions_in(text: str, path: object, what: str = "") -> list[tuple[str, int]]
 
     Args:
         what: what errors begin with: ``"human plan: "``.
-
-    Raises:
-        InputError: a line is not one action, or the JSON is no list of names.
     """
     if not starts_json(text):
         lines = [(action_of(line, path, number, what), number) for number, line in lines_of(text)]
@@ -56,11 +53,7 @@ def starts_json(text: str) -> bool:
 
 
 def json_items(text: str, path: object, what: str = "") -> list[FileItem]:
-    """The items of a JSON list, each with the line on which it starts.
-
-    Raises:
-        InputError: it is no such list.
-    """
+    """The items of a JSON list, each with the line on which it starts."""
     text = _uncommented(text)
     items = json_value(text, path)
     if not isinstance(items, list):
@@ -97,11 +90,7 @@ def json_value(text: str, path: object) -> Any:
 
 
 def action_of(line: str, path: object, number: int, what: str) -> str:
-    """The action of a line without comment; empty where there is none.
-
-    Raises:
-        InputError: it is more than one action.
-    """
+    """The action of a line without comment; empty where there is none."""
     bare = _EPOCH.sub("", line, count=1)
     if bare.startswith("(") and bare.endswith(")"):
         bare = bare[1:-1].strip()

@@ -27,11 +27,7 @@ _domains: Final[dict[str, Domain]] = {}  # a cache: those read last, by their te
 
 
 def read_domain(text: str, work: Work) -> Domain:
-    """The checked domain that a text defines; equal texts are read once.
-
-    Raises:
-        InputError: with the line, without the file.
-    """
+    """The checked domain that a text defines; equal texts are read once."""
     domain = _domains.pop(text, None) or _domain(read_form(text, "domain", work), work)
     _domains[text] = domain
     if len(_domains) > _KEPT:
@@ -45,11 +41,7 @@ def forget_parsed() -> None:
 
 
 def read_problem(text: str, domain: Domain, work: Work) -> Problem:
-    """The checked problem that a text defines for a domain.
-
-    Raises:
-        InputError: with the line, without the file.
-    """
+    """The checked problem that a text defines for a domain."""
     form = read_form(text, "problem", work)
     empty: list[int] = []
     listed = typed_list(form.section(":objects"), 1, "an object", 1 if domain.factored else 2, empty)

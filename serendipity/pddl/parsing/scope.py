@@ -347,11 +347,7 @@ def is_number(item: Item) -> bool:
 
 
 def number(text: str, line: int) -> Fraction:
-    """The value of a number.
-
-    Raises:
-        InputError: it is none; with the line.
-    """
+    """The value of a number."""
     try:
         if not _NUMBER.fullmatch(text):
             raise ValueError
@@ -361,11 +357,7 @@ def number(text: str, line: int) -> Fraction:
 
 
 def check_type(kind: Type, types: Types, line: int) -> None:
-    """Check that all names of a type are declared.
-
-    Raises:
-        InputError: naming one that is not; with the line.
-    """
+    """Check that all names of a type are declared."""
     unknown = next((name for name in kind if name not in types), None)
     if unknown is not None:
         raise InputError(f"unknown type {quoted(unknown)}", line=line)

@@ -62,11 +62,7 @@ UNSUPPORTED: Final = {
 
 
 def read_requirements(section: SExpression) -> frozenset[str]:
-    """The words of a section ``(:requirements ...)``.
-
-    Raises:
-        InputError: one is not supported, or not known; with the line.
-    """
+    """The words of a section ``(:requirements ...)``."""
     found: set[str] = set()
     for i in range(1, len(section.items)):
         item = section.items[i]
@@ -120,11 +116,7 @@ class PddlFile:
 
 
 def read_form(text: str, kind: str, work: Work) -> PddlFile:
-    """The sections of a file of a kind, ``domain`` or ``problem``.
-
-    Raises:
-        InputError: with the line, without the file.
-    """
+    """The sections of a file of a kind, ``domain`` or ``problem``."""
     tree = read_tree(text, work)
     if not tree.items:
         raise InputError(f"the file is empty: expected '(define ({kind} ...'")

@@ -58,9 +58,6 @@ def typed_list(
         what: how an error calls its names; ``a variable`` if they begin with ``?``.
         private: where the names in ``(:private ...)`` start; 0 if there may be none.
         empty: takes the lines of types before which no name stands; None where that is an error.
-
-    Raises:
-        InputError: it is not of that form; with the line.
     """
     found: list[Typed] = []
     untyped = 0
@@ -102,11 +99,7 @@ def _type_at(node: SExpression, i: int) -> Type:
 
 
 def signatures(section: SExpression, what: str) -> Iterator[Declaration]:
-    """The predicates or functions of a section, private ones among them, functions without results.
-
-    Raises:
-        InputError: it is not of that form, or has object fluents; with the line.
-    """
+    """The predicates or functions of a section, private ones among them, functions without results."""
     i = 1
     while i < len(section.items):
         if section.items[i] == "-" and what == "function":
@@ -133,11 +126,7 @@ def _without_words(private: SExpression) -> SExpression:
 
 
 def read_action(section: SExpression) -> ActionText:
-    """The parts of a section ``(:action ...)`` or ``(:durative-action ...)``.
-
-    Raises:
-        InputError: something else is in it, no effect or no duration; with the line.
-    """
+    """The parts of a section ``(:action ...)`` or ``(:durative-action ...)``."""
     durative = section.head == DURATIVE
     action = ActionText(name_at(section, 1, "the name of an action"), section.line, durative)
     with naming(f"action {quoted(action.name)}"):

@@ -58,11 +58,7 @@ Item = str | SExpression
 
 
 def read_tree(text: str, work: Work) -> SExpression:
-    """The bracketed text, in lower case, without comments, as the items of a node.
-
-    Raises:
-        InputError: brackets don't match, or are nested too deeply; with the line, without the file.
-    """
+    """The bracketed text, in lower case, without comments, as the items of a node."""
     node = SExpression(1)
     outer: list[SExpression] = []
     line = 1
@@ -151,11 +147,7 @@ def listed(names: Iterable[str]) -> str:
 
 
 def node_at(node: SExpression, i: int, what: str) -> SExpression:
-    """Item ``i`` of a node, which must be a bracketed one.
-
-    Raises:
-        InputError: it is missing, or a word.
-    """
+    """Item ``i`` of a node, which must be a bracketed one."""
     item = node.items[i] if i < len(node.items) else None
     if isinstance(item, SExpression):
         return item
@@ -163,11 +155,7 @@ def node_at(node: SExpression, i: int, what: str) -> SExpression:
 
 
 def name_at(node: SExpression, i: int, what: str) -> str:
-    """Item ``i`` of a node, which must be a name.
-
-    Raises:
-        InputError: it is missing, bracketed, a variable or a keyword.
-    """
+    """Item ``i`` of a node, which must be a name."""
     item = node.items[i] if i < len(node.items) else None
     if isinstance(item, str) and item[0] not in "?:" and item not in ("-", "="):
         return item
@@ -175,11 +163,7 @@ def name_at(node: SExpression, i: int, what: str) -> str:
 
 
 def refuse_more(node: SExpression, i: int) -> None:
-    """Check that a node ends before its item ``i``.
-
-    Raises:
-        InputError: it doesn't.
-    """
+    """Check that a node ends before its item ``i``."""
     if i < len(node.items):
         raise expected("')'", node, i)
 

@@ -96,7 +96,6 @@ def build_scene(task: Task, result: Result, scenario: str | None = None) -> Scen
 
     Raises:
         InputError: the plan does not fit the task, or has more than :data:`MOST_EPOCHS` epochs.
-        UsageError: there is no such scenario.
     """
     return _scene(task, result, find_scenario(result, scenario))
 

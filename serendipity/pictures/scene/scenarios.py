@@ -13,9 +13,6 @@ def find_scenario(result: Result, name: str | None) -> int | None:
 
     Args:
         name: of the scenario, or its number; None for the most probable one.
-
-    Raises:
-        UsageError: there is no such scenario.
     """
     entries = result.goals or ()
     found = [i for i, entry in enumerate(entries) if name in (None, entry.name, str(i + 1))]
@@ -27,11 +24,7 @@ def find_scenario(result: Result, name: str | None) -> int | None:
 
 
 def played(task: Task, result: Result, scenario: int) -> tuple[Task, Result]:
-    """The task with the goal of a scenario, and the result with what happens in it; its figures stay.
-
-    Raises:
-        UsageError: the goal names a fact that the task lacks.
-    """
+    """The task with the goal of a scenario, and the result with what happens in it; its figures stay."""
     entry = (result.goals or ())[scenario]
     goal = goal_of(result, entry)
     own = replace(result, plan=entry.plan, human_plan=entry.human_plan, window=entry.window)

@@ -177,11 +177,7 @@ class Film:
         return buffer.getvalue()
 
     def pages(self, log: Sequence[Mapping[str, Any]]) -> "list[tuple[int, Image.Image]]":
-        """All frames with the words above them, each with its epoch.
-
-        Raises:
-            UsageError: nothing was recorded.
-        """
+        """All frames with the words above them, each with its epoch."""
         if not self._frames:
             raise UsageError("clip: nothing was recorded")
         return [(frame.epoch, self._page(frame, log)) for frame in self._frames]

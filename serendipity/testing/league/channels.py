@@ -38,7 +38,6 @@ class Timely:
         """The answer.
 
         Raises:
-            AnswerError: it failed.
             LimitReachedError: the time is up.
         """
         clock = Deadline(observation["seconds"])
@@ -96,11 +95,7 @@ class Process:
         self._running: subprocess.Popen[str] | None = None
 
     def __call__(self, observation: Observation) -> Any:
-        """Its answer.
-
-        Raises:
-            AnswerError: it has ended, or wrote no JSON.
-        """
+        """Its answer."""
         if self._running is None:
             pipe = subprocess.PIPE
             self._running = subprocess.Popen(self._words, stdin=pipe, stdout=pipe, text=True)
@@ -139,7 +134,6 @@ class Endpoint:
         """Its answer.
 
         Raises:
-            AnswerError: there is none, or it is no JSON.
             LimitReachedError: it takes too long.
         """
         body, head = json.dumps(observation).encode(), {"Content-Type": "application/json"}

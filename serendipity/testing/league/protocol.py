@@ -121,11 +121,7 @@ class AskedRobots:
         }
 
     def _read(self, answer: Any, state: frozenset[int]) -> tuple[list[int], list[int], dict[str, str | None]]:
-        """What robots do alone, and offer, by action ids; what the person is asked, by plan.
-
-        Raises:
-            AnswerError: it is no answer.
-        """
+        """What robots do alone, and offer, by action ids; what the person is asked, by plan."""
         said = _object({} if answer is None else answer, "an answer", ("actions", "human"))
         possible = legal(self._task, state)
         named = _object(said.get("actions") or {}, "actions", possible)
@@ -191,11 +187,7 @@ def steps_at(plan: Iterable[PlanStep], epoch: int, human: str) -> tuple[dict[str
 
 
 def _object(value: Any, what: str, keys: Iterable[str]) -> Mapping[str, Any]:
-    """A JSON object with some of the keys.
-
-    Raises:
-        AnswerError: it is something else.
-    """
+    """A JSON object with some of the keys."""
     if not isinstance(value, Mapping):
         raise AnswerError(f"{what}: expected an object, got {shown(value)}")
     unknown = next((key for key in value if key not in [*keys]), None)

@@ -19,9 +19,6 @@ def difference(task: Task, result: Result, entry: Mapping[str, Any], least: Solv
 
     Where the entry has a solution, the optimum has to be one above its limit; else nothing may be at or
     below the limit.
-
-    Raises:
-        NotMadeError: it is not made a second time.
     """
     optimum, limit = _optimum(task, result, entry, least), entry["limit"]
     if optimum is None:
