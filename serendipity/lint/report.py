@@ -49,16 +49,13 @@ class TaskTime(Written):
 
     def told(self) -> Iterator[Line]:
         """The lines of it."""
-        yield Line(f"an epoch is {plain(self.epoch)} long, the longest action takes {_epochs(self.longest)}")
+        longest = f"{self.longest:,} epoch{'s' * (self.longest != 1)}"
+        yield Line(f"an epoch is {plain(self.epoch)} long, the longest action takes {longest}")
         if self.script_epochs:
             facts = f"{self.script_facts} change{'s' * (self.script_facts != 1)} of facts"
             yield Line(f"script: {facts}, until epoch {self.script_epochs:,}")
         for name, count in self.bystanders.items():
             yield Line(f"bystander {name}: {count} action{'s' * (count != 1)}")
-
-
-def _epochs(number: int) -> str:
-    return f"{number:,} epoch{'s' * (number != 1)}"
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -14,20 +14,7 @@ from typing import NamedTuple
 from serendipity.model import InputError
 from serendipity.pddl.grounding.costs import Costs
 from serendipity.pddl.grounding.product import Bindings, Product
-from serendipity.pddl.parsing.lifted import (
-    And,
-    Effect,
-    Expression,
-    Formula,
-    FunctionValue,
-    Key,
-    Literal,
-    Operation,
-    Or,
-    Parameter,
-    Schema,
-    Unit,
-)
+from serendipity.pddl.parsing import lifted
 from serendipity.pddl.parsing.tree import quoted
 from serendipity.pddl.parsing.types import OBJECT, Type
 
@@ -52,12 +39,12 @@ class ClassicalFiles:
 class _Priced(NamedTuple):
     """An action with the terms that its cost depends on, and the cost for their values."""
 
-    schema: Schema
+    schema: lifted.Schema
     terms: tuple[str, ...]
-    costs: dict[Key, Fraction]
+    costs: dict[lifted.Key, Fraction]
 
 
-def lifted_files(unit: Unit, shares: Mapping[str, Fraction]) -> ClassicalFiles:
+def lifted_files(unit: lifted.Unit, shares: Mapping[str, Fraction]) -> ClassicalFiles:
     """One domain and problem whose optimal plans are the composite ones without a horizon.
 
     Plans of such a problem are sequences.  Where actions may share an epoch although each
@@ -79,7 +66,7 @@ def lifted_files(unit: Unit, shares: Mapping[str, Fraction]) -> ClassicalFiles:
     return ClassicalFiles(_domain(unit, priced), _problem(unit, shares, priced, scale), scale)
 
 
-def _priced(schema: Schema, unit: Unit, shares: Mapping[str, Fraction]) -> _Priced:
+def _priced(schema: lifted.Schema, unit: lifted.Unit, shares: Mapping[str, Fraction]) -> _Priced:
     if not schema.agent:
         raise unit.domain_error(f"action {quoted(schema.name)}: expected an ':agent'", schema.line)
     agent, *others = schema.parameters
@@ -95,20 +82,20 @@ def _priced(schema: Schema, unit: Unit, shares: Mapping[str, Fraction]) -> _Pric
     return _Priced(schema, names, costs)
 
 
-def _terms(value: Expression) -> Iterator[str]:
+def _terms(value: lifted.Expression) -> Iterator[str]:
     match value:
-        case FunctionValue(key):
+        case lifted.FunctionValue(key):
             yield from key[1:]
-        case Operation(_, values):
+        case lifted.Operation(_, values):
             for part in values:
                 yield from _terms(part)
 
 
-def _domain(unit: Unit, priced: Iterable[_Priced]) -> str:
+def _domain(unit: lifted.Unit, priced: Iterable[_Priced]) -> str:
     domain = unit.domain
     types = (f"{name} - {_type(above, unit)}" for name, above in domain.types.parents.items())
     predicates = (
-        f"({name}{_parameters([Parameter(f'?x{i}', kind) for i, kind in enumerate(kinds)], unit)})"
+        f"({name}{_parameters([lifted.Parameter(f'?x{i}', kind) for i, kind in enumerate(kinds)], unit)})"
         for name, kinds in {**domain.predicates, _ACTS: ((OBJECT,),)}.items()
     )
     functions = (
@@ -126,7 +113,7 @@ def _domain(unit: Unit, priced: Iterable[_Priced]) -> str:
     )
 
 
-def _action(action: _Priced, unit: Unit) -> str:
+def _action(action: _Priced, unit: lifted.Unit) -> str:
     schema = action.schema
     agent = schema.parameters[0].name
     effects = [f"(increase (total-cost) ({_COST}{schema.name} {' '.join(action.terms)}))"]
@@ -141,7 +128,7 @@ def _action(action: _Priced, unit: Unit) -> str:
     )
 
 
-def _problem(unit: Unit, shares: Iterable[str], priced: Iterable[_Priced], scale: int) -> str:
+def _problem(unit: lifted.Unit, shares: Iterable[str], priced: Iterable[_Priced], scale: int) -> str:
     problem = unit.problem
     own = {name: kind for name, kind in problem.objects.items() if name not in unit.domain.constants}
     costs = (
@@ -170,34 +157,34 @@ def _section(keyword: str, items: Iterable[str]) -> list[str]:
     return [f"({keyword}", *listed, ")"] if listed else []
 
 
-def _objects(objects: Mapping[str, Type], unit: Unit) -> Iterator[str]:
+def _objects(objects: Mapping[str, Type], unit: lifted.Unit) -> Iterator[str]:
     return (f"{name} - {_type(kind, unit)}" for name, kind in objects.items())
 
 
-def _parameters(parameters: Iterable[Parameter], unit: Unit) -> str:
+def _parameters(parameters: Iterable[lifted.Parameter], unit: lifted.Unit) -> str:
     return "".join(f" {name} - {_type(kind, unit)}" for name, kind in parameters)
 
 
-def _type(kind: Type, unit: Unit) -> str:
+def _type(kind: Type, unit: lifted.Unit) -> str:
     if len(kind) > 1:
         raise InputError(f"planners for one agent know no type 'either' ({' '.join(kind)})", unit.domain_file)
     return kind[0]
 
 
-def _formula(formula: Formula, unit: Unit) -> str:
+def _formula(formula: lifted.Formula, unit: lifted.Unit) -> str:
     match formula:
-        case Literal(key, positive):
+        case lifted.Literal(key, positive):
             atom = f"({' '.join(key)})"
             return atom if positive else f"(not {atom})"
-        case And(parts):
+        case lifted.And(parts):
             return f"(and{''.join(f' {_formula(part, unit)}' for part in parts)})"
-        case Or(parts):
+        case lifted.Or(parts):
             return f"(or{''.join(f' {_formula(part, unit)}' for part in parts)})"
     word = "forall" if formula.universal else "exists"
     return f"({word} ({_parameters(formula.parameters, unit).strip()}) {_formula(formula.body, unit)})"
 
 
-def _effect(effect: Effect, unit: Unit) -> str:
+def _effect(effect: lifted.Effect, unit: lifted.Unit) -> str:
     text = _formula(effect.literal, unit)
     if effect.condition is not None:
         text = f"(when {_formula(effect.condition, unit)} {text})"

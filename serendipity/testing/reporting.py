@@ -85,14 +85,10 @@ def report(
     lines += [f"  {who}: {words}" for who, words in (*found.said.items(), *found.plans.items())]
     lines.append("")
     if folder is not None:
-        place = folder / _file_name(f"{judge.name}-{check}")
+        place = folder / re.sub(r"[^\w.-]+", "-", f"{judge.name}-{check}").strip("-")
         commands = write_case(found, place, again=again)
         lines += [
             f"in PDDL: {place} ({commands.name} has what to call)",
             f"ours: {command_line(call, place)}",
         ]
     return "\n".join([*lines, f"again: {again}"])
-
-
-def _file_name(text: str) -> str:
-    return re.sub(r"[^\w.-]+", "-", text).strip("-")

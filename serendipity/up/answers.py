@@ -190,7 +190,8 @@ class Answers:
                 status = Status.UNSOLVABLE_INCOMPLETELY
             return self._result(status, None, str(error))
         figures = result.to_dict()
-        metrics = {name: _text(figures[name]) for name in _FIGURES if figures[name] not in (None, {})}
+        told = {name: figures[name] for name in _FIGURES if figures[name] not in (None, {})}
+        metrics = {name: json.dumps(of) if isinstance(of, dict) else str(of) for name, of in told.items()}
         metrics["engine_internal_time"] = str(self._limits.elapsed())
         notes = [*reading.task.warnings, *([] if result.reason is None else [result.reason])]
         return self._result(status, plan, *notes, metrics=metrics)
@@ -204,8 +205,3 @@ class Answers:
     ) -> PlanGenerationResult:
         messages = [*self._messages, *(LogMessage(LogLevel.INFO, note) for note in notes)]
         return PlanGenerationResult(status, plan, ENGINE, metrics, messages)
-
-
-def _text(figure: object) -> str:
-    """A figure as text; one of several parts as JSON."""
-    return json.dumps(figure) if isinstance(figure, dict) else str(figure)

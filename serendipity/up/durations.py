@@ -5,10 +5,9 @@ from fractions import Fraction
 from itertools import chain
 from typing import Final
 
-from unified_planning.model import DurativeAction, FNode, TimeInterval, Timing
+from unified_planning.model import DurativeAction, TimeInterval, Timing
 from unified_planning.model import Effect as UPEffect
 
-from serendipity.model import InputError
 from serendipity.pddl.parsing import lifted
 from serendipity.up.conditions import Reader, effects_of
 from serendipity.up.expressions import number_of
@@ -90,8 +89,9 @@ def timed_literals(
         raise reader.error(f"timed effect at {timing}: expected a time after the beginning")
     problem = reader.vocabulary.problem
     for effect in chain.from_iterable(one.expand_effect(problem) for one in effects):
-        if effect.is_conditional() or not effect.is_assignment() or not _is_value(effect.value):
-            raise _no_value(reader, effect)
+        fixed = effect.value.is_bool_constant() or effect.value.is_object_exp()
+        if effect.is_conditional() or not effect.is_assignment() or not fixed:
+            raise reader.error(f"timed effect '{effect}': expected a fixed value and no condition")
         fluent, target = reader.target(effect.fluent, {})
         if fluent.type.is_bool_type():
             yield lifted.TimedLiteral(time, lifted.Literal(target, effect.value.is_true()), 0)
@@ -99,11 +99,3 @@ def timed_literals(
         chosen = reader.vocabulary.object(effect.value.object())
         for word in map(reader.vocabulary.object, problem.objects(fluent.type)):
             yield lifted.TimedLiteral(time, lifted.Literal((*target, word), word == chosen), 0)
-
-
-def _is_value(node: FNode) -> bool:
-    return bool(node.is_bool_constant() or node.is_object_exp())
-
-
-def _no_value(reader: Reader, effect: UPEffect) -> InputError:
-    return reader.error(f"timed effect '{effect}': expected a fixed value and no condition")

@@ -48,10 +48,6 @@ def _json_lines(table: Table) -> str:
     return "".join(f"{printable_json(line)}\n" for line in lines)
 
 
-def _parquet(table: Table) -> bytes:
-    return _parquet_writer()(table)
-
-
 def _parquet_writer() -> Callable[[Table], bytes]:
     for library, writer in (("polars", _with_polars), ("pyarrow", _with_pyarrow)):
         if find_spec(library) is not None:
@@ -79,6 +75,6 @@ def _with_pyarrow(table: Table) -> bytes:
 FORMATS: Final[dict[str, Callable[[Table], str | bytes]]] = {
     "csv": _csv,
     "jsonl": _json_lines,
-    "parquet": _parquet,
+    "parquet": lambda table: _parquet_writer()(table),
 }
 """By name, which is how such a file's name ends, too."""

@@ -52,7 +52,8 @@ def plan(
         asked["human_plan"] = timed_plan(options.human_plan, loaded)
     if anybody and (goals or plans or options.human_plan) is not None:
         raise UsageError("--human any: goes without --goals, --plans and --human-plan")
-    if (goals or plans) is not None or _is_watched(options):
+    watched = options.given.get("ties") == "watched" and options.human_plan is None
+    if (goals or plans) is not None or watched:
         if save_plan is not None:
             raise UsageError("--save-plan: there is no single plan with --goals, --plans or --ties watched")
         asked |= planning.given(goals=goals, plans=plans, observed=observed, beta=beta, noise=noise)
@@ -130,10 +131,6 @@ def _told(task: Task, result: Result, certificate: Certificate, form: str, *, cl
 
 def _as_json(result: Result, certificate: Certificate | None) -> str:
     return json_of(result.to_dict() | ({} if certificate is None else {"certificate": certificate.to_dict()}))
-
-
-def _is_watched(options: planning.Planning) -> bool:
-    return options.given.get("ties") == "watched" and options.human_plan is None
 
 
 def _modules(given: Mapping[str, Any], unsure: Path | None, *, certify: bool) -> list[str]:

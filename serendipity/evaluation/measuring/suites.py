@@ -3,7 +3,6 @@
 A domain's folder has ``domain.pddl`` and problem files.
 """
 
-import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,6 +14,7 @@ from serendipity.model.task.task import Task
 from serendipity.pddl.parsing.files import read_unit
 from serendipity.pddl.parsing.lifted import Unit
 from serendipity.pddl.work import Work
+from serendipity.pictures.map.names import natural
 
 _DOMAIN: Final = "domain.pddl"
 
@@ -54,11 +54,6 @@ def folders(suite: Path, stride: int = 1) -> list[Path]:
     """Every ``stride``-th of the folders in a suite, ``test2`` before ``test10``."""
     found = (path for path in suite.iterdir() if path.is_dir())
     return sorted(found, key=lambda path: natural(path.name))[::stride]
-
-
-def natural(name: str) -> tuple[tuple[int, str], ...]:
-    """Sorting key by which 2 comes before 10."""
-    return tuple((int(part), "") if part.isdecimal() else (0, part) for part in re.split(r"(\d+)", name))
 
 
 def is_suite(folder: Path) -> bool:

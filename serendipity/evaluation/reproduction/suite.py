@@ -6,8 +6,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from serendipity.evaluation.measuring.suites import natural
 from serendipity.model import InputError, UsageError
+from serendipity.pictures.map.names import natural
 
 _NUMBERED = re.compile(r"test(\d+)")
 

@@ -13,15 +13,7 @@ from typing import Final
 from serendipity.model import InputError
 from serendipity.pddl.grounding.product import Product
 from serendipity.pddl.grounding.quantifiers import ground_key
-from serendipity.pddl.parsing.lifted import (
-    DurativeParts,
-    Expression,
-    FunctionValue,
-    Key,
-    Operation,
-    Schema,
-    Unit,
-)
+from serendipity.pddl.parsing import lifted
 from serendipity.pddl.parsing.scope import calculate, cost_fault
 from serendipity.pddl.parsing.tree import quoted
 
@@ -34,10 +26,10 @@ class BadCost:
     """A fault in the cost or duration of an action."""
 
     problem: str
-    unit: Unit
+    unit: lifted.Unit
     line: int
 
-    def error(self, key: Key) -> InputError:
+    def error(self, key: lifted.Key) -> InputError:
         """The error of the action of that name."""
         return self.unit.domain_error(f"action {quoted(' '.join(key))}: {self.problem}", self.line)
 
@@ -48,11 +40,11 @@ Cost = Fraction | BadCost
 class Costs:
     """The costs and durations of ground actions."""
 
-    def __init__(self, values: dict[Key, Fraction]) -> None:
+    def __init__(self, values: dict[lifted.Key, Fraction]) -> None:
         self._values = values
         self._bad: dict[tuple[str, str, int], BadCost] = {}
 
-    def of(self, schema: Schema, unit: Unit, product: Product) -> list[Cost]:
+    def of(self, schema: lifted.Schema, unit: lifted.Unit, product: Product) -> list[Cost]:
         """The costs of the actions of a schema, for some bindings."""
         if not unit.priced:
             return [ONE] * product.size if schema.course is None else self.durations(schema, unit, product)
@@ -63,7 +55,7 @@ class Costs:
             return [self._sum(increases, {})] * product.size
         return [self._cost(schema, unit, values) for values in product]
 
-    def durations(self, schema: Schema, unit: Unit, product: Product) -> list[Cost]:
+    def durations(self, schema: lifted.Schema, unit: lifted.Unit, product: Product) -> list[Cost]:
         """The least durations of the actions of a durative schema, for some bindings."""
         course = schema.course
         assert course is not None, "only durative actions have durations"
@@ -71,10 +63,12 @@ class Costs:
             return [self._duration(schema, course, unit, {})] * product.size
         return [self._duration(schema, course, unit, values) for values in product]
 
-    def _cost(self, schema: Schema, unit: Unit, values: dict[str, str]) -> Cost:
+    def _cost(self, schema: lifted.Schema, unit: lifted.Unit, values: dict[str, str]) -> Cost:
         return self._checked("cost", lambda: self._sum(schema.increases, values), cost_fault, schema, unit)
 
-    def _duration(self, schema: Schema, course: DurativeParts, unit: Unit, values: dict[str, str]) -> Cost:
+    def _duration(
+        self, schema: lifted.Schema, course: lifted.DurativeParts, unit: lifted.Unit, values: dict[str, str]
+    ) -> Cost:
         def fault(duration: Fraction) -> str | None:
             most = min([self._value(value, values) for value in course.most], default=duration)
             if most < duration:
@@ -92,8 +86,8 @@ class Costs:
         what: str,
         calculated: Callable[[], Fraction],
         fault_of: Callable[[Fraction], str | None],
-        schema: Schema,
-        unit: Unit,
+        schema: lifted.Schema,
+        unit: lifted.Unit,
     ) -> Cost:
         """A value, or what is wrong with it."""
         try:
@@ -112,13 +106,13 @@ class Costs:
             (problem, unit.domain_file, schema.line), BadCost(problem, unit, schema.line)
         )
 
-    def _sum(self, increases: Iterable[Expression], values: dict[str, str]) -> Fraction:
+    def _sum(self, increases: Iterable[lifted.Expression], values: dict[str, str]) -> Fraction:
         return sum([self._value(expression, values) for expression in increases], NOTHING)
 
-    def _value(self, expression: Expression, values: dict[str, str]) -> Fraction:
+    def _value(self, expression: lifted.Expression, values: dict[str, str]) -> Fraction:
         match expression:
-            case FunctionValue(key):
+            case lifted.FunctionValue(key):
                 return self._values[ground_key(key, values)]
-            case Operation(operator, parts):
+            case lifted.Operation(operator, parts):
                 return calculate(operator, [self._value(part, values) for part in parts])
         return expression

@@ -21,18 +21,7 @@ from serendipity.pddl.grounding.quantifiers import (
     simplified_effect,
     substitute,
 )
-from serendipity.pddl.parsing.lifted import (
-    And,
-    DurativeParts,
-    Effect,
-    Formula,
-    Literal,
-    Or,
-    Parameter,
-    Quantified,
-    Schema,
-    Unit,
-)
+from serendipity.pddl.parsing import lifted
 from serendipity.pddl.parsing.tree import quoted
 from serendipity.pddl.work import Work, about
 
@@ -45,10 +34,10 @@ _BYTES: Final = 200
 _FEW: Final = 10_000
 """Literals that nobody need ask memory for."""
 
-Clause = frozenset[Literal]
+Clause = frozenset[lifted.Literal]
 """A conjunction of literals that contradict neither each other nor static facts."""
 
-Decide = Callable[[Literal], bool | None]
+Decide = Callable[[lifted.Literal], bool | None]
 """The truth of a ground literal, or None where it depends on the state."""
 
 
@@ -70,26 +59,26 @@ class Lifted:
         start_effects: its effects at start.
     """
 
-    schema: Schema
-    parameters: tuple[Parameter, ...]
-    precondition: tuple[Literal, ...]
-    choices: tuple[Formula, ...] = ()
-    effects: tuple[Literal, ...] = ()
-    conditional: tuple[tuple[Formula, Literal], ...] = ()
-    over_all: tuple[Literal, ...] = ()
-    at_end: tuple[Literal, ...] = ()
-    start_effects: tuple[Literal, ...] = ()
+    schema: lifted.Schema
+    parameters: tuple[lifted.Parameter, ...]
+    precondition: tuple[lifted.Literal, ...]
+    choices: tuple[lifted.Formula, ...] = ()
+    effects: tuple[lifted.Literal, ...] = ()
+    conditional: tuple[tuple[lifted.Formula, lifted.Literal], ...] = ()
+    over_all: tuple[lifted.Literal, ...] = ()
+    at_end: tuple[lifted.Literal, ...] = ()
+    start_effects: tuple[lifted.Literal, ...] = ()
 
     @property
-    def needs(self) -> tuple[Literal, ...]:
+    def needs(self) -> tuple[lifted.Literal, ...]:
         """Literals that it needs at some time."""
         return (*self.precondition, *self.over_all, *self.at_end) if self.schema.course else self.precondition
 
 
-def lifted_of(schema: Schema, unit: Unit, work: Work) -> Lifted:
+def lifted_of(schema: lifted.Schema, unit: lifted.Unit, work: Work) -> Lifted:
     """The lifted action of a schema over the objects of its own files."""
-    precondition: Formula = schema.precondition
-    effects: Sequence[Effect] = schema.effects
+    precondition: lifted.Formula = schema.precondition
+    effects: Sequence[lifted.Effect] = schema.effects
     if schema.quantified:
         precondition = simplified(precondition, unit)
         effects = [e for effect in effects if (e := simplified_effect(effect, unit)) is not None]
@@ -101,31 +90,27 @@ def lifted_of(schema: Schema, unit: Unit, work: Work) -> Lifted:
     needs = _Needs(unit, work)
     needs.collect(precondition)
     simple, conditional = _expand_effects(effects, unit, work)
-    lifted = Lifted(
-        schema,
-        (*schema.parameters, *needs.hidden),
-        tuple(needs.literals),
-        tuple(needs.choices),
-        simple,
-        conditional,
-    )
-    return lifted if schema.course is None else _with_course(lifted, schema.course, unit, work)
+    parameters = (*schema.parameters, *needs.hidden)
+    found = Lifted(schema, parameters, tuple(needs.literals), tuple(needs.choices), simple, conditional)
+    return found if schema.course is None else _with_course(found, schema.course, unit, work)
 
 
-def _with_course(lifted: Lifted, course: DurativeParts, unit: Unit, work: Work) -> Lifted:
+def _with_course(found: Lifted, course: lifted.DurativeParts, unit: lifted.Unit, work: Work) -> Lifted:
     """The lifted action with what its course needs and changes.
 
     Raises:
         InputError: what it needs after its start is more than literals.
     """
-    over_all = _literals(lifted.schema, course.over_all, "over all", unit, work)
-    at_end = _literals(lifted.schema, course.at_end, "at end", unit, work)
+    over_all = _literals(found.schema, course.over_all, "over all", unit, work)
+    at_end = _literals(found.schema, course.at_end, "at end", unit, work)
     at_start = [e for effect in course.start_effects if (e := simplified_effect(effect, unit)) is not None]
     start_effects, _ = _expand_effects(at_start, unit, work)
-    return replace(lifted, over_all=over_all, at_end=at_end, start_effects=start_effects)
+    return replace(found, over_all=over_all, at_end=at_end, start_effects=start_effects)
 
 
-def _literals(schema: Schema, formula: Formula, when: str, unit: Unit, work: Work) -> tuple[Literal, ...]:
+def _literals(
+    schema: lifted.Schema, formula: lifted.Formula, when: str, unit: lifted.Unit, work: Work
+) -> tuple[lifted.Literal, ...]:
     needs = _Needs(unit, work)
     needs.collect(simplified(formula, unit))
     if needs.choices or needs.hidden:
@@ -142,14 +127,14 @@ def require_literals(number: int, place: str, work: Work) -> None:
         )
 
 
-def _expanded(formula: Formula, unit: Unit) -> int:
+def _expanded(formula: lifted.Formula, unit: lifted.Unit) -> int:
     """The number of literals of a precondition; what exists becomes a parameter."""
     match formula:
-        case And(parts) | Or((_,) as parts):
+        case lifted.And(parts) | lifted.Or((_,) as parts):
             return sum(_expanded(part, unit) for part in parts)
-        case Quantified(False, _, body):
+        case lifted.Quantified(False, _, body):
             return _expanded(body, unit)
-        case Quantified(True, parameters, body):
+        case lifted.Quantified(True, parameters, body):
             return how_many(parameters, unit) * _expanded(body, unit)
     return instances(formula, unit)
 
@@ -158,46 +143,46 @@ def _expanded(formula: Formula, unit: Unit) -> int:
 class _Needs:
     """The literals that a condition needs in every case, and the choices that it leaves."""
 
-    unit: Unit
+    unit: lifted.Unit
     work: Work
-    literals: list[Literal] = field(default_factory=list)
-    choices: list[Formula] = field(default_factory=list)
-    hidden: list[Parameter] = field(default_factory=list)
+    literals: list[lifted.Literal] = field(default_factory=list)
+    choices: list[lifted.Formula] = field(default_factory=list)
+    hidden: list[lifted.Parameter] = field(default_factory=list)
     fresh: Iterator[int] = field(default_factory=count)
 
-    def collect(self, formula: Formula) -> None:
+    def collect(self, formula: lifted.Formula) -> None:
         match formula:
-            case Literal():
+            case lifted.Literal():
                 self.literals.append(formula)
-            case And(parts):
+            case lifted.And(parts):
                 for part in parts:
                     self.collect(part)
-            case Or((part,)):
+            case lifted.Or((part,)):
                 self.collect(part)
-            case Or():
+            case lifted.Or():
                 self.choices.append(formula)
-            case Quantified(True, parameters, body):
+            case lifted.Quantified(True, parameters, body):
                 for values in assignments(parameters, self.unit):
                     self.work.deadline.tick()
                     self.collect(substitute(body, values))
-            case Quantified(_, parameters, body):
+            case lifted.Quantified(_, parameters, body):
                 renaming = {p.name: f"{p.name} {next(self.fresh)}" for p in parameters}
-                self.hidden += [Parameter(renaming[p.name], p.type) for p in parameters]
+                self.hidden += [lifted.Parameter(renaming[p.name], p.type) for p in parameters]
                 self.collect(substitute(body, renaming))
 
 
 def _expand_effects(
-    effects: Iterable[Effect], unit: Unit, work: Work
-) -> tuple[tuple[Literal, ...], tuple[tuple[Formula, Literal], ...]]:
+    effects: Iterable[lifted.Effect], unit: lifted.Unit, work: Work
+) -> tuple[tuple[lifted.Literal, ...], tuple[tuple[lifted.Formula, lifted.Literal], ...]]:
     """The unconditional effects, and the others with their conditions, without ``forall``."""
-    simple: list[Literal] = []
-    conditional: list[tuple[Formula, Literal]] = []
+    simple: list[lifted.Literal] = []
+    conditional: list[tuple[lifted.Formula, lifted.Literal]] = []
     for effect in effects:
         if effect.condition is None and not effect.parameters:
             simple.append(effect.literal)
             continue
         for values in work.deadline.each(assignments(effect.parameters, unit)):
-            literal = Literal(ground_key(effect.literal.key, values), effect.literal.positive)
+            literal = lifted.Literal(ground_key(effect.literal.key, values), effect.literal.positive)
             if effect.condition is None:
                 simple.append(literal)
             else:
@@ -213,12 +198,12 @@ class Disjuncts:
         decide: the truth of what does not depend on the state.
     """
 
-    def __init__(self, unit: Unit, decide: Decide, work: Work) -> None:
+    def __init__(self, unit: lifted.Unit, decide: Decide, work: Work) -> None:
         self._unit = unit
         self._decide = decide
         self._tick = work.deadline.tick
 
-    def of(self, formula: Formula) -> list[Clause]:
+    def of(self, formula: lifted.Formula) -> list[Clause]:
         """The disjuncts of a ground condition: none if it is false, an empty one if it is true.
 
         Raises:
@@ -226,24 +211,24 @@ class Disjuncts:
         """
         self._tick()
         match formula:
-            case Literal():
+            case lifted.Literal():
                 truth = self._decide(formula)
                 if truth is None:
                     return [frozenset((formula,))]
                 return [frozenset()] if truth else []
-            case And(parts):
+            case lifted.And(parts):
                 return self.of_all(parts)
-            case Or(parts):
+            case lifted.Or(parts):
                 return self._minimal(clause for part in parts for clause in self.of(part))
-            case Quantified(universal, parameters, body):
+            case lifted.Quantified(universal, parameters, body):
                 instances = (substitute(body, values) for values in assignments(parameters, self._unit))
                 if universal:
                     return self.of_all(instances)
                 return self._minimal(clause for part in instances for clause in self.of(part))
 
-    def of_all(self, parts: Iterable[Formula]) -> list[Clause]:
+    def of_all(self, parts: Iterable[lifted.Formula]) -> list[Clause]:
         """The disjuncts of the conjunction of some ground conditions."""
-        certain: set[Literal] = set()
+        certain: set[lifted.Literal] = set()
         choices: list[list[Clause]] = []
         for part in parts:
             found = self.of(part)
@@ -274,6 +259,6 @@ class Disjuncts:
         return kept
 
 
-def consistent(literals: AbstractSet[Literal]) -> bool:
+def consistent(literals: AbstractSet[lifted.Literal]) -> bool:
     """Whether no literal's negation is among the others."""
     return not any(literal.opposite in literals for literal in literals)

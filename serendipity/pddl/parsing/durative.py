@@ -50,8 +50,8 @@ class DurativeReader:
         if node.head is None:
             return
         if node.head == "and":
-            for part in _parts(node, "a bound of the duration"):
-                yield from self._bounds(part)
+            for i in range(1, len(node.items)):
+                yield from self._bounds(node_at(node, i, "a bound of the duration"))
             return
         if node.head == "at":
             yield from self._bounds(timed(node, (START, END))[1])
@@ -65,7 +65,3 @@ class DurativeReader:
         if isinstance(value, Fraction) and node.head != "<=" and value <= 0:
             raise InputError(f"expected a duration above 0, got {float(value):g}", line=node.line)
         yield node.head, value
-
-
-def _parts(node: SExpression, what: str) -> Iterator[SExpression]:
-    return (node_at(node, i, what) for i in range(1, len(node.items)))

@@ -63,7 +63,7 @@ def json_items(text: str, path: object, what: str = "") -> list[FileItem]:
     for _ in items:
         at = _after_blank(text, at)
         value, end = decoder.raw_decode(text, at)
-        found.append(FileItem(value, _line(text, at)))
+        found.append(FileItem(value, text.count("\n", 0, at) + 1))
         at = end
     return found
 
@@ -103,10 +103,6 @@ def action_of(line: str, path: object, number: int, what: str) -> str:
 def _uncommented(text: str) -> str:
     """A JSON text whose lines of comment are blank; lines keep their numbers."""
     return "\n".join("" if line.lstrip().startswith(("#", ";")) else line for line in text.splitlines())
-
-
-def _line(text: str, at: int) -> int:
-    return text.count("\n", 0, at) + 1
 
 
 def _after_blank(text: str, at: int) -> int:

@@ -54,23 +54,33 @@ def random_call_in_time(seed: int) -> PlanCall:
 
 def _in_time(dice: Random, task: Task) -> Task:
     """The task with durations, or a script, or both."""
-    times = Counter((action.name, action.participants) for action in task.actions)
     if (share := dice.random()) < 0.8:
-        # Which variant of one action is meant is known when it begins: they stay as they are.
-        actions = (
-            _longer(dice, one) if times[one.name, one.participants] == 1 else one for one in task.actions
-        )
-        task = replace(task, actions=tuple(actions))
-    if share > 0.5:
-        moments = {(dice.randint(1, _LAST_EPOCH), dice.choice(task.facts)) for _ in range(dice.randint(1, 3))}
-        facts = [(epoch, f"{dice.choice(('', '!'))}{fact}") for epoch, fact in sorted(moments)]
-        task = task.with_script(Script(facts=facts))
-    return task
+        task = with_durations(dice, task, _DURATIONS)
+    return task.with_script(random_script(dice, task, _LAST_EPOCH)) if share > 0.5 else task
 
 
-def _longer(dice: Random, action: GroundAction) -> GroundAction:
+def with_durations(dice: Random, task: Task, durations: Sequence[int]) -> Task:
+    """The task with actions of some durations, conditions and effects at any time of theirs.
+
+    Which variant of one action is meant is known when it begins: they stay as they are.
+    """
+    times = Counter((action.name, action.participants) for action in task.actions)
+    actions = (
+        one if times[one.name, one.participants] > 1 else _longer(dice, one, dice.choice(durations))
+        for one in task.actions
+    )
+    return replace(task, actions=tuple(actions))
+
+
+def random_script(dice: Random, task: Task, last: int, least: int = 1, most: int = 3) -> Script:
+    """Some facts of a task that become true or false up to an epoch."""
+    number = dice.randint(least, most)
+    moments = {(dice.randint(1, last), dice.choice(task.facts)) for _ in range(number)}
+    return Script(facts=[(epoch, f"{dice.choice(('', '!'))}{fact}") for epoch, fact in sorted(moments)])
+
+
+def _longer(dice: Random, action: GroundAction, duration: int) -> GroundAction:
     """The action with a duration, and some of its conditions and effects moved within it."""
-    duration = dice.choice(_DURATIONS)
     if duration == 1:
         return action
     (pre, over, end), (neg, over_neg, end_neg) = _parted(dice, action.pre, 3), _parted(dice, action.neg, 3)

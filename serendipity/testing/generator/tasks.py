@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import combinations, pairwise
 from random import Random
 
-from serendipity.model import Condition, GroundAction, Task
+from serendipity.model import Condition, Task
 from serendipity.testing.builders import Builder
 from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
 from verify.base.optimal_plans import OptimalPlans
@@ -82,18 +82,11 @@ def _with_variants(dice: Random, task: Task) -> Task:
 def unambiguous(task: Task) -> bool:
     """Whether variants of one action do the same wherever some state allows them both, as PDDL's do."""
     return all(
-        _same_effects(a, b) or _exclude_each_other(a, b)
+        (a.add, a.delete) == (b.add, b.delete)
+        or not (set(a.pre).isdisjoint(b.neg) and set(b.pre).isdisjoint(a.neg))
         for ids in task.named.values()
         for a, b in combinations([task.actions[i] for i in ids], 2)
     )
-
-
-def _same_effects(a: GroundAction, b: GroundAction) -> bool:
-    return (a.add, a.delete) == (b.add, b.delete)
-
-
-def _exclude_each_other(a: GroundAction, b: GroundAction) -> bool:
-    return not (set(a.pre).isdisjoint(b.neg) and set(b.pre).isdisjoint(a.neg))
 
 
 def _with_robot_goal(dice: Random, task: Task) -> Task:

@@ -41,7 +41,7 @@ class _Maker:
         self.epochs = range(1, question.epochs + 1)
         self.human = self.task.human
         self.problem = Problem()
-        prices = [self._team(i) for i in range(len(self.task.actions))]
+        prices = [self.task.team_cost(one, self.options.discount) for one in self.task.actions]
         talk = [self._talk(i) for i in range(len(self.task.actions))]
         amounts = (*prices, *talk, self.options.window_weight)
         self.scale = lcm(*(amount.denominator for amount in amounts))
@@ -67,9 +67,6 @@ class _Maker:
 
     def _is_own(self, action: int) -> bool:
         return self.task.actions[action].participants == (self.human,)
-
-    def _team(self, action: int) -> Fraction:
-        return self.task.team_cost(self.task.actions[action], self.options.discount)
 
     def _talk(self, action: int) -> Fraction:
         """Semantics 3.4."""

@@ -1,6 +1,5 @@
 """Small tasks and calls with time: durations, scripts, bystanders, plans with waiting (semantics 10)."""
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import accumulate
@@ -11,19 +10,18 @@ from hypothesis import strategies as st
 
 from serendipity.model import (
     Condition,
-    GroundAction,
     HumanPlan,
     Options,
     PlanError,
     Script,
     Task,
     TimedPlan,
-    Timing,
 )
 from serendipity.model.keywords import Mode
 from serendipity.testing.call import Call
+from serendipity.testing.generator.in_time import random_script, with_durations
 from serendipity.testing.oracle import human_plans
-from serendipity.testing.strategies.tasks import corridor_tasks, errand_tasks, strips_tasks
+from serendipity.testing.strategies.tasks import DICE, corridor_tasks, errand_tasks, strips_tasks
 
 _DURATIONS: Final = (1, 1, 2, 2, 3)
 _MODES: Final[tuple[Mode, ...]] = ("serendipity", "serendipity", "individual", "communication", "composite")
@@ -39,21 +37,12 @@ def timed_tasks(draw: st.DrawFn, *, of: st.SearchStrategy[Task] | None = None) -
         of: tasks of one epoch each, or None for small ones.
     """
     built = draw(small_tasks() if of is None else of)
-    times = Counter((action.name, action.participants) for action in built.actions)
-    # Which variant of one action is meant is known when it begins: they stay as they are.
-    actions = [
-        draw(_timed(action)) if times[action.name, action.participants] == 1 else action
-        for action in built.actions
-    ]
-    return replace(built, actions=tuple(actions))
+    return with_durations(draw(DICE), built, _DURATIONS)
 
 
-@st.composite
-def scripts(draw: st.DrawFn, built: Task, *, most: int = 3) -> Script:
+def scripts(built: Task, *, most: int = 3) -> st.SearchStrategy[Script]:
     """Facts of a task that become true or false in its first epochs."""
-    moments = st.tuples(st.integers(1, _LAST_EPOCH), st.sampled_from(built.facts))
-    chosen = draw(st.lists(moments, max_size=most, unique=True))
-    return Script(facts=[(epoch, f"{draw(st.sampled_from(['', '!']))}{fact}") for epoch, fact in chosen])
+    return DICE.map(lambda dice: random_script(dice, built, _LAST_EPOCH, 0, most))
 
 
 @st.composite
@@ -164,23 +153,3 @@ def calls_in_time(
 def small_tasks() -> st.SearchStrategy[Task]:
     """Tasks of one epoch each that stay small in time."""
     return st.one_of(strips_tasks(facts=(3, 4), robots=(1, 1)), corridor_tasks(), errand_tasks())
-
-
-@st.composite
-def _timed(draw: st.DrawFn, action: GroundAction) -> GroundAction:
-    """The action with a duration, and some of its conditions and effects moved within it."""
-    duration = draw(st.sampled_from(_DURATIONS))
-    if duration == 1:
-        return action
-    pre, over, end = _parted(draw, action.pre)
-    neg, over_neg, end_neg = _parted(draw, action.neg)
-    add, start_add, _ = _parted(draw, action.add, 2)
-    delete, start_delete, _ = _parted(draw, action.delete, 2)
-    timing = Timing(duration, Condition(over, over_neg), Condition(end, end_neg), start_add, start_delete)
-    return replace(action, pre=pre, neg=neg, add=add, delete=delete, timing=timing)
-
-
-def _parted(draw: st.DrawFn, facts: tuple[int, ...], parts: int = 3) -> tuple[tuple[int, ...], ...]:
-    """Facts in three parts, of which the first has most; the last may be left empty."""
-    place = {fact: draw(st.sampled_from([0, *range(parts)])) for fact in facts}
-    return tuple(tuple(fact for fact in facts if place[fact] == k) for k in range(3))
