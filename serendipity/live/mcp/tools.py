@@ -5,7 +5,7 @@ tool, in the one line that the command line says.
 """
 
 import json
-from typing import Any, Final, NamedTuple
+from typing import Any, Final
 
 from mcp.server.lowlevel import Server
 from mcp_types import CallToolRequestParams, CallToolResult, ListToolsResult, TextContent, Tool
@@ -15,45 +15,13 @@ from starlette.exceptions import HTTPException
 
 from serendipity import __version__
 from serendipity.live.service import answering
-from serendipity.live.service import requests as asked
+from serendipity.live.service.requests import CALLS
 from serendipity.live.workers.pool import Pool
 
 _INSTRUCTIONS: Final = (
     "Plans help for a person who did not ask for it, and proves that none is better. A task is an example's "
     "name (room2, flights, parcels, taxis), or PDDL texts. Check a task of your own with check_task first."
 )
-
-
-class _Call(NamedTuple):
-    """A tool."""
-
-    job: str
-    arguments: type[asked.RequestPart]
-    description: str
-
-
-_CALLS: Final = {
-    "plan": _Call(
-        "plan",
-        asked.PlanRequest,
-        "The best plan in which robots help the human, what it costs and saves, and whether that is proved.",
-    ),
-    "verify": _Call(
-        "verify",
-        asked.VerifyRequest,
-        "Check a result of `plan` claim by claim, independently of the search.",
-    ),
-    "explain": _Call(
-        "explain",
-        asked.ExplainRequest,
-        "Why this help, why then, and from which discount on; or what stands in the way of any.",
-    ),
-    "check_task": _Call(
-        "check_task",
-        asked.CheckTaskRequest,
-        "How large a task is, and what is wrong with it, or probably not meant. Nothing is planned.",
-    ),
-}
 
 
 def agent_server(pool: Pool, body_limit: int) -> Server[Any]:
@@ -66,20 +34,20 @@ def agent_server(pool: Pool, body_limit: int) -> Server[Any]:
     async def list_tools(_context: object, _params: object) -> ListToolsResult:
         return ListToolsResult(
             tools=[
-                Tool(name=name, description=call.description, input_schema=call.arguments.model_json_schema())
-                for name, call in _CALLS.items()
+                Tool(name=name, description=call.about, input_schema=call.arguments.model_json_schema())
+                for name, call in CALLS.items()
             ]
         )
 
     async def call_tool(_context: object, params: CallToolRequestParams) -> CallToolResult:
-        call = _CALLS.get(params.name)
+        call = CALLS.get(params.name)
         if call is None:
-            return _wrong(f"tool: expected one of {', '.join(_CALLS)}, got {params.name!r:.50}")
+            return _wrong(f"tool: expected one of {', '.join(CALLS)}, got {params.name!r:.50}")
         try:
             body = call.arguments.model_validate(params.arguments or {}).model_dump_json().encode()
             if len(body) > body_limit:
                 return _wrong(f"arguments: expected at most {body_limit} bytes")
-            (answer,) = [body async for body in answering.answers(pool, call.job, body)]
+            (answer,) = [body async for body in answering.answers(pool, params.name, body)]
         except ValidationError as error:
             return _wrong(answering.line_of(error.errors()[0], "arguments"))
         except (RecursionError, PydanticSerializationError):

@@ -1,6 +1,6 @@
 """The service as an ASGI application: calls that stand for themselves, and those of sessions."""
 
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncIterator, Callable, Coroutine, Sequence
 from contextlib import aclosing, asynccontextmanager
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -34,10 +34,7 @@ def _says(description: str, kind: str = "application/json") -> Described:
     return {200: {"description": description, "content": {kind: {"schema": schema}}}}
 
 
-_RESULT = _says("schema `serendipity.result/1`")
-_CERTIFICATE = _says("schema `serendipity.certificate/1`")
-_EXPLANATION = _says("schema `serendipity.explanation/1`, or `serendipity.policy-explanation/1`")
-_REPORT = _says("schema `serendipity.task-report/1`")
+_RESULT = _says(asked.CALLS["plan"].schema)
 _STREAM = _says("events `answer` with results that get better; then `end`, or `error`", "text/event-stream")
 
 
@@ -48,30 +45,21 @@ def call_router(pool: Pool) -> APIRouter:
     def said(job: str, call: asked.RequestPart) -> answering.Answers:
         return answering.answers(pool, job, call.model_dump_json().encode())
 
-    @router.post("/plan", responses=_RESULT, response_class=Response)
-    async def plan(call: asked.PlanRequest, request: Request) -> Response:
-        """The best plan in which robots help the human, with a proof that none is better."""
-        return await answering.as_json(request, said("plan", call))
+    def endpoint(job: str, kind: type[asked.RequestPart]) -> Callable[..., Coroutine[Any, Any, Response]]:
+        async def answer(call: kind, request: Request) -> Response:  # type: ignore[valid-type]
+            return await answering.as_json(request, said(job, call))
+
+        return answer
+
+    for job, call in asked.CALLS.items():
+        how: dict[str, Any] = {"responses": _says(call.schema), "response_class": Response}
+        path = f"/{job.replace('_', '-')}"
+        router.post(path, name=job, description=call.about, **how)(endpoint(job, call.arguments))
 
     @router.post("/plan/anytime", responses=_STREAM, response_class=Response)
     async def plan_anytime(call: asked.AnytimeRequest, request: Request) -> Response:
         """The same with answers on the way, as server-sent events; the last one stands."""
         return await answering.as_events(request, said("plan_anytime", call))
-
-    @router.post("/verify", responses=_CERTIFICATE, response_class=Response)
-    async def verify(call: asked.VerifyRequest, request: Request) -> Response:
-        """Check a result claim by claim, independently of the search."""
-        return await answering.as_json(request, said("verify", call))
-
-    @router.post("/explain", responses=_EXPLANATION, response_class=Response)
-    async def explain(call: asked.ExplainRequest, request: Request) -> Response:
-        """Why this help, why then, and from which discount on; or what stands in the way of any."""
-        return await answering.as_json(request, said("explain", call))
-
-    @router.post("/check-task", responses=_REPORT, response_class=Response)
-    async def check_task(call: asked.CheckTaskRequest, request: Request) -> Response:
-        """How large a task is, and what is wrong with it, or probably not meant."""
-        return await answering.as_json(request, said("check_task", call))
 
     return router
 

@@ -1,7 +1,7 @@
 """What requests have to look like; what their values mean is checked by those who plan."""
 
 import json
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -139,6 +139,39 @@ class CheckTaskRequest(RequestPart):
     """A task to be looked at."""
 
     task: GivenTask
+
+
+class Call(NamedTuple):
+    """A call that stands for itself, over HTTP or as a tool: what it asks for, and what it answers."""
+
+    arguments: type[RequestPart]
+    schema: str
+    about: str
+
+
+CALLS: Final = {
+    "plan": Call(
+        PlanRequest,
+        "schema `serendipity.result/1`",
+        "The best plan in which robots help the human, what it costs and saves, and whether that is proved.",
+    ),
+    "verify": Call(
+        VerifyRequest,
+        "schema `serendipity.certificate/1`",
+        "Check a result of `plan` claim by claim, independently of the search.",
+    ),
+    "explain": Call(
+        ExplainRequest,
+        "schema `serendipity.explanation/1`, or `serendipity.policy-explanation/1`",
+        "Why this help, why then, and from which discount on; or what stands in the way of any.",
+    ),
+    "check_task": Call(
+        CheckTaskRequest,
+        "schema `serendipity.task-report/1`",
+        "How large a task is, and what is wrong with it, or probably not meant. Nothing is planned.",
+    ),
+}
+"""By the job that workers do."""
 
 
 class SessionPlanRequest(RequestPart):
