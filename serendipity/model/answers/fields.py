@@ -167,17 +167,13 @@ def _costs(value: Any, where: str) -> tuple[Fraction, ...]:
     return costs
 
 
-EPOCH: Final = Form(
-    lambda value, where: checked(
-        value, where, f"an epoch from 1 to {MAX_EPOCH}", is_whole(value, least=1, most=MAX_EPOCH)
-    )
-)
+def _whole(what: str) -> Form:
+    words = f"{what} from 1 to {MAX_EPOCH}"
+    return Form(lambda value, where: checked(value, where, words, is_whole(value, least=1, most=MAX_EPOCH)))
 
-EPOCHS: Final = Form(
-    lambda value, where: checked(
-        value, where, f"a number of epochs from 1 to {MAX_EPOCH}", is_whole(value, least=1, most=MAX_EPOCH)
-    )
-)
+
+EPOCH: Final = _whole("an epoch")
+EPOCHS: Final = _whole("a number of epochs")
 
 _SIMPLE: Final[dict[Any, Form]] = {
     str: Form(lambda value, where: checked(value, where, "a text", isinstance(value, str))),
@@ -202,8 +198,11 @@ def form_of(hint: Any) -> Form:
     if origin is tuple:
         return list_of(form_of(parts[0]))
     if origin in (dict, Mapping):
-        each = form_of(parts[1]).read
-        return Form(lambda value, w: {k: each(x, f"{w}.{k}") for k, x in mapping(value, w).items()}, dict)
+        each, write = form_of(parts[1])
+        return Form(
+            lambda value, where: {k: each(x, f"{where}.{k}") for k, x in mapping(value, where).items()},
+            dict if write is None else lambda value: {name: write(part) for name, part in value.items()},
+        )
     if hasattr(hint, "__dataclass_fields__") or hasattr(hint, "_fields"):
         return Form(lambda value, where: read(hint, value, where), getattr(hint, "to_dict", written))
     return Form(lambda value, _: value)

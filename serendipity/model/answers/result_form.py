@@ -28,7 +28,6 @@ from serendipity.model.errors import UsageError
 from serendipity.model.numbers import MOST_IN_RESULTS, Figure, exact
 from serendipity.model.options import MAX_EPOCH, Options
 from serendipity.model.schemas import schema_fault
-from serendipity.model.task.plans import PlanStep
 
 SCHEMA: Final = "serendipity.result/1"
 
@@ -129,22 +128,7 @@ def _read_horizon(value: Any, where: str) -> Any:
     return checked(value, where, f"an epoch from 1 to {MAX_EPOCH}", is_whole(value, most=MAX_EPOCH))
 
 
-def _read_count(value: Any, where: str) -> Any:
-    return checked(value, where, "a number of plans", is_whole(value))
-
-
-def _read_bystanders(value: Any, where: str) -> dict[str, tuple[PlanStep, ...]]:
-    return {name: _STEPS.read(steps, f"{where}.{name}") for name, steps in mapping(value, where).items()}
-
-
-def _write_bystanders(people: dict[str, tuple[PlanStep, ...]]) -> dict[str, Any]:
-    return {name: [step.to_dict() for step in steps] for name, steps in people.items()}
-
-
-_STEPS: Final = form_of(tuple[PlanStep, ...])
-
 FORMS: Final = {
-    "bystanders": Form(_read_bystanders, _write_bystanders),
     "options": Form(_read_options, Options.to_dict),
     "saving": optional(Form(number)),
     "horizon": Form(_read_horizon),
@@ -152,7 +136,7 @@ FORMS: Final = {
     "policy": optional(Form(read_policy, Policy.to_dict)),
     "gap": form_of(tuple[GapEntry, ...]),
     "ties": form_of(tuple[TiedAnswer, ...]),
-    "optimal_plans": Form(_read_count),
+    "optimal_plans": Form(lambda value, where: checked(value, where, "a number of plans", is_whole(value))),
     "bounds": form_of(PolicyBounds),
     "recognition": Form(read_recognition, Recognition.to_dict),
     "goals": form_of(tuple[GoalAnswer, ...]),
