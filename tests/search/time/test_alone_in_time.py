@@ -4,7 +4,6 @@ import pytest
 from hypothesis import given
 
 import serendipity
-from benchmarks.days import day, slowed
 from benchmarks.problems import building
 from search import PreparedTask, canonical_human_plan
 from serendipity.model import Deadline, HumanPlan, Options, Script, Task
@@ -13,6 +12,7 @@ from serendipity.testing.builders import task
 from serendipity.testing.generator import random_call_in_time
 from serendipity.testing.oracle import optimal_human_plan
 from serendipity.testing.strategies.time import tasks_in_time
+from tests.search.time.days import day, slowed
 
 Told = tuple[list[str], tuple[int, ...], int] | None
 

@@ -1,23 +1,15 @@
-"""Days and slow buildings: how long answers take where actions take time.
+"""Days of some thousand epochs, and buildings with slow walks.
 
-    python -m benchmarks.days [--seeds N]
-
-A *day* has some thousand epochs: somebody at home has ten things to do, of 5 to 60 epochs each, some of them
-only while the shop, the garden or the office is open, and a robot can do half of them.  A *slow building* is
-one of ``serendipity generate usar`` in which walks take 3 to 20 epochs.  Processor time.
+Somebody at home has ten things to do, of 5 to 60 epochs each, some of them only while the shop, the garden or
+the office is open, and a robot can do half of them.
 """
 
-import time
 from collections.abc import Iterator
 from dataclasses import replace
 from random import Random
-from typing import Any, Final
+from typing import Final
 
-import typer
-
-import serendipity
-from benchmarks.problems import building
-from serendipity.model import Result, Script, Task, Timing
+from serendipity.model import Script, Task, Timing
 from serendipity.testing.builders import Builder
 
 _LAST: Final = 1_000
@@ -26,12 +18,7 @@ _OPEN: Final = ("garden", "shop", "office")
 
 
 def day(seed: int, activities: int = 10) -> Task:
-    """A day at home.
-
-    Args:
-        seed: of the dice.
-        activities: what there is to do.
-    """
+    """A day at home."""
     dice = Random(f"day {seed}")
     ways = (*_WAYS, ("shop", "office"))
     places = sorted({place for way in ways for place in way})
@@ -80,27 +67,3 @@ def slowed(task: Task, seed: int) -> Task:
         else:
             actions.append(action)
     return replace(task, actions=tuple(actions))
-
-
-def timed(task: Task, **options: Any) -> tuple[Result, float, float]:
-    """The last answer, and the processor time until the first one and until that."""
-    began, first, last = time.process_time(), 0.0, None
-    for last in serendipity.plan_anytime(task, **options):
-        if not first and last.cost is not None:
-            first = time.process_time() - began
-    assert last is not None
-    return last, first, time.process_time() - began
-
-
-def main(seeds: int = 3, time_limit: float = 120) -> None:
-    """Print a line for each."""
-    for seed in range(seeds):
-        rows = [("day", day(seed))]
-        rows += [(f"84 rooms, {r} robots", slowed(building(84, 4, r, seed + 1), seed)) for r in (1, 2)]
-        for name, task in rows:
-            answer, first, last = timed(task, discount="0.9", time_limit=time_limit)
-            print(f"{name}, seed {seed}: {answer.status}, T = {answer.horizon}, {first:.2f} s, {last:.2f} s")
-
-
-if __name__ == "__main__":
-    typer.run(main)
