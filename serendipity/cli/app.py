@@ -55,11 +55,7 @@ def _root(
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command line and return its exit code; errors are one line on stderr.
-
-    Args:
-        argv: arguments without the program's name; those of the process where None.
-    """
+    """Run a command line, or the process's, and return its exit code; errors are one line on stderr."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # names that the terminal can't show

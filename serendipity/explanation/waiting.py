@@ -66,11 +66,7 @@ def _own_steps(answer: Result) -> tuple[PlanStep, ...]:
 
 @dataclass(frozen=True, slots=True)
 class _Plan:
-    """A plan beside the script.
-
-    Attributes:
-        alone: whether it is the human's own.
-    """
+    """A plan beside the script, the human's own (``alone``) or an answer's."""
 
     task: Task
     answer: Result

@@ -15,12 +15,7 @@ _LONGEST: Final = 119
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line of text.
-
-    Attributes:
-        text: without a line break.
-        style: of rich, on a terminal.
-    """
+    """A line of text, without a line break, perhaps in a style of rich."""
 
     text: str = ""
     style: str = ""

@@ -24,12 +24,7 @@ _COST = "cost-of-"
 
 @dataclass(frozen=True, slots=True)
 class ClassicalFiles:
-    """A task as one problem of a single agent, who is the whole team.
-
-    Attributes:
-        problem: its text; the goal is that of all agents.
-        scale: costs in the texts are whole numbers: team costs times this.
-    """
+    """A task as one problem of a single agent, the whole team; costs there are team costs times ``scale``."""
 
     domain: str
     problem: str

@@ -73,14 +73,12 @@ def random_building(
 
     Args:
         locations: how many halls and rooms together, at least 2.
-        seed: equal arguments give equal buildings.
         extra_edges: connections beyond the tree; each closes a cycle.
-        corridors: how many the halls form; fewer are longer, and 1 is what Figure 2 has.
-            By default each hall starts one with a chance of a fifth.
+        corridors: how many the halls form; 1 is what Figure 2 has.  By default each hall starts one with a
+            chance of a fifth.
 
     Raises:
-        UsageError: too few locations, or more extra connections or corridors than there is
-            room for.
+        UsageError: too few locations, or more extra connections or corridors than there is room for.
     """
     if locations < 2:
         raise UsageError(f"rooms: expected at least 2, got {locations}")

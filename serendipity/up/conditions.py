@@ -32,11 +32,7 @@ class Term(NamedTuple):
 
 
 class Reader:
-    """Reads the expressions of one action or goal.
-
-    Attributes:
-        quantified: whether there were quantifiers in what was read.
-    """
+    """Reads the expressions of one action or goal, and whether there were quantifiers in them."""
 
     def __init__(self, vocabulary: Vocabulary, owner: Owner = None) -> None:
         self.vocabulary = vocabulary

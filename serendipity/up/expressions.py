@@ -12,11 +12,7 @@ _OPERATORS: Final = (("is_plus", "+"), ("is_minus", "-"), ("is_times", "*"), ("i
 
 
 def number_of(reader: Reader, node: FNode, what: str) -> lifted.Expression:
-    """A number, or what it is calculated from.
-
-    Args:
-        what: how an error calls it.
-    """
+    """A number, or what it is calculated from, which errors call ``what``."""
     if node.is_constant():
         return Fraction(node.constant_value())
     if node.is_fluent_exp():

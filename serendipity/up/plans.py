@@ -36,12 +36,7 @@ _NEAR: Final = Fraction(1, 100)
 
 @dataclass(frozen=True, slots=True)
 class Ordered:
-    """The steps of a plan, one after another, and what has to come before what.
-
-    Attributes:
-        steps: in an order in which they can be executed.
-        before: pairs of indices into ``steps``, without those that follow from others.
-    """
+    """Steps of a plan in an order that can be executed, and which come before which (indices), directly."""
 
     steps: tuple[PlanStep, ...]
     before: tuple[tuple[int, int], ...]
@@ -168,11 +163,7 @@ def _in_time(steps: Sequence[PlanStep], reading: Reading) -> TimeTriggeredPlan:
 
 
 def human_plan_of(plan: Plan | Iterable[str], reading: Reading) -> tuple[PlanEntry, ...]:
-    """What the human does in a plan, as names of actions, with epochs where the plan has times.
-
-    Args:
-        plan: a plan of the problem, in which others may act as well, or names.
-    """
+    """What the human does in a plan, others apart, by names; with epochs where the plan has times."""
     if not isinstance(plan, Plan):
         return tuple(plan)
     timed = plan.kind == PlanKind.TIME_TRIGGERED_PLAN

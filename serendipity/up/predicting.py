@@ -19,11 +19,7 @@ from serendipity.up.writing import own_problem
 
 @dataclass(frozen=True, slots=True)
 class EngineAnswer:
-    """What an engine answered.
-
-    Attributes:
-        actions: indices of the problem's actions; None without a plan.
-    """
+    """What an engine answered: indices of the problem's actions, None without a plan."""
 
     status: Status
     actions: tuple[int, ...] | None

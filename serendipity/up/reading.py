@@ -42,11 +42,7 @@ _OVER: Final = lifted.Literal(("~over",))
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """A problem that was read.
-
-    Attributes:
-        left_out: actions of the problem in which none of the agents takes part: the task is without them.
-    """
+    """A problem that was read, and the actions left out, in which none of the agents takes part."""
 
     task: Task
     vocabulary: Vocabulary

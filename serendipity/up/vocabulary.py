@@ -23,12 +23,7 @@ _ILLEGAL: Final = re.compile(r"[^\w-]")
 
 
 class UniqueWords:
-    """A word for each name: lower case, without blanks, different where names are.
-
-    Args:
-        names: in the order in which they choose their words.
-        taken: words that are none of theirs.
-    """
+    """A word for each name, none of them taken: lower case, no blanks, different where names are."""
 
     def __init__(self, names: Iterable[str], taken: Iterable[str] = ()) -> None:
         used = set(taken)

@@ -124,11 +124,7 @@ class _Refutation:
         yield "end pseudo-Boolean proof"
 
     def _steps(self, node: Mapping[str, Any], taken: tuple[str, ...]) -> Iterator[str]:
-        """The steps up to: not all of the branches above are taken.
-
-        Args:
-            taken: the literals that are true where they are not.
-        """
+        """The steps up to: not all of the branches above are taken; ``taken`` is true where they are not."""
         if "multipliers" in node:
             yield f"pol {self._combination(node['multipliers'])}"
         else:

@@ -140,11 +140,7 @@ Proof = Annotated[
 
 
 class Planning(Group):
-    """Options of a planning call.
-
-    Attributes:
-        given: the others that the user gave, by name; what is left out keeps its default.
-    """
+    """Options of a planning call; ``given`` has the others that the user gave, by name."""
 
     def __init__(self, human_plan: Path | None = None, **options: str | bool | None) -> None:
         self.human_plan = human_plan

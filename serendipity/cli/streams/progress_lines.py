@@ -13,12 +13,7 @@ RAREST: Final = 60.0
 
 
 class RepeatedDisplay(Display, ABC):
-    """Says from a thread of its own how far some work is: first after a while, then after ever longer pauses.
-
-    Attributes:
-        first: seconds of work before it says anything.
-        growth: by which each pause is longer than the one before.
-    """
+    """Says in a thread how far work is: first after some seconds, then after pauses that grow by a factor."""
 
     first: ClassVar[float]
     growth: ClassVar[float]

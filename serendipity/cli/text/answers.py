@@ -12,11 +12,7 @@ from serendipity.model.telling import Grid, Line, as_text, team
 
 
 def plan_report(task: Task, result: Result, certificate: Certificate, *, each_claim: bool = False) -> str:
-    """The answer of ``plan``.
-
-    Args:
-        each_claim: show each claim of the certificate, not the verdict only.
-    """
+    """The answer of ``plan``, with ``each_claim`` of the certificate or its verdict only."""
     robots = [task.agents[i] for i in task.robots]
     parts: list[Line | Grid] = [Line(f"{task.name}: {team(result.human, robots)}"), *opening(result, robots)]
     parts += [Line(text) for text in (*policy_lines(task, result), *closing(result))]

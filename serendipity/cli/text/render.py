@@ -22,22 +22,14 @@ _WHOLE: Final = 12
 
 
 def rendered(parts: Iterable[Line | Grid], *, terminal: bool | None = None) -> str:
-    """Text for stdout, or for a file.
-
-    Args:
-        terminal: with colours and folded to the terminal's width; None asks stdout.
-    """
+    """Text for stdout or a file; on a terminal (None asks stdout) with colours, and folded to its width."""
     if (sys.stdout is not None and sys.stdout.isatty()) if terminal is None else terminal:
         return _coloured([part.printable() for part in parts])
     return as_text(parts)
 
 
 def shown(answer: Any, form: str, **how: Any) -> str | bytes:
-    """An answer as JSON, as rows, or as text.
-
-    Args:
-        answer: with ``to_json``, ``told`` and, where it has rows, ``table``.
-    """
+    """An answer with ``to_json``, ``told`` and perhaps a ``table``: as JSON, as text, or as rows."""
     if form == "json":
         return str(answer.to_json())
     if form in ROWS:

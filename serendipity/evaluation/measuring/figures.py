@@ -88,11 +88,7 @@ class PowerLaw:
 
 
 def power_law(xs: Iterable[float], ys: Iterable[float]) -> PowerLaw | None:
-    """The power law of least squared distance between logarithms of positive figures.
-
-    Returns:
-        None for fewer than three points, or a single x.
-    """
+    """The power law of least squares of logarithms; None for fewer than three points, or a single x."""
     at, found = [math.log(x) for x in xs], [math.log(y) for y in ys]
     if len(at) < 3 or len({*at}) < 2:
         return None

@@ -39,11 +39,7 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class Roles:
-    """Roles of a problem's agents.
-
-    Attributes:
-        alone: whether the human is known to have a plan alone.
-    """
+    """Roles of a problem's agents; ``alone`` if the human is known to have a plan alone."""
 
     human: str
     robots: tuple[str, ...]

@@ -14,12 +14,7 @@ _NUMBERED = re.compile(r"test(\d+)")
 
 @dataclass(frozen=True, slots=True)
 class TaskFolder:
-    """One task of a suite.
-
-    Attributes:
-        test: its number, for a folder ``testN``; else the folder's name.
-        fingerprint: changes when a file of the task does.
-    """
+    """A task of a suite: N for a folder ``testN``, else its name; a fingerprint that changes with files."""
 
     test: str
     path: Path

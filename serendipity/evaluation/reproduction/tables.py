@@ -41,14 +41,9 @@ _EXAMPLE_DISCOUNTS: Final = ("0.5", "0.6", "0.9")
 
 
 class Entry(NamedTuple):
-    """One entry of Table I.
+    """One entry of Table I, over the tasks that have a plan; the paper's figures where they are its tasks.
 
-    Attributes:
-        variant: a mode, or ``serendipity, best tie`` and ``serendipity, worst tie``: over
-            the human's optimal plans.
-        mean_cost: over the tasks that have a plan, or None without any.
-        paper_mean_cost: in the paper, where the tasks are the paper's.
-        paper_improved: likewise.
+    ``variant``: a mode, or ``serendipity, best tie`` and ``..., worst tie``: over the human's optimal plans.
     """
 
     discount: Fraction

@@ -32,11 +32,7 @@ def loopback(host: str) -> bool:
 
 
 def listening(host: str, port: int) -> socket.socket:
-    """A socket that listens.
-
-    Args:
-        port: 0 for any that is free.
-    """
+    """A socket that listens on a port, 0 for any that is free."""
     if not 0 <= port <= 65535:
         raise UsageError(f"--port: expected a number from 0 to 65535, got {port}")
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
@@ -160,9 +156,7 @@ class _Server(uvicorn.Server):
 def serve(app: Any, listener: socket.socket, draining: Draining | None = None, seconds: float = 0) -> None:
     """Answer requests to an ASGI application, on a socket that listens, until a signal ends it.
 
-    Args:
-        draining: of the application, where SIGTERM has it answer what it has begun first.
-        seconds: that it may take for that.
+    SIGTERM has an application with ``draining`` answer what it has begun first, for that many seconds.
     """
     config = uvicorn.Config(
         app,

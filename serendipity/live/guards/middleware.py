@@ -19,12 +19,7 @@ _OPEN: Final = ("/health", "/ready", "/docs", "/openapi.json", "/static-offline-
 
 
 class Access:
-    """Middleware that refuses others.
-
-    Args:
-        hosts: what ``Host`` may say, ports apart.
-        token: what has to come as ``Authorization: Bearer TOKEN``, or None.
-    """
+    """Middleware that refuses other hosts, ports apart, and requests without the token, if there is one."""
 
     def __init__(self, app: ASGIApp, hosts: Sequence[str], token: str | None = None) -> None:
         self._app = app
@@ -70,12 +65,7 @@ def _name(host: str) -> str | None:
 
 
 class BodyLimits:
-    """Middleware that ends requests whose bodies are too long, or too long in coming.
-
-    Args:
-        most: bytes of a body.
-        seconds: until all of it has to be there.
-    """
+    """Middleware that ends requests whose bodies have too many bytes, or take too many seconds in coming."""
 
     def __init__(self, app: ASGIApp, most: int, seconds: float) -> None:
         self._app = app

@@ -25,11 +25,7 @@ _INSTRUCTIONS: Final = (
 
 
 def agent_server(pool: Pool, body_limit: int) -> Server[Any]:
-    """A server of the protocol, for any transport.
-
-    Args:
-        body_limit: bytes of a call's arguments, at most.
-    """
+    """A server of the protocol, for any transport, which takes ``body_limit`` bytes of arguments at most."""
 
     async def list_tools(_context: object, _params: object) -> ListToolsResult:
         return ListToolsResult(

@@ -128,11 +128,7 @@ def _schemas(task: Task, known: Mapping[str, object]) -> set[Parsed]:
 
 
 class Phrases:
-    """Words for a task, said to its human.
-
-    Args:
-        labels: of its domain; what has none is said by its name.
-    """
+    """Words for a task, said to its human; what has no label in its domain is said by its name."""
 
     def __init__(
         self, task: Task, places: Places, labels: DomainLabels, say: Callable[..., str] = str.format

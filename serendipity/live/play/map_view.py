@@ -15,14 +15,7 @@ from serendipity.pictures.scene.scene import Frame, Scene
 
 
 class Knowledge:
-    """What a person takes to be true.
-
-    Args:
-        view: ``observant`` sees everything; ``local`` what is where they are.
-
-    Attributes:
-        belief: ids of the facts that they take to be true.
-    """
+    """What a person takes to be true (``belief``), who sees everything (``observant``), or where they are."""
 
     def __init__(self, task: Task, view: str) -> None:
         self._human = task.human

@@ -160,11 +160,7 @@ async def _malformed(request: Request, error: Exception) -> Response:
 
 
 def line_of(error: Mapping[str, Any], whole: str) -> str:
-    """What is wrong with a part of a request, in a line.
-
-    Args:
-        whole: what all parts are called together.
-    """
+    """What is wrong with a part of a request, in a line; all parts together are called ``whole``."""
     where = ".".join(str(part) for part in error["loc"]) or whole
     found = error["msg"].removeprefix("Value error, ")
     return f"{where}: {found[:1].lower()}{found[1:]}"

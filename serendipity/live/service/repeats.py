@@ -39,11 +39,7 @@ class _Kept:
 
 
 class Repeats:
-    """Middleware that answers a request which is repeated under its key as it was answered before.
-
-    Args:
-        seconds: after which an answer is forgotten.
-    """
+    """Middleware that answers a request repeated under its key, soon, as it was answered before."""
 
     def __init__(self, app: ASGIApp, most: int, bytes_: int, seconds: float) -> None:
         self._app = app

@@ -16,11 +16,7 @@ _AROUND: Final = 1024
 
 @dataclass(slots=True)
 class Remembered:
-    """One session; what may be large of it is kept as JSON text.
-
-    Attributes:
-        state: where it stands, as workers write it; ``null`` before the first call.
-    """
+    """One session; what may be large is JSON text. ``state`` is as workers write it, at first ``null``."""
 
     name: str
     begun: bytes
@@ -60,11 +56,7 @@ class Remembered:
 
 
 class SessionStore:
-    """The sessions of a server: those that nobody uses are forgotten after a while, and free their room.
-
-    Args:
-        seconds: after which an unused one is forgotten.
-    """
+    """The sessions of a server: those that nobody uses for some seconds are forgotten and free their room."""
 
     def __init__(self, most: int, bytes_: int, seconds: float) -> None:
         self._most = most
@@ -81,11 +73,7 @@ class SessionStore:
         return sum(session.size for session in self._known.values())
 
     def begin(self, begun: dict[str, Any], state: dict[str, Any] | None = None) -> Remembered:
-        """A session that :meth:`add` makes known.
-
-        Args:
-            state: where it stood on another server, or None.
-        """
+        """A session that :meth:`add` makes known, perhaps with the state of one on another server."""
         request, stands = (json.dumps(part, ensure_ascii=False).encode() for part in (begun, state))
         session = Remembered(secrets.token_urlsafe(16), request, time.monotonic(), stands)
         self._require_room(session)

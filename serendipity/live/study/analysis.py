@@ -39,11 +39,7 @@ class Estimate(NamedTuple):
 
 
 def read_rounds(file: Path, *, attentive: bool = False) -> list[Row]:
-    """The rounds that count.
-
-    Args:
-        attentive: leave out participants who have not understood, or failed what checks their attention.
-    """
+    """The rounds that count, perhaps without participants who have not understood, or were inattentive."""
     try:
         with file.open(encoding="utf-8", newline="") as opened:
             rows = list(csv.DictReader(opened))

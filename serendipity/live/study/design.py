@@ -40,9 +40,7 @@ _USUAL: Final = {"rounds": 4, "discount": "3/5", "view": "observant", "deadline"
 class Design:
     """A study before anybody takes part.
 
-    Attributes:
-        secret: whoever has it may see and save everything.
-        mark: the hash of all this, but for the secret; it stands in each record.
+    Who has its secret may see and save everything; each record has the mark, a hash of all the rest.
     """
 
     texts: StudyFile

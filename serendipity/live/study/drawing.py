@@ -24,11 +24,7 @@ from serendipity.scenarios.usar import Usar, figure2
 
 @dataclass(frozen=True, slots=True)
 class RehearsedRound:
-    """What a round came to.
-
-    Attributes:
-        helped: in how many epochs robots did something.
-    """
+    """What a round came to, and in how many epochs robots helped."""
 
     reached: bool
     human_cost: float

@@ -56,11 +56,7 @@ COLUMNS: Final = {
 
 
 def rounds_table(design: Design, people: Sequence[tuple[Sequence[Event], str]]) -> str:
-    """The table as CSV.
-
-    Args:
-        people: each one's events, and state.
-    """
+    """The table as CSV, of each one's events and state."""
     answers = [name for name, _ in _answers(design)]
     columns = [*COLUMNS, *answers]
     rows = [row for events, state in people for row in _rows(events, state)]
@@ -148,11 +144,7 @@ _ID: Final = re.compile(r"[A-Za-z0-9._~@:+=-]{1,100}")
 
 
 class Study:
-    """Participants, each with a link and a file of their own.
-
-    Attributes:
-        faults: lines about what could not be read.
-    """
+    """Participants, each with a link and a file of their own, and lines about faults: what can't be read."""
 
     def __init__(self, design: Design, folder: Path) -> None:
         self._design = design

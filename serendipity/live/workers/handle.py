@@ -17,11 +17,7 @@ _LONGEST: Final = 2**30
 
 
 class Handle:
-    """One process on one job at a time; :meth:`start` makes it.
-
-    Attributes:
-        resident: bytes that it had in memory at the end of its last job.
-    """
+    """One process on one job at a time, made by :meth:`start`; ``resident`` bytes are left after the last."""
 
     def __init__(self, process: Process, folder: str) -> None:
         self._process = process

@@ -7,12 +7,7 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """One message.
-
-    Attributes:
-        head: what it is, as a small JSON object.
-        body: JSON text on one line and without tabs, which the one who passes it on need not read.
-    """
+    """A small JSON object, and JSON text on one line, without tabs, that who passes it on need not read."""
 
     head: dict[str, Any]
     body: bytes = b""

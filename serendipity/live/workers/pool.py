@@ -33,12 +33,7 @@ class LostError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class PoolLimits:
-    """What a pool may use.
-
-    Attributes:
-        time_limit: seconds for a job.
-        memory_limit: MiB for a process.
-    """
+    """What a pool may use: seconds for a job, MiB for a process."""
 
     workers: int
     queue: int
@@ -48,11 +43,7 @@ class PoolLimits:
 
 @dataclass(slots=True)
 class PoolFigures:
-    """What has happened so far.
-
-    Attributes:
-        replaced: workers that were replaced, by reason.
-    """
+    """What has happened so far; workers that were replaced are counted by reason."""
 
     waiting: int = 0
     busy: int = 0

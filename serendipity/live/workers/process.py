@@ -35,9 +35,7 @@ _ADDRESSES: Final = 4096 * MIB
 class Worker:
     """One job after the other, each under its limits; a job may be cancelled while it runs.
 
-    Args:
-        memory_limit: of the process, in MiB.
-        folder: its own, for temporary files: gone when it ends.
+    Its folder, for temporary files, is gone when it ends.
     """
 
     def __init__(self, source: IO[bytes], sink: IO[bytes], memory_limit: float, folder: str) -> None:

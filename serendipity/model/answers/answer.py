@@ -24,12 +24,7 @@ class Improvement(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PolicyBounds:
-    """Both sides of a policy's value (semantics 7).
-
-    Attributes:
-        lower: no policy is worth less.
-        upper: what the policy is worth, or at most worth; None without one.
-    """
+    """Both sides of a policy's value (semantics 7): no policy is worth less, this one (if any) not more."""
 
     lower: Costs
     upper: Costs | None

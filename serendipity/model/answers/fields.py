@@ -102,11 +102,7 @@ def read(kind: Callable[..., T], value: Any, where: str) -> T:
 def read_fields(
     kind: Callable[..., Any], given: Mapping[str, Any], names: Iterable[str], where: str = ""
 ) -> dict[str, Any]:
-    """The values of some fields of a dataclass, by name.
-
-    Args:
-        where: the object's place in the file; empty for the whole of it.
-    """
+    """The values of some fields of a dataclass, by name, of an object at that place in a file."""
     forms, found = _forms(kind), {}
     for name in names:
         if name not in given:

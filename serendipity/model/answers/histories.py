@@ -34,11 +34,7 @@ class History:
 
 
 def histories(scenarios: Sequence[GoalAnswer], human: str, horizon: int, *, watching: bool = True) -> History:
-    """The histories of an answer.
-
-    Args:
-        watching: whether robots tell scenarios apart by what the human does.
-    """
+    """The histories of an answer, where robots perhaps tell scenarios apart by what the human does."""
     done = [{step.epoch: step for step in s.plan or () if human in step.agents} for s in scenarios]
 
     def from_epoch(start: int, possible: tuple[int, ...]) -> History:

@@ -32,12 +32,7 @@ _IN_JSON: Final = {
 
 
 class Errors(NamedTuple):
-    """What was wrong and missed in the likeliest reading of noisy observations.
-
-    Attributes:
-        wrong: observations that are none of the plan's actions.
-        missed: actions of it, before the last one that was seen, which were not seen.
-    """
+    """In the likeliest reading, observations that are no actions of the plan, and actions of it not seen."""
 
     cost: Fraction
     wrong: int

@@ -75,14 +75,7 @@ class GoalAnswer:
 
 @dataclass(frozen=True, slots=True)
 class HelpedPerson(Written):
-    """The answer in short where one of several people is helped (``human="any"``).
-
-    Attributes:
-        human: who that is.
-        status: as in :class:`serendipity.model.Result`.
-        cost: what it costs the team, or None without a plan.
-        saving: against what they pay alone, or None.
-    """
+    """The answer in short where one of several people, ``human``, is helped (``human="any"``)."""
 
     human: str
     status: Status

@@ -13,12 +13,7 @@ def limits_from(
     deadline: Deadline | None = None,
     cancelled: threading.Event | None = None,
 ) -> Deadline:
-    """A deadline for a call that starts now.
-
-    Args:
-        time_limit: seconds of the call, or None.
-        memory_limit: what the process may have in memory, in MiB, or None.
-        deadline: one that other work shares; it holds as well.
+    """A deadline for a call that starts now, within one that other work may share.
 
     Raises:
         UsageError: a limit is not a number of at least 0, or one of the others is of another type.

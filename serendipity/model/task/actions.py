@@ -49,11 +49,7 @@ class Condition:
 
 @dataclass(frozen=True, slots=True)
 class Disjunction:
-    """A fact that is true iff one of some literals is.
-
-    Attributes:
-        literals: facts, and whether each of them has to be true.
-    """
+    """A fact that is true iff one of some literals is; each is a fact, and whether it has to be true."""
 
     fact: int
     literals: tuple[tuple[int, bool], ...]

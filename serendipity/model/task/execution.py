@@ -14,11 +14,7 @@ from serendipity.model.task.task import Task
 
 
 def actions_named(task: Task, name: str, agents: Iterable[str]) -> tuple[int, ...]:
-    """Ids of the ground actions of that name in which exactly these agents take part; variants, if several.
-
-    Args:
-        name: as plans write it, in canonical form.
-    """
+    """Ids of the actions (variants, if several) of a canonical name in which just these take part."""
     wanted = sorted(agents)
     return tuple(
         i

@@ -41,11 +41,7 @@ def refuse_time(
 
 
 def nobody_pays(task: "Task", options: Options) -> bool:
-    """Whether help may cost no person anything (semantics 12): by default where there are bystanders.
-
-    Args:
-        task: as it was given, not in single epochs.
-    """
+    """Whether help to a task as given may cost nobody (semantics 12): by default where bystanders are."""
     asked = options.nobody_pays
     if asked is None:
         asked = bool(task.script.people) and options.human_model == "omniscient"

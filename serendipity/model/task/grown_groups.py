@@ -18,11 +18,7 @@ _MAX_ATTEMPTS: Final = 64
 
 
 def grown_groups(balance: Balance, deadline: Deadline, apart: Iterable[Group] = ()) -> list[Group]:
-    """Groups that share no fact.
-
-    Args:
-        apart: groups that are known; these share no fact with them, either.
-    """
+    """Groups that share no fact, neither with each other nor with known ones (``apart``)."""
     return _Grower(balance, deadline, apart).groups()
 
 

@@ -22,11 +22,7 @@ _MAX_CANDIDATES: Final = 300
 
 
 class Slot(NamedTuple):
-    """Facts of a predicate, told apart by what stands at a position.
-
-    Attributes:
-        predicate: its name, and how many arguments it has.
-    """
+    """Facts of a predicate (name, number of arguments), told apart by what stands at a position."""
 
     predicate: tuple[str, int]
     position: int

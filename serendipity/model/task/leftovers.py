@@ -12,12 +12,7 @@ from serendipity.model.options import Options
 
 @dataclass(frozen=True, slots=True)
 class Leftovers:
-    """What each fact costs that is not left as it would be without help.
-
-    Attributes:
-        free: patterns of facts that cost nothing.
-        priced: patterns of others, each with a price.
-    """
+    """What facts cost that are not left as without help: by patterns nothing, or a price."""
 
     free: tuple[str, ...]
     priced: tuple[tuple[str, Fraction], ...]

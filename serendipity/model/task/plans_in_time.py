@@ -35,11 +35,7 @@ def times_of(task: "Task", plan: "HumanPlan") -> PlanTimes:
 
 
 def waited(begun: Iterable[tuple[int, int]]) -> int:
-    """Epochs in which somebody is at nothing and still begins something later (semantics 10.2).
-
-    Args:
-        begun: what they begin: epochs and durations.
-    """
+    """Epochs idle before the last of what somebody begins (epochs and durations; semantics 10.2)."""
     times = sorted(begun)
     return times[-1][0] - 1 - sum(duration for _, duration in times[:-1]) if times else 0
 

@@ -32,11 +32,7 @@ class TimedFact:
 
 @dataclass(frozen=True, slots=True)
 class Deed:
-    """An action of a bystander, begun in an epoch.
-
-    Attributes:
-        variants: the actions of its name, of which the first that is applicable then is done.
-    """
+    """An action that a bystander begins in an epoch: the first of its variants that is applicable then."""
 
     epoch: int
     agent: int

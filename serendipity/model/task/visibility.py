@@ -52,11 +52,7 @@ def _untimed() -> None:
 
 
 def surroundings(task: Task, tick: Callable[[], None] = _untimed) -> Surroundings:
-    """The surroundings of a task.
-
-    Args:
-        tick: called every so often; what it raises ends the work.
-    """
+    """The surroundings of a task; ``tick`` is called every so often, and what it raises ends the work."""
     words, parts = [], []
     for name in task.facts:
         tick()

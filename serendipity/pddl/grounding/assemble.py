@@ -28,11 +28,7 @@ _BYTES: Final = (500, 900)
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """Files, with the actions of theirs that count and the agents that take part in these.
-
-    Attributes:
-        actors: what the first parameter of the actions may be, where that is known; else None.
-    """
+    """Files, those of their actions that count, the agents in these, and what first parameters may be."""
 
     unit: Unit
     schemas: tuple[Schema, ...]

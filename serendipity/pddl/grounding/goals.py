@@ -17,12 +17,7 @@ Disjunction = tuple[Literal, ...]
 
 @dataclass(slots=True)
 class Goal:
-    """A goal in conjunctive normal form.
-
-    Attributes:
-        literals: what has to hold, in one order in every run.
-        disjunctions: of each of them, one literal has to hold; ordered as well.
-    """
+    """A goal in conjunctive normal form: literals, and disjunctions of others, in one order in every run."""
 
     unit: Unit
     literals: dict[Literal, None] = field(default_factory=dict)

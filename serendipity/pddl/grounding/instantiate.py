@@ -42,11 +42,7 @@ _LARGE: Final = 5_000
 
 
 class Instantiator:
-    """Grounds schemas over one united initial state.
-
-    Attributes:
-        facts: ids of the ground atoms so far, in the order of first use.
-    """
+    """Grounds schemas over one united initial state; facts get ids in the order of first use."""
 
     def __init__(self, relations: Relations, values: dict[Key, Fraction], work: Work) -> None:
         self.relations = relations
@@ -65,12 +61,7 @@ class Instantiator:
         participants: Participants,
         actors: frozenset[str] | None = None,
     ) -> None:
-        """Make the ground actions of a schema whose static preconditions hold.
-
-        Args:
-            unit: the files that it is from; its parameters range over their objects.
-            actors: what the first parameter may be; None means all that its type allows.
-        """
+        """Make a schema's ground actions with static preconditions that hold, of those actors if given."""
         try:
             lifted = lifted_of(schema, unit, self.work)
             product = bindings(lifted, unit, self.relations, self.work, actors)

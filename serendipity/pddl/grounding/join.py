@@ -34,12 +34,7 @@ def picker(positions: Sequence[int]) -> Callable[[Any], tuple[Any, ...]]:
 
 
 class Relations:
-    """The atoms of the united initial state, by predicate.
-
-    Args:
-        fluent: predicates that some action adds or deletes.
-        added: predicates that some action adds.
-    """
+    """Atoms of the united initial state by predicate, of which actions change the ``fluent`` ones."""
 
     def __init__(self, init: Iterable[Key], fluent: frozenset[str], added: frozenset[str]) -> None:
         self.init = dict.fromkeys(init)  # in this order, so that what is made of it is in one order, too

@@ -191,12 +191,7 @@ def _expand_effects(
 
 
 class Disjuncts:
-    """Disjunctive normal forms of ground conditions.
-
-    Args:
-        unit: whose objects quantifiers range over.
-        decide: the truth of what does not depend on the state.
-    """
+    """Disjunctive normal forms of ground conditions over a unit's objects; ``decide`` knows static ones."""
 
     def __init__(self, unit: lifted.Unit, decide: Decide, work: Work) -> None:
         self._unit = unit

@@ -205,11 +205,7 @@ class Problem:
 
 @dataclass(frozen=True)
 class Unit:
-    """A domain and a problem that belong together: one task, one agent's files, or the team's.
-
-    Attributes:
-        owner: the agent, or None for a whole task and for the team.
-    """
+    """A domain and a problem of one task: of all of it, of the team (``owner`` None), or of one agent."""
 
     owner: str | None
     domain_file: str

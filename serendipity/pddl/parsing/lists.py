@@ -24,11 +24,7 @@ class FileItem(NamedTuple):
 
 
 def actions_in(text: str, path: object, what: str = "") -> list[tuple[str, int]]:
-    """The names of the actions of a file, as they stand there, each with its line.
-
-    Args:
-        what: what errors begin with: ``"human plan: "``.
-    """
+    """The names of a file's actions, as they stand there, with their lines; errors begin with ``what``."""
     if not starts_json(text):
         lines = [(action_of(line, path, number, what), number) for number, line in lines_of(text)]
         return [(name, number) for name, number in lines if name]

@@ -98,12 +98,7 @@ _UNSUPPORTED: Final = {
 
 @dataclass(slots=True)
 class PddlFile:
-    """A file ``(define (KIND NAME) SECTION ...)``.
-
-    Attributes:
-        sections: by keyword, all but the actions.
-        actions: the sections ``(:action ...)`` and ``(:durative-action ...)``.
-    """
+    """A file ``(define (KIND NAME) SECTION ...)``; its sections but actions are there by keyword."""
 
     name: str
     requirements: frozenset[str] = frozenset()

@@ -22,13 +22,7 @@ _COLUMNS: Final = (1, 2, 3)
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """A thing or an agent, and what is with it.
-
-    Attributes:
-        beside: who rides it; they stand in its first row.
-        inside: what it carries.
-        loose: whether it stands behind those with agents.
-    """
+    """A thing or agent with its riders in the first row and what it carries; ``loose`` ones stand last."""
 
     key: str
     name: str

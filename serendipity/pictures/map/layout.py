@@ -159,12 +159,7 @@ Size = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class MapLayout:
-    """All places, from (0, 0) to (width, height).
-
-    Attributes:
-        doors: the links through a wall that both places share (a floor plan); the others
-            are drawn as lines.
-    """
+    """All places, from (0, 0) to (width, height); doors are links through a wall that both share."""
 
     boxes: dict[str, Box]
     links: tuple[tuple[str, str], ...]
@@ -194,11 +189,7 @@ class MapLayout:
 
 
 def lay_out(places: Places, size: Size = (CELL, CELL)) -> MapLayout:
-    """Lay out a map; parts that no way connects stand side by side.
-
-    Args:
-        size: of a cell; a place has at least one.
-    """
+    """Lay out a map in cells of a size; parts that no way connects stand side by side."""
     graph: nx.Graph[str] = nx.Graph()
     graph.add_nodes_from(places.names)
     graph.add_edges_from(places.links)

@@ -21,11 +21,7 @@ from serendipity.pictures.map.names import Parts, common_ends, find, natural, pa
 
 @dataclass(frozen=True, slots=True)
 class Whereabouts:
-    """Where an object is: in a place, held by somebody, in or on another object; and who rides it.
-
-    Attributes:
-        holder: the agent that holds it, or rides what carries it.
-    """
+    """Where an object is: in a place, in or on another one, held or ridden by somebody; and who rides it."""
 
     place: str | None = None
     holder: int | None = None
@@ -237,11 +233,7 @@ def _riding(
 
 
 class _PlaceFinder:
-    """Finds the place, agent or object that a fact's name mentions.
-
-    Args:
-        predicates: of facts that tell where something is, rather than who holds it.
-    """
+    """Finds what a fact's name mentions; some predicates say where a thing is, others who holds it."""
 
     def __init__(self, task: Task, places: list[str], predicates: set[str]) -> None:
         self.task = task

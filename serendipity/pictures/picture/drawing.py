@@ -142,11 +142,7 @@ class Picture:
 
 
 def fitted(text: str, width: float, size: float, least: float, *, bold: bool = False) -> tuple[str, float]:
-    """A text and the font size at which it fits into a width; shortened below ``least``.
-
-    Args:
-        width: in pixels.
-    """
+    """A text and the font size at which it fits into a width in pixels; shortened below ``least``."""
     room = width / (BOLD if bold else 1)
     wanted = min(size, room / max(0.1, ems(text)))
     if wanted >= least:
@@ -157,12 +153,7 @@ def fitted(text: str, width: float, size: float, least: float, *, bold: bool = F
 def wrapped(
     text: str, width: float, sizes: Sequence[float], lines: int = 2, *, bold: bool = False
 ) -> tuple[tuple[str, ...], float]:
-    """A text in few lines of a width, and its font size; at the last size it is shortened where it must be.
-
-    Args:
-        text: the text; it is broken at blanks and after ``_`` and ``-``.
-        sizes: font sizes, the best one first, in pixels.
-    """
+    """A text in few lines of a width, broken at blanks, ``_`` and ``-``, in the first font size that does."""
     for size in sizes:
         room = width / size / (BOLD if bold else 1)
         found = [""]

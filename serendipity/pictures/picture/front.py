@@ -28,11 +28,7 @@ _SIZE: Final = 12
 
 
 def front_picture(points: Sequence[tuple[Fraction, Fraction]]) -> Picture:
-    """Saving over disturbance.
-
-    Args:
-        points: disturbance and saving of each, both rising.
-    """
+    """Saving over disturbance, of points where both rise."""
     widest = max([Fraction(1), *(x for x, _ in points)])
     highest = max([Fraction(1, 10**9), *(y for _, y in points)])
 

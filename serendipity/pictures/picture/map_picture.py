@@ -50,11 +50,7 @@ from serendipity.pictures.scene.scene import Frame, Meeting, Scene
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """Where a token stands.
-
-    Attributes:
-        holder: the agent that holds the object, or whose card a frame is about.
-    """
+    """Where a token stands, and the agent that holds the object, or whose card a frame is about."""
 
     spot: Spot
     holder: int | None = None

@@ -93,12 +93,7 @@ def lane_labels(scene: Scene) -> Picture:
 def timeline_picture(
     scene: Scene, first: int = 0, last: int | None = None, now: int | None = None
 ) -> Picture:
-    """The columns of epochs ``first`` to ``last``.
-
-    Args:
-        first: the first epoch; 0 is the start.
-        last: the last epoch; None, or one after the end, for the end.
-    """
+    """The columns of epochs ``first`` (0 is the start) to ``last`` (by default the end)."""
     end = min(scene.frames[-1].epoch, scene.frames[-1].epoch if last is None else last)
     width = (end - first + 1) * column(scene)
     tops = [top for lane, top in _tops(scene).items() if lane != "facts"]
@@ -239,11 +234,7 @@ _LEAST: Final = 1000.0
 
 
 def still(scene: Scene, epoch: int | None = None) -> Picture:
-    """The picture of one epoch.
-
-    Args:
-        epoch: from 0 to the last frame's; None for the one that says most.
-    """
+    """The picture of one epoch, 0 to the last frame's; of the one that says most for None."""
     now = scene.key_epoch if epoch is None else epoch
     clock = f" (time {scene.clock(now)})" if scene.clock(now) else ""
     city = map_picture(scene, now)

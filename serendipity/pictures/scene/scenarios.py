@@ -9,11 +9,7 @@ from serendipity.model.task.facts import Facts
 
 
 def find_scenario(result: Result, name: str | None) -> int | None:
-    """The place of a scenario in a result; None where that is about none.
-
-    Args:
-        name: of the scenario, or its number; None for the most probable one.
-    """
+    """The place in a result of a scenario by name or number, by default the most probable one's."""
     entries = result.goals or ()
     found = [i for i, entry in enumerate(entries) if name in (None, entry.name, str(i + 1))]
     if name is not None and not found:

@@ -105,13 +105,7 @@ def _shared(task: Task, variable: Variable) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Act:
-    """An action of the timeline.
-
-    Attributes:
-        agents: ids of the participants, ascending; two or more act jointly.
-        verb, detail: the action in two short lines; a move is "go to" and the place.
-        action: its full name; where it takes several epochs, with their number.
-    """
+    """An action for the timeline, in two short lines ("go to", a place), and by its full name and epochs."""
 
     epoch: int
     agents: tuple[int, ...]
@@ -128,11 +122,7 @@ class Act:
 
 @dataclass(frozen=True, slots=True)
 class Meeting:
-    """Something changes hands, or agents act jointly.
-
-    Attributes:
-        place: where, or None without a map.
-    """
+    """Something changes hands, or agents act jointly, in a place; None without a map."""
 
     epoch: int
     place: str | None

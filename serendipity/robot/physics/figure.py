@@ -21,11 +21,7 @@ _CLOSE: Final = 0.02  # metres
 
 
 class Figure:
-    """A body that walks.
-
-    Attributes:
-        body: its number in the engine.
-    """
+    """A body that walks, and its number in the engine."""
 
     def __init__(self, engine: Engine, at: Point, colour: Colour, cap: Colour) -> None:
         self._engine = engine
@@ -90,11 +86,7 @@ _BROWN: Final[Colour] = (0.72, 0.53, 0.34, 1)
 
 
 class Kit:
-    """A box; a first-aid kit is red, with a cross on it.
-
-    Attributes:
-        holder: who holds it; None where it lies.
-    """
+    """A box, and who holds it, if anybody; a first-aid kit is red, with a cross on it."""
 
     def __init__(self, engine: Engine, at: Point, *, first_aid: bool) -> None:
         self._engine = engine

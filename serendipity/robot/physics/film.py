@@ -38,11 +38,7 @@ Pixel = tuple[float, float]
 
 
 class Camera:
-    """Looks at the whole of a building.
-
-    Args:
-        width: of its pictures in pixels; their height follows from the building.
-    """
+    """Looks at the whole of a building; pictures are ``width`` pixels wide, and as high as that takes."""
 
     def __init__(self, engine: Engine, building: Rooms, width: int) -> None:
         self._engine = engine
@@ -112,11 +108,7 @@ class _Frame(NamedTuple):
 
 
 class Film:
-    """Records a stage.
-
-    Args:
-        width: of pictures, in pixels.
-        rate: frames for each second of the stage.
+    """Records a stage: pictures of a width in pixels, so many for each of its seconds.
 
     Raises:
         UsageError: Pillow is not installed.

@@ -113,11 +113,7 @@ def ours(case: Case) -> Robots:
 
 
 class Planned:
-    """Ours, planned once before the first epoch, and never again.
-
-    Args:
-        policy: ``fixed``: robots commit themselves; ``watching``: they act on what they have seen.
-    """
+    """Ours, planned once: robots commit themselves (``fixed``), or act on what they saw (``watching``)."""
 
     def __init__(self, policy: str) -> None:
         self._policy = policy

@@ -135,11 +135,7 @@ class CaseEnv(ParallelEnv):  # type: ignore[misc]
 
 
 class Learner:
-    """A helper that learns each case in its environment, before the first epoch.
-
-    Args:
-        train: learns in an environment, as many episodes as there is time for; what it gives is its policy.
-    """
+    """A helper that learns its policy for a case in the time before the first epoch, as ``train`` does."""
 
     def __init__(self, train: Callable[[CaseEnv], Policy]) -> None:
         self._train = train

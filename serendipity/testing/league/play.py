@@ -18,12 +18,7 @@ _IN_VAIN: Final = 2
 
 @dataclass(frozen=True, slots=True)
 class Played:
-    """What became of one person.
-
-    Attributes:
-        paid: what they paid; alone at least, where they came later than anybody would alone.
-        arrived: the epoch by the end of which they were there; None: never.
-    """
+    """What became of one person: what they paid (alone at least, if late), and when they were there."""
 
     scenario: Scenario
     paid: Fraction

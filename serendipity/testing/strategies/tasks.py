@@ -107,11 +107,7 @@ def tasks() -> st.SearchStrategy[Task]:
 
 @st.composite
 def walks(draw: st.DrawFn, built: Task, most: int) -> frozenset[int]:
-    """The state after a random walk of the human's, alone.
-
-    Args:
-        most: actions, at least one where any changes anything.
-    """
+    """The state after a random walk of the human's alone: at least an action, if any changes anything."""
     now, alone = Moment(built.init), Alone(built)
     for _ in range(draw(st.integers(1, most))):
         ways = [way.moment for way in alone.ways(now) if way.moment != now]

@@ -31,11 +31,7 @@ _LONGEST: Final = 7
 
 @st.composite
 def timed_tasks(draw: st.DrawFn, *, of: st.SearchStrategy[Task] | None = None) -> Task:
-    """Tasks whose actions take one to three epochs, with conditions and effects at any time of theirs.
-
-    Args:
-        of: tasks of one epoch each, or None for small ones.
-    """
+    """Tasks, or small ones, whose actions take one to three epochs, with effects at any time of theirs."""
     built = draw(small_tasks() if of is None else of)
     return with_durations(draw(DICE), built, _DURATIONS)
 
@@ -47,11 +43,7 @@ def scripts(built: Task, *, most: int = 3) -> st.SearchStrategy[Script]:
 
 @st.composite
 def scripted_tasks(draw: st.DrawFn, *, of: st.SearchStrategy[Task] | None = None) -> Task:
-    """Tasks with a script of facts, whose actions may take several epochs.
-
-    Args:
-        of: tasks without a script, or None for small ones.
-    """
+    """Tasks, or small ones, with a script of facts; actions may take several epochs."""
     built = draw(st.one_of(small_tasks(), timed_tasks()) if of is None else of)
     return built.with_script(draw(scripts(built)))
 
@@ -117,11 +109,7 @@ def timed_plans(draw: st.DrawFn, task: Task, plan: HumanPlan) -> HumanPlan:
 def calls_in_time(
     draw: st.DrawFn, *, modes: Sequence[Mode] = _MODES, of: st.SearchStrategy[Task] | None = None
 ) -> Call:
-    """A task with time, a mode and options that are legal for it, often with a plan that is given.
-
-    Args:
-        of: tasks, or None for any with time.
-    """
+    """A task with time, or any, a mode and options legal for it, often with a plan that is given."""
     task = draw(tasks_in_time() if of is None else of)
     mode = draw(st.sampled_from(modes))
     options = Options(

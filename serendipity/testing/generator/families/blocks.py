@@ -16,10 +16,7 @@ def blocks(dice: Random, size: int, agents: tuple[str, ...]) -> Task:
     """Towers to build, with hands that hold a block or with arms that move it at once.
 
     Some can't lift every block; one block may take two arms, and hands may give blocks to each other.
-    There may be a shelf beside the table, which leaves a choice.
-
-    Args:
-        agents: the human first.
+    There may be a shelf beside the table, which leaves a choice.  The human is the first agent.
     """
     price, hands = prices(dice), dice.random() < 0.5
     world = _Blocks(dice, agents, size)

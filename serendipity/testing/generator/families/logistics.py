@@ -12,12 +12,9 @@ _Roads = list[tuple[str, str]]
 
 
 def logistics(dice: Random, size: int, agents: tuple[str, ...]) -> Task:
-    """Parcels to deliver; agents are vehicles with roads of their own, and room for one, two or all.
+    """Parcels to deliver; agents, the human first, are vehicles with roads and room for one, two or all.
 
     One parcel may take two to load it, and a pair of vehicles may reload where they meet.
-
-    Args:
-        agents: the human first.
     """
     price = prices(dice)
     places = [f"p{i}" for i in range(dice.randint(2, 3) + size // 3)]

@@ -9,11 +9,7 @@ from serendipity.testing.generator.families.parts import negated, pairs, prices
 
 
 def switches(dice: Random, size: int, agents: tuple[str, ...]) -> Task:
-    """Switches to set: a panel with conditions and side effects, or a circle in which each disables the next.
-
-    Args:
-        agents: the human first.
-    """
+    """Switches to set: a panel with conditions and side effects, or a circle, each disabling the next."""
     builder = Builder(agents, "switches")
     names = [f"s{k}" for k in range(size)]
     task = (_circle if dice.random() < 0.4 else _panel)(dice, builder, names)
