@@ -36,11 +36,7 @@ class Ask:
         self._answers: dict[Options, Result] = {}
 
     def __call__(self, **changes: Any) -> Result:
-        """The proved answer under changed options.
-
-        Raises:
-            LimitReachedError: the limit came before the proof.
-        """
+        """The proved answer under changed options, or a LimitReachedError."""
         answer = self.attempt(**changes)
         if answer.status not in PROVED:
             raise LimitReachedError(self.limit_of(answer))

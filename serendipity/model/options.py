@@ -308,11 +308,7 @@ def _horizon(value: object) -> Horizon | None:
 
 
 def limit_of(name: str, value: object, unit: str) -> float:
-    """A limit as a number.
-
-    Raises:
-        UsageError: it is not a number of at least 0.
-    """
+    """A limit as a number of at least 0, or a UsageError."""
     try:
         number = float(str(value))
     except ValueError:

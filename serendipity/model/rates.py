@@ -8,11 +8,7 @@ from serendipity.model.numbers import exact
 
 
 class Rates:
-    """A dataclass whose fields are probabilities, 0 by default.
-
-    Raises:
-        UsageError: one of them is no probability.
-    """
+    """A dataclass whose fields are probabilities (or a UsageError), 0 by default."""
 
     __slots__ = ()
 
@@ -42,11 +38,7 @@ class Rates:
 
 
 def probability(value: float | str, what: str) -> float:
-    """A probability.
-
-    Raises:
-        UsageError: it is no number from 0 to 1.
-    """
+    """A number from 0 to 1, or a UsageError."""
     found = exact(value, what)
     if not 0 <= found <= 1:
         raise UsageError(f"{what}: expected a probability from 0 to 1, got {float(found):g}")

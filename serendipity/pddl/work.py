@@ -42,11 +42,7 @@ class Work:
 def within_limits(
     load: Callable[[Work], T], deadline: Deadline | None = None, on_progress: OnProgress | None = None
 ) -> T:
-    """The value that ``load`` makes.
-
-    Raises:
-        LimitReachedError: a limit came first, or memory is used up; it says what was being done.
-    """
+    """The value that ``load`` makes, or a LimitReachedError that says what was being done."""
     work = Work(deadline, on_progress)
     try:
         with no_collection():  # reading makes many tuples, beside which a collection takes long

@@ -42,11 +42,7 @@ def write_pddl(task: Task, directory: str | Path) -> None:
 
 
 def task_files(task: Task) -> dict[str, tuple[str, str]]:
-    """The texts ``(domain, problem)`` of each agent's folder and of the team's.
-
-    Raises:
-        InputError: it has bystanders, whose plans are no part of PDDL.
-    """
+    """Texts ``(domain, problem)`` of agents' folders and the team's; an InputError beside bystanders."""
     if task.script.people:
         raise InputError("a task with bystanders can't be written: their plans are no part of PDDL")
     facts = _fact_names(task)

@@ -32,11 +32,7 @@ def worked_example(name: str) -> Usar:
 
 
 def random_usar(building: Building, *, name: str, medkits: int = 2, robots: int = 1, seed: int = 0) -> Usar:
-    """Agents, medkits and the triage goal at random in a building, as the paper's 200 problems.
-
-    Raises:
-        UsageError: fewer than one medkit or robot.
-    """
+    """A task at random in a building, as the paper's 200; a UsageError without medkits or robots."""
     if medkits < 1:
         raise UsageError(f"medkits: expected at least 1, got {medkits}")
     if robots < 1:

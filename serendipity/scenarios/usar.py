@@ -177,11 +177,7 @@ _DOMAIN: Final = Path(__file__).parent / "data" / "usar" / "domain.pddl"
 
 
 def pddl_files(task: Usar, layout: str = "agents") -> dict[str, str]:
-    """The PDDL text of each file of a task, by its path inside the task's folder.
-
-    Raises:
-        UsageError: there is no such layout.
-    """
+    """The PDDL texts of a task by path in its folder; a UsageError where there is no such layout."""
     if layout not in LAYOUTS:
         raise UsageError(f"layout: expected one of {', '.join(LAYOUTS)}, got '{layout}'")
     return LAYOUTS[layout](task)

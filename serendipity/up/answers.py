@@ -64,11 +64,7 @@ class EngineCall:
         return self.exact and "mode" not in dict(self.given)
 
     def who(self, problem: AbstractProblem) -> tuple[Any, Any]:
-        """Human and robots: where it makes no difference to the answer, anybody is the human.
-
-        Raises:
-            UsageError: it is help that is asked for, and nobody said for whom.
-        """
+        """Human and robots; a UsageError where nobody said who is helped, and that makes a difference."""
         mode = self.options.mode
         if self.human is None and self.robots is None and isinstance(problem, Problem) and mode in _HELP:
             raise UsageError(f"human: mode '{mode}' is help for somebody: expected an object")

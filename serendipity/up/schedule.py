@@ -107,11 +107,7 @@ def _played(task: Task, steps: Sequence[PlanStep], lasting: Sequence[bool]) -> l
 
 
 def variant_in(task: Task, step: PlanStep, state: State) -> GroundAction:
-    """The action that a step means in a state.
-
-    Raises:
-        PlanError: none is applicable.
-    """
+    """The first applicable action that a step means in a state, or a PlanError."""
     ids = task.named.get(step.action, ())
     for i in ids:
         if task.actions[i].applicable(state):

@@ -127,11 +127,7 @@ class Vocabulary:
         return self._owned(self._actions[action.name], owner)
 
     def instance(self, name: str) -> ActionInstance:
-        """What a ground action of the task is in the problem.
-
-        Raises:
-            UsageError: the problem has nothing of that name.
-        """
+        """What a ground action of the task is in the problem; a UsageError where that has no such name."""
         head, *words = name.split()
         owner = self._owners_by_word.get(words.pop(0)) if self.agents and words else None
         source = self.problem if owner is None else owner

@@ -23,11 +23,7 @@ def written(table: Table, form: str) -> str | bytes:
 
 
 def check_installed(form: str) -> None:
-    """Make sure that a format can be written here, before the work is done.
-
-    Raises:
-        UsageError: nothing is installed that writes it.
-    """
+    """A UsageError before the work is done, where nothing is installed that writes a format."""
     if form == "parquet":
         _parquet_writer()
 

@@ -21,11 +21,7 @@ def write_together(files: Mapping[Path, bytes]) -> None:
 
 @contextmanager
 def written_together(files: Mapping[Path, bytes]) -> Iterator[None]:
-    """Files that are on disk, beside their places, while the block runs, and take those if it ends well.
-
-    Raises:
-        OSError: as :func:`write_together`.
-    """
+    """Files on disk beside their places, which they take if the block ends well; or an OSError."""
     made: list[Path] = []
     waiting: dict[Path, Path] = {}
     try:
@@ -86,11 +82,7 @@ def _umask() -> int:
 
 
 def append(file: Path, line: str) -> None:
-    """Add a line to a file, which is made where it is missing; on return it is on disk.
-
-    Raises:
-        OSError: the system refuses; the file is then as it was before.
-    """
+    """Add a line to a file, made if missing, on disk on return; or an OSError, and it is as before."""
     before = file.stat().st_size if file.exists() else None
     try:
         with file.open("ab") as opened:

@@ -25,11 +25,7 @@ def read_text(path: Path) -> str:
 
 
 def read_json(path: Path) -> Any:
-    """The value that a JSON file writes down.
-
-    Raises:
-        InputError: it can't be read or is not JSON; NaN and infinity are not JSON either.
-    """
+    """The value that a JSON file writes down (NaN and infinity are not JSON), or an InputError."""
     from serendipity.pddl.parsing.lists import json_value  # with json, which planning does without
 
     return json_value(read_text(path), path)

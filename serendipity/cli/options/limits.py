@@ -58,11 +58,7 @@ def load(modules: Iterable[str]) -> None:
 
 @contextmanager
 def during(doing: str) -> Iterator[None]:
-    """Say of a limit that comes inside what it kept from being done.
-
-    Raises:
-        LimitReachedError: a limit came.
-    """
+    """Say of a LimitReachedError that comes inside what it kept from being done."""
     try:
         yield
     except LIMITS as limit:

@@ -55,11 +55,7 @@ _in_force: ContextVar[Settings] = ContextVar("settings", default=_NONE)
 
 
 def begin(command: str) -> dict[str, Any]:
-    """Put the settings for the working directory in force.
-
-    Returns:
-        what its options are where the command line says nothing.
-    """
+    """Put the settings for the working directory in force; its options, where the command line has none."""
     try:
         found = find(Path.cwd())
     except FileNotFoundError:  # somebody has removed it

@@ -56,11 +56,7 @@ class Lines:
         return values
 
     def append(self, value: Any) -> None:
-        """Add a line; on return it is on disk.
-
-        Raises:
-            UsageError: the file can't be written; it is then as it was before.
-        """
+        """Add a line, which is on disk on return; or a UsageError, and the file is as it was before."""
         try:
             append(self.path, json.dumps(value))
         except OSError as error:
@@ -103,11 +99,7 @@ def _with_job(work: Callable[[J], Any], job: J) -> tuple[J, Any]:
 
 
 def apart(work: Callable[..., T], *given: Any) -> T:
-    """Result of a function of a module in a process of its own, whose memory is its own.
-
-    Raises:
-        SerendipityError: the process was killed, twice.
-    """
+    """Result of a module's function in a process of its own; a SerendipityError where two were killed."""
     (found,) = in_processes(partial(_called, work), [given], 1)
     return found
 

@@ -87,11 +87,7 @@ def _problem_files(folder: Path) -> list[Path]:
 
 
 def roles(problem: Problem, robots: int, can_alone: Callable[[Problem, Roles], bool]) -> Roles:
-    """The first agent of the file who can do it alone, or else the first, and the next others.
-
-    Raises:
-        InputError: a file is wrong, or there are fewer than two agents.
-    """
+    """The first agent who can do it alone, else the first; and others. An InputError for fewer than two."""
     unit = problem.unit()
     kinds = {schema.parameters[0].type for schema in unit.domain.schemas if schema.agent}
     fits = unit.domain.types.is_subtype

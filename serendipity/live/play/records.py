@@ -34,11 +34,7 @@ class Records:
         self.events = list(events)
 
     def add(self, event: str, **about: Any) -> Event:
-        """Record an event; it is on the disk when this returns.
-
-        Raises:
-            UsageError: the file can't be written; it is then as it was before, and nothing is recorded.
-        """
+        """Record an event on the disk; where that fails (UsageError), the file is as it was before."""
         now = datetime.now(UTC).isoformat(timespec="milliseconds")
         told = {"participant": self._participant, "time": now, "event": event, **about}
         if self.file is not None:

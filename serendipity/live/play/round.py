@@ -82,11 +82,7 @@ _EXPLAINING = 10.0
 
 
 class Round:
-    """A person, robots and the world.
-
-    Raises:
-        UsageError: the person has no way to reach the goal alone.
-    """
+    """A person, robots and the world; a UsageError where the person has no way to reach the goal alone."""
 
     def __init__(self, setting: RoundSetting) -> None:
         self.setting = setting
@@ -112,11 +108,7 @@ class Round:
         return self.run.done or (most is not None and self.run.epoch > most)
 
     def act(self, action: str | None) -> Event:
-        """The person does something, or waits.
-
-        Returns:
-            The epoch, as it is recorded: what was shown and said before it, and what came of it.
-        """
+        """The person does something, or waits: the epoch as recorded, with what was shown and said before."""
         if self.done:
             raise UsageError("the round is over")
         if action is not None and not isinstance(action, str):

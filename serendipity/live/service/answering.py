@@ -38,11 +38,7 @@ class GoneError(Exception):
 
 
 async def answers(pool: Pool, job: str, body: bytes, session: Remembered | None = None) -> Answers:
-    """The answers to a job; a session is moved to where a call has left it.
-
-    Raises:
-        HTTPException: it has none, or its worker can't say it.
-    """
+    """The answers to a job, or an HTTPException; a session is moved to where a call has left it."""
     try:
         async with aclosing(pool.run(job, body)) as messages:
             async for message in messages:

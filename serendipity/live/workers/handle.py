@@ -49,20 +49,12 @@ class Handle:
         return self._process.returncode is not None
 
     async def give(self, job: str, body: bytes, time_limit: float) -> None:
-        """Have it begin a job.
-
-        Raises:
-            EOFError: it was killed.
-        """
+        """Have it begin a job, unless it was killed (EOFError)."""
         self.working = True
         await self._say(Message({"kind": "job", "job": job, "time_limit": time_limit}, body))
 
     async def hear(self) -> Message:
-        """What it says next about its job.
-
-        Raises:
-            EOFError: it was killed.
-        """
+        """What it says next about its job, unless it was killed (EOFError)."""
         assert self._process.stdout is not None
         frame = Message.decoded(await self._process.stdout.readline())
         if frame.head["kind"] in ("end", "error"):

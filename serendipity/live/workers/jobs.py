@@ -256,11 +256,7 @@ def _call(asked: Given) -> dict[str, Any]:
 
 
 def _options(asked: Given) -> dict[str, Any]:
-    """Options by name; what is no option of a plan is refused here, since calls have arguments beside them.
-
-    Raises:
-        UsageError: there is no such option, or it has no such value.
-    """
+    """Options of a plan by name; others are refused here (UsageError): calls have arguments beside them."""
     options: dict[str, Any] = asked["options"]
     options_from(dict(options))
     return options

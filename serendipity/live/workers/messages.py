@@ -19,11 +19,7 @@ class Message:
 
     @classmethod
     def decoded(cls, line: bytes) -> "Message":
-        """The message of a line.
-
-        Raises:
-            EOFError: the stream has ended before the line did.
-        """
+        """The message of a line; an EOFError where the stream has ended before the line did."""
         if not line.endswith(b"\n"):
             raise EOFError
         head, _, body = line[:-1].partition(b"\t")

@@ -35,11 +35,7 @@ class Disturbance:
 
 
 def disturbance_from(text: str | None) -> Disturbance:
-    """The weights that a text such as ``"ask=2, sight=1"`` gives; without any each is 1.
-
-    Raises:
-        UsageError: it has another form.
-    """
+    """The weights of a text such as ``"ask=2, sight=1"`` (or a UsageError); without any each is 1."""
     if text is None:
         return Disturbance(*[Fraction(1)] * 3)
     found = dict.fromkeys(KINDS, Fraction(0))

@@ -24,11 +24,7 @@ def actions_named(task: Task, name: str, agents: Iterable[str]) -> tuple[int, ..
 
 
 def variant_named(task: Task, name: str, agents: Iterable[str], state: State) -> int:
-    """Of the actions of that name the first that is applicable in a state; where none is, the first.
-
-    Raises:
-        IndexError: there is no such action.
-    """
+    """The first action of a name that is applicable in a state, or else the first one, or an IndexError."""
     ids = actions_named(task, name, agents)
     return next((i for i in ids if task.actions[i].applicable(state)), ids[0])
 

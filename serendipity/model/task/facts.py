@@ -15,11 +15,7 @@ class Facts:
         self._ids = {name: fact for fact, name in enumerate(names)}
 
     def id(self, name: str) -> int:
-        """The id of a fact.
-
-        Raises:
-            UsageError: there is no such fact.
-        """
+        """The id of a fact; a UsageError where there is no such fact."""
         fact = self._ids.get(canonical_name(name))
         if fact is None:
             raise UsageError(no_fact(canonical_name(name), self._ids))

@@ -30,18 +30,14 @@ def refuse_time(
     options: Options | None = None,
     plan: "HumanPlan | PlanTimes | None" = None,
 ) -> None:
-    """Return if a call can do without time.
-
-    Raises:
-        UsageError: it can't.
-    """
+    """A UsageError where a call can't do without time."""
     what = needs_time(task, options=options, plan=plan)
     if what is not None:
         raise UsageError(f"time: {what}, which is not known here yet")
 
 
 def nobody_pays(task: "Task", options: Options) -> bool:
-    """Whether help to a task as given may cost nobody (semantics 12): by default where bystanders are."""
+    """Whether help may cost nobody anything (semantics 12) in a task as given: by default with bystanders."""
     asked = options.nobody_pays
     if asked is None:
         asked = bool(task.script.people) and options.human_model == "omniscient"
@@ -60,11 +56,7 @@ _METERED: Final[dict[str, object]] = {"suffix": "replan", "preservation": "kerne
 
 
 def require_metered(task: "Task", options: Options, *, scenarios: int = 1) -> None:
-    """Check that help can be bound as it is asked for (semantics 12 to 14).
-
-    Raises:
-        UsageError: it can't.
-    """
+    """A UsageError where help can't be bound as it is asked for (semantics 12 to 14)."""
     if scenarios > 1 and (options.max_disturbance is not None or options.noticed):
         limit = "noticed" if options.noticed else "max_disturbance"
         raise UsageError(f"{limit}: is for one goal and plan only")

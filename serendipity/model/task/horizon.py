@@ -17,11 +17,7 @@ MAX_SCRIPT: Final = 100_000
 
 
 def require_few_epochs(task: Task) -> None:
-    """Check that actions and script have no more epochs than can be planned for.
-
-    Raises:
-        UsageError: one has.
-    """
+    """A UsageError where an action or the script has more epochs than can be planned for."""
     longest = max(task.actions, key=lambda action: action.duration, default=None)
     if longest is not None and longest.duration > MAX_DURATION:
         raise UsageError(_too_long(f"'{longest.name}' takes", longest.duration, MAX_DURATION))

@@ -41,11 +41,7 @@ def waited(begun: Iterable[tuple[int, int]]) -> int:
 
 
 def replayed(task: "Task", plan: "HumanPlan", *, strict: bool = False) -> list[frozenset[int]]:
-    """The state after each epoch of a human plan that reaches the goal, the initial one first.
-
-    Raises:
-        PlanError: a step is not theirs or can't be done, or the goal is missed.
-    """
+    """The states after each epoch of a human plan, from 0; a PlanError where it is none to the goal."""
     human = _done(task, plan, strict=strict)
     task.require_goal(human.course.state, plan)
     return human.states

@@ -64,11 +64,7 @@ class Blueprint:
 
 
 def assemble(blueprint: Blueprint, work: Work) -> Task:
-    """Ground a blueprint.
-
-    Raises:
-        InputError: costs, goals or conditions that are not supported.
-    """
+    """Ground a blueprint; an InputError for costs, goals or conditions that are not supported."""
     relations = _relations(blueprint.sources)
     work.stage("reading the goal")
     goal = read_goal(blueprint.goals, relations, work)

@@ -18,11 +18,7 @@ ONE: Final = Fraction(1)
 
 
 def epoch_length(epoch: Number | None) -> Fraction | None:
-    """The length of an epoch as callers give it.
-
-    Raises:
-        UsageError: it is no number above 0.
-    """
+    """The length of an epoch as callers give it; a UsageError where it is no number above 0."""
     length = None if epoch is None else exact(epoch, "epoch")
     if length is not None and length <= 0:
         raise UsageError(f"epoch: expected a number above 0, got {float(length):g}")
@@ -48,11 +44,7 @@ class Clock:
         self.epoch = _common(self._units, blocks) if epoch is None else epoch
 
     def epochs(self, key: Key, duration: Cost) -> int:
-        """The epochs that an action takes.
-
-        Raises:
-            InputError: they are too many, or its duration is not what it should be.
-        """
+        """The epochs that an action takes; an InputError for too many, and for what should be no duration."""
         if isinstance(duration, BadCost):
             raise duration.error(key)
         number = ceil(duration / self.epoch)

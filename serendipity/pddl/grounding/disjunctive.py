@@ -38,11 +38,7 @@ class NotExactError(Exception):
 def with_disjunctions(
     task: Task, disjunctions: Iterable[Literals], work: Work, *, robots: bool = False
 ) -> Task:
-    """The task whose human's goal, or else whose robots', also asks for some disjunctions.
-
-    Raises:
-        NotExactError: one of them can't be expressed exactly.
-    """
+    """The task whose human's goal, or else robots', asks for disjunctions, too; or a NotExactError."""
     compiled = _Compiled(task, work)
     literals = [literal for disjunction in disjunctions for literal in compiled.literals(disjunction)]
     facts = (*task.facts, *compiled.names)

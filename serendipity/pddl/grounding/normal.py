@@ -96,11 +96,7 @@ def lifted_of(schema: lifted.Schema, unit: lifted.Unit, work: Work) -> Lifted:
 
 
 def _with_course(found: Lifted, course: lifted.DurativeParts, unit: lifted.Unit, work: Work) -> Lifted:
-    """The lifted action with what its course needs and changes.
-
-    Raises:
-        InputError: what it needs after its start is more than literals.
-    """
+    """The lifted action with its course; an InputError where it needs more than literals after its start."""
     over_all = _literals(found.schema, course.over_all, "over all", unit, work)
     at_end = _literals(found.schema, course.at_end, "at end", unit, work)
     at_start = [e for effect in course.start_effects if (e := simplified_effect(effect, unit)) is not None]
@@ -199,11 +195,7 @@ class Disjuncts:
         self._tick = work.deadline.tick
 
     def of(self, formula: lifted.Formula) -> list[Clause]:
-        """The disjuncts of a ground condition: none if it is false, an empty one if it is true.
-
-        Raises:
-            TooManyCasesError: there are more than ``MAX_CASES``.
-        """
+        """The disjuncts of a ground condition: none if false, an empty one if true; or TooManyCasesError."""
         self._tick()
         match formula:
             case lifted.Literal():

@@ -65,11 +65,7 @@ def json_items(text: str, path: object, what: str = "") -> list[FileItem]:
 
 
 def json_value(text: str, path: object) -> Any:
-    """The value that a JSON text writes down.
-
-    Raises:
-        InputError: it is not JSON; NaN and infinity are not JSON either.
-    """
+    """The value that a JSON text writes down; an InputError for what is none, NaN and infinity too."""
 
     def refuse(constant: str) -> NoReturn:
         raise InputError(f"expected a finite number, got {constant}", path)

@@ -30,11 +30,7 @@ class StuckError(Exception):
 
 
 def walk(figure: Figure, speed: float, point: Point, target: str) -> Deed:
-    """Walk to a point in or near something.
-
-    Raises:
-        StuckError: something is in the way.
-    """
+    """Walk to a point in or near something; a StuckError where something is in the way."""
     nearest, waited = figure.away(point), 0
     while not figure.walk(point, speed):
         yield

@@ -201,11 +201,7 @@ class Film:
 
 
 def check_format(path: Path) -> None:
-    """Refuse what no clip can be written as.
-
-    Raises:
-        UsageError: there is no such format.
-    """
+    """A UsageError for what no clip can be written as."""
     if path.suffix.lower() not in FORMATS:
         raise UsageError(f"clip: expected a name that ends in one of {', '.join(FORMATS)}, got '{path.name}'")
 

@@ -35,11 +35,7 @@ class Timely:
         threading.Thread(target=self._work, daemon=True).start()
 
     def __call__(self, observation: Observation) -> Any:
-        """The answer.
-
-        Raises:
-            LimitReachedError: the time is up.
-        """
+        """The answer, or a LimitReachedError."""
         clock = Deadline(observation["seconds"])
         if self._busy:
             self._next(clock)
@@ -131,11 +127,7 @@ class Endpoint:
         self._address = address
 
     def __call__(self, observation: Observation) -> Any:
-        """Its answer.
-
-        Raises:
-            LimitReachedError: it takes too long.
-        """
+        """Its answer, or a LimitReachedError."""
         body, head = json.dumps(observation).encode(), {"Content-Type": "application/json"}
         request = urllib.request.Request(self._address, body, head, method="POST")
         try:

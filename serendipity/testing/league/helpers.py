@@ -17,11 +17,7 @@ _KINDS: Final = "command:LINE, http://..., python:MODULE:FUNCTION, pettingzoo:MO
 
 
 def helper_named(text: str) -> Helper:
-    """A helper by its name.
-
-    Raises:
-        UsageError: there is none of that name.
-    """
+    """A helper by its name, or a UsageError."""
     kind, _, rest = text.partition(":")
     simple: dict[str, Ask] = {
         "idle": baselines.idle,

@@ -70,11 +70,7 @@ def constraint_of(text: str) -> tuple[dict[str, int], str, int]:
 
 
 def read(text: str) -> Problem:
-    """The problem that an OPB file states.
-
-    Raises:
-        ValueError: it is none.
-    """
+    """The problem that an OPB file states, or a ValueError."""
     problem = Problem()
     for line in text.splitlines():
         if line.startswith("*") or not line.strip():

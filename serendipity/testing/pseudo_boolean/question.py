@@ -38,11 +38,7 @@ class Question:
 
 
 def question_of(task: Task, result: Result, entry: Mapping[str, Any]) -> Question:
-    """The question that a program answers.
-
-    Raises:
-        NotMadeError: it is about something else, or about one of several plans of the human's.
-    """
+    """The question of a program; a NotMadeError for others, and for one of the human's several plans."""
     told = _NAME.fullmatch(entry["name"])
     if told is None or "/" not in entry["unit"] or not int(told[2]):
         raise NotMadeError(f"{entry['name']}; unit {entry['unit']}")

@@ -22,11 +22,7 @@ Terms = dict[str, int]
 
 
 def program(question: Question) -> tuple[Problem, Fraction]:
-    """The program of a question, and its unit.
-
-    Raises:
-        NotMadeError: the question has to do with time, or with a state that is to be preserved.
-    """
+    """The program of a question, and its unit; a NotMadeError for time, and states that are preserved."""
     options = question.options
     if question.task.needs_time or question.task.due or options.waiting_cost or options.head_start:
         raise NotMadeError("semantics 10")
