@@ -14,7 +14,7 @@ decided with it alone, by family; ``gap``: the change of the sum over all calls 
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import product
 from math import log
 from pathlib import Path
@@ -33,7 +33,7 @@ from search.strategies.portfolio import STRATEGIES, TURNS
 from serendipity import SerendipityError, Task
 from serendipity.evaluation.benchmark.contenders import MODES
 from serendipity.evaluation.measuring.record import Lines
-from serendipity.evaluation.measuring.tables import as_markdown, table
+from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, table
 from serendipity.model.resources import deadline
 from serendipity.model.telling import Line
 
@@ -43,7 +43,6 @@ _TAKES: Final = 0.05
 _NEEDED: Final = ("optimal-plan", "bound", "all")
 """Without these nothing is planned, or nothing proved."""
 
-Row = Mapping[str, Any]
 Rows = dict[tuple[Any, ...], Row]
 """Calls by family, name, call, limit, and what they do without."""
 
@@ -179,7 +178,7 @@ def _pairs(without: str, whole: Rows, rows: Rows) -> list[Pair]:
     ]
 
 
-def _columns(gaps: float) -> dict[str, Callable[[Sequence[Pair]], object]]:
+def _columns(gaps: float) -> dict[str, Cell]:
     """Columns of the table of strategies, where ``gaps`` is the sum over all calls with it."""
 
     def change(of: Sequence[Pair]) -> str:
@@ -187,8 +186,8 @@ def _columns(gaps: float) -> dict[str, Callable[[Sequence[Pair]], object]]:
         return f"{more:+.1f} ({more / max(gaps, 1e-9):+.1%})"
 
     return {
-        "tried": lambda of: sum(len(each.parts) for each in of),
-        "useful": lambda of: sum(_useful(part) for each in of for part in each.parts),
+        "tried": counted(lambda each: len(each.parts)),
+        "useful": counted(lambda each: sum(map(_useful, each.parts))),
         "seconds": lambda of: f"{sum(part['seconds'] for each in of for part in each.parts):.0f}",
         "decided only with it": lambda of: _told(each.whole for each in of if _lost(each.whole, each.other)),
         "only without": lambda of: _told(each.whole for each in of if _lost(each.other, each.whole)),

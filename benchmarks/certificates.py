@@ -24,7 +24,7 @@ on where the first one stopped.
 """
 
 import subprocess
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import product
@@ -43,7 +43,7 @@ from serendipity.evaluation.benchmark.contenders import MODES
 from serendipity.evaluation.measuring.figures import children_memory, peak_memory, percentile, timed
 from serendipity.evaluation.measuring.record import apart, measured
 from serendipity.evaluation.measuring.suites import folders, may_alone
-from serendipity.evaluation.measuring.tables import as_markdown, grouped, spreads, table
+from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, grouped, spreads, table
 from serendipity.model.telling import Grid, Line
 from serendipity.writing.together import write_together
 from serendipity.writing.veripb import in_the_fields_form
@@ -52,8 +52,6 @@ from verify.proofs import checker
 
 FIGURES = ("write", "KiB", "check", "compare", "form", "OPB", "pbp", "columns", "rows", "leaves")
 SEEDS = range(1, 6)
-
-Row = Mapping[str, Any]
 
 
 class Asked(NamedTuple):
@@ -202,17 +200,17 @@ def _by_veripb(command: str, files: Sequence[Path]) -> Row:
 
 
 def _certificates(rows: Sequence[Row]) -> Grid:
-    def verdicts(of: Sequence[Row], verdict: str) -> int:
-        return sum(row["verdict"] == verdict for row in of)
-
-    def told(figure: Callable[[list[float]], float], name: str, digits: int = 3) -> Callable[..., str]:
+    def told(figure: Callable[[list[float]], float], name: str, digits: int = 3) -> Cell:
         return lambda of: f"{figure([row[name] for row in of]):.{digits}f}"
 
     groups = grouped(rows, lambda row: (row["group"], row["mode"], row["discount"]))
     groups |= {("all", mode, ""): of for mode, of in grouped(rows, lambda row: row["mode"]).items()}
-    columns: dict[str, Callable[[Sequence[Row]], object]] = {
+    columns: dict[str, Cell] = {
         "certificates": len,
-        **{name: partial(verdicts, verdict=name) for name in ("proved", "undecided", "refuted")},
+        **{
+            name: counted(lambda row, name=name: row["verdict"] == name)
+            for name in ("proved", "undecided", "refuted")
+        },
         "seconds: median": told(median, "seconds"),
         "95 %": told(partial(percentile, share=0.95), "seconds"),
         "longest": told(max, "seconds"),
@@ -220,7 +218,7 @@ def _certificates(rows: Sequence[Row]) -> Grid:
         "most": told(max, "clock"),
         "MiB": told(max, "memory", 0),
         "decided by": lambda of: ", ".join(grouped(of, lambda row: row["method"])),
-        "calls": lambda of: sum(row["calls"] for row in of),
+        "calls": counted(lambda row: row["calls"]),
         "columns": told(median, "columns", 0),
         "rows": told(median, "rows", 0),
     }

@@ -16,7 +16,7 @@ when a plan was known.  All plans are checked by unified-planning on the origina
 """
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -30,7 +30,7 @@ from benchmarks.problems import PROBLEMS
 from serendipity import Result, SerendipityError, Task
 from serendipity.evaluation.measuring.record import apart, measured
 from serendipity.evaluation.measuring.suites import Problem, Roles, may_alone, problems, roles
-from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
+from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, grouped, table
 from serendipity.facade.planning import plan_anytime
 from serendipity.model.errors import PlanError, told
 from serendipity.model.resources import deadline
@@ -51,8 +51,6 @@ CALLS: Final[dict[str, dict[str, Any]]] = {
 
 SOON: Final = 2.0
 """Seconds in which a first plan is wanted."""
-
-Row = Mapping[str, Any]
 
 
 class Asked(NamedTuple):
@@ -96,18 +94,14 @@ def main(
     print(as_markdown([table(("call", "domain"), groups, COLUMNS)]), end="")
 
 
-def _number(test: Callable[[Row], bool]) -> Callable[[Sequence[Row]], int]:
-    return lambda rows: sum(map(test, rows))
-
-
-COLUMNS: Final[dict[str, Callable[[Sequence[Row]], object]]] = {
+COLUMNS: Final[dict[str, Cell]] = {
     "tasks": len,
-    "decided": _number(lambda row: row["status"] in ("optimal", "infeasible")),
-    "of these without a plan": _number(lambda row: row["status"] == "infeasible"),
-    "plan": _number(lambda row: row["cost"] is not None),
-    f"in {SOON:g} s": _number(lambda row: row["first"] is not None and row["first"] <= SOON),
-    "valid": _number(lambda row: row["valid"] is True),
-    "errors": _number(lambda row: row["status"] == "error"),
+    "decided": counted(lambda row: row["status"] in ("optimal", "infeasible")),
+    "of these without a plan": counted(lambda row: row["status"] == "infeasible"),
+    "plan": counted(lambda row: row["cost"] is not None),
+    f"in {SOON:g} s": counted(lambda row: row["first"] is not None and row["first"] <= SOON),
+    "valid": counted(lambda row: row["valid"] is True),
+    "errors": counted(lambda row: row["status"] == "error"),
 }
 
 

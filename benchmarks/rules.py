@@ -7,7 +7,7 @@ In the buildings robots may be anywhere (``at_robot*``).  A price is what the be
 best without the rule, if both are proved; problems that are not there are left out.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from random import Random
 from typing import Any, Final, NamedTuple
@@ -18,7 +18,7 @@ import serendipity
 from benchmarks.problems import PROBLEMS, Source, can_some, load, of_suite, usar
 from serendipity import SerendipityError, Task
 from serendipity.evaluation.measuring.record import measured
-from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
+from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, grouped, table, total
 
 RULES: Final[Mapping[str, Mapping[str, Any]]] = {
     "nobody pays": {"nobody_pays": True},
@@ -28,8 +28,6 @@ RULES: Final[Mapping[str, Mapping[str, Any]]] = {
     "noticed": {"noticed": True},
     "no disturbance": {"max_disturbance": 0},
 }
-
-Row = Mapping[str, Any]
 
 
 class Job(NamedTuple):
@@ -96,17 +94,13 @@ def _shared(task: Task, *, bystander: bool) -> Task:
     return serendipity.with_bystanders(task, {person: [fact]})
 
 
-def _sum(name: str) -> Callable[[Sequence[Row]], str]:
-    return lambda of: f"{sum(row[name] for row in of if row['proved']):.1f}"
-
-
-COLUMNS: Final[Mapping[str, Callable[[Sequence[Row]], object]]] = {
+COLUMNS: Final[Mapping[str, Cell]] = {
     "calls": len,
-    "proved": lambda of: sum(row["proved"] for row in of),
-    "alone": _sum("alone"),
-    "saved without": _sum("free"),
-    "saved under it": _sum("bound"),
-    "calls with a price": lambda of: sum(row["proved"] and row["bound"] < row["free"] for row in of),
+    "proved": counted(lambda row: row["proved"]),
+    "alone": total(lambda row: row["proved"] and row["alone"]),
+    "saved without": total(lambda row: row["proved"] and row["free"]),
+    "saved under it": total(lambda row: row["proved"] and row["bound"]),
+    "calls with a price": counted(lambda row: row["proved"] and row["bound"] < row["free"]),
 }
 
 

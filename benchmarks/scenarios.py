@@ -12,7 +12,7 @@ Beside both stands what it would be worth to know the goal from the start: the m
 is for each epoch then.  Problems that are not there are left out.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 from pathlib import Path
 from random import Random
@@ -26,15 +26,12 @@ import serendipity
 from benchmarks.problems import PROBLEMS, Source, can_some, load, of_suite, usar
 from serendipity import Task
 from serendipity.evaluation.measuring.record import measured
-from serendipity.evaluation.measuring.tables import as_markdown, grouped, table
+from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, grouped, table, total
 
 DISCOUNT = "0.9"
 COUNTS = (2, 3, 4, 5)
 SMALLEST = 3
 """Problems of a domain, from its first."""
-
-Row = Mapping[str, Any]
-Cell = Callable[[Sequence[Row]], object]
 
 
 class Job(NamedTuple):
@@ -158,12 +155,12 @@ def _runs(stride: int) -> Asked:
 JOBS = {"buildings": _buildings, "domains": _domains, "home": _home, "runs": _runs}
 
 
-def _number(counts: Callable[[Row], bool]) -> Cell:
+def _share(holds: Callable[[Row], bool]) -> Cell:
     """For how many rows something holds, and the share of them."""
 
     def cell(of: Sequence[Row]) -> str:
-        number = sum(map(counts, of))
-        return f"{number} ({100 * number / len(of):.0f} %)"
+        found = sum(map(holds, of))
+        return f"{found} ({100 * found / len(of):.0f} %)"
 
     return cell
 
@@ -181,10 +178,6 @@ def _closed(of: Sequence[Row]) -> str:
     return f"{won:.2f} of {gap:.2f} ({100 * won / gap:.0f} %)" if gap > 1e-9 else "-"
 
 
-def _sum(cost: Callable[[Row], float | None]) -> Cell:
-    return lambda of: f"{sum(cost(row) or 0 for row in of):.1f}"
-
-
 def _mean(name: str) -> Cell:
     def cell(of: Sequence[Row]) -> str:
         found = [row[name] for row in of if row[name] is not None]
@@ -195,28 +188,26 @@ def _mean(name: str) -> Cell:
 
 COLUMNS: dict[str, Cell] = {
     "calls": len,
-    "idle": _sum(lambda row: row["idle"]),
-    "committed": _sum(lambda row: row["fixed"]["cost"]),
-    "watching": _sum(lambda row: row["watching"]["cost"]),
-    "knowing": _sum(lambda row: row["knowing"]),
+    "idle": total(lambda row: row["idle"]),
+    "committed": total(lambda row: row["fixed"]["cost"]),
+    "watching": total(lambda row: row["watching"]["cost"]),
+    "knowing": total(lambda row: row["knowing"]),
     "gap closed": _closed,
-    "proved": _number(lambda row: row["watching"]["status"] == "optimal"),
-    "proved, committed": _number(lambda row: row["fixed"]["status"] == "optimal"),
+    "proved": _share(lambda row: row["watching"]["status"] == "optimal"),
+    "proved, committed": _share(lambda row: row["fixed"]["status"] == "optimal"),
     "median, longest s": _seconds,
-    "dearer than idle": lambda of: sum(
-        (row["watching"]["cost"] or 0) > (row["idle"] or 0) + 1e-9 for row in of
-    ),
+    "dearer than idle": counted(lambda row: (row["watching"]["cost"] or 0) > (row["idle"] or 0) + 1e-9),
 }
 
 RUNS: dict[str, Cell] = {
     "runs": len,
-    "goal reached": _number(lambda row: row["reached"]),
-    "paid more than alone": _number(lambda row: row["reached"] and row["human_cost"] > (row["alone"] or 0)),
-    "saved": _sum(lambda row: row["saved"]),
-    "of what the paper's plans save": _sum(lambda row: row["promised"]),
-    "plans spoilt": lambda of: sum(row["spoilt"] for row in of),
+    "goal reached": _share(lambda row: row["reached"]),
+    "paid more than alone": _share(lambda row: row["reached"] and row["human_cost"] > (row["alone"] or 0)),
+    "saved": total(lambda row: row["saved"]),
+    "of what the paper's plans save": total(lambda row: row["promised"]),
+    "plans spoilt": counted(lambda row: row["spoilt"]),
     "late epochs": lambda of: f"{sum(row['late'] for row in of)} of {sum(row['epochs'] for row in of)}",
-    "without a proof": lambda of: sum(row["open"] for row in of),
+    "without a proof": counted(lambda row: row["open"]),
     "most probable from epoch": _mean("leads"),
     "0.9 from epoch": _mean("known"),
     "acted on a wrong guess": lambda of: f"{sum(row['wrong'] for row in of)} epochs",

@@ -1,7 +1,7 @@
 """Rows as tables: grouped, a cell for each group and column; as Markdown."""
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from serendipity.evaluation.measuring.figures import percentile
 from serendipity.model.telling import Grid, Line
@@ -9,6 +9,12 @@ from serendipity.model.telling import Grid, Line
 K = TypeVar("K", bound=Hashable)
 N = TypeVar("N", bound=tuple[str, ...])
 R = TypeVar("R")
+
+Row = Mapping[str, Any]
+"""A measurement by the names of its figures."""
+
+Cell = Callable[[Sequence[Any]], object]
+"""What a table says of the rows of a group."""
 
 
 def grouped(rows: Iterable[R], key: Callable[[R], K]) -> dict[K, list[R]]:
@@ -22,11 +28,21 @@ def grouped(rows: Iterable[R], key: Callable[[R], K]) -> dict[K, list[R]]:
 def table(
     names: Sequence[str],
     groups: Mapping[N, Sequence[R]],
-    columns: Mapping[str, Callable[[Sequence[R]], object]],
+    columns: Mapping[str, Cell],
 ) -> Grid:
     """A row for each group: what names it, and a cell for each column."""
     lines = [[*key, *(str(cell(of)) for cell in columns.values())] for key, of in groups.items()]
     return Grid([*names, *columns], lines)
+
+
+def counted(holds: Callable[[Any], int]) -> Cell:
+    """For how many rows something holds; or the sum of whole numbers."""
+    return lambda rows: sum(map(holds, rows))
+
+
+def total(figure: Callable[[Any], float | None]) -> Cell:
+    """A sum over the rows that have a figure."""
+    return lambda rows: f"{sum(figure(row) or 0 for row in rows):.1f}"
 
 
 def spreads(rows: Sequence[R], figures: Mapping[str, Callable[[R], float]], digits: int = 3) -> Grid:

@@ -28,6 +28,8 @@ COLUMNS: Final = tuple(KINDS)
 SHORT: Final = COLUMNS.index("best_tie")
 """Number of columns that are printed."""
 
+_COSTS: Final = ("cost", "human_cost", "best_tie", "worst_tie")
+
 
 @dataclass(frozen=True, slots=True)
 class Row:
@@ -73,29 +75,16 @@ class Row:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object, in the order of ``COLUMNS``."""
-        return {
-            "test": self.test,
-            "mode": self.mode,
-            "discount": float(self.discount),
-            "cost": rounded(self.cost),
-            "human_cost": rounded(self.human_cost),
-            "window_start": None if self.window is None else self.window.start,
-            "window_end": None if self.window is None else self.window.end,
-            "seconds": self.seconds,
-            "status": self.status,
-            "opportunity": self.opportunity,
-            "best_tie": rounded(self.best_tie),
-            "worst_tie": rounded(self.worst_tie),
-            "reason": self.reason,
-        }
+        plain = {name: getattr(self, name, None) for name in COLUMNS} | {"discount": float(self.discount)}
+        if self.window is not None:
+            plain |= {"window_start": self.window.start, "window_end": self.window.end}
+        return plain | {name: rounded(plain[name]) for name in _COSTS}
 
     @classmethod
     def from_dict(cls, data: dict[str, Any]) -> "Row":
         """The row that :meth:`to_dict` wrote."""
         plain = {name: data[name] for name in ("test", "mode", "status", "opportunity", "seconds")}
-        costs: dict[str, Any] = {
-            name: exact_cost(data[name]) for name in ("cost", "human_cost", "best_tie", "worst_tie")
-        }
+        costs: dict[str, Any] = {name: exact_cost(data[name]) for name in _COSTS}
         start = data["window_start"]
         window = None if start is None else Window(start, data["window_end"])
         discount = as_written(data["discount"])

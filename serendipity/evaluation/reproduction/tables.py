@@ -7,7 +7,7 @@ from statistics import fmean, median
 from typing import Any, Final, NamedTuple
 
 from serendipity.evaluation.reproduction.rows import Row
-from serendipity.evaluation.reproduction.run import Reproduction
+from serendipity.evaluation.reproduction.run import DISCOUNTS, Reproduction
 from serendipity.facade.planning import plan
 from serendipity.model.keywords import Mode
 from serendipity.scenarios.examples import example
@@ -18,12 +18,11 @@ SCHEMA: Final = "serendipity.reproduction/1"
 TESTS: Final = frozenset(str(number) for number in range(1, 201))
 """The paper's 200 problems (Chakraborti et al., IROS 2015), by number."""
 
-_DISCOUNTS: Final = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
 _SERENDIPITY: Final = ((9.82, 1), (9.81, 7), (9.79, 7), (9.76, 12), (9.68, 29), (9.55, 32))
 _TOGETHER: Final = ((9.72, 13), (9.65, 23), (9.48, 34), (9.25, 40), (8.93, 62), (8.51, 70))
 
 TABLE_1: Final = {
-    mode: dict(zip(map(Fraction, _DISCOUNTS), column, strict=True))
+    mode: dict(zip(map(Fraction, DISCOUNTS), column, strict=True))
     for mode, column in (
         ("serendipity", _SERENDIPITY),
         ("communication", _TOGETHER),
