@@ -91,7 +91,7 @@ def parts_of(task: Task, result: Result) -> Parts:
     former = set(result.human_plan or ())
     robots = announced = Fraction(0)
     begun = [(step.epoch, step.duration) for step in result.plan or () if result.human in step.agents]
-    human = result.options.waiting_cost * waited(begun)
+    human = result.options.waiting_cost * waited(task, begun)
     for step in result.plan or ():
         cost = cost_of(task, step.action)
         if result.human not in step.agents:
@@ -107,7 +107,7 @@ def _alone(task: Task, result: Result) -> Fraction:
     """What the human pays alone."""
     names, times = result.human_plan or (), result.human_plan_times
     begun = () if times is None else zip(times.starts, times.durations, strict=True)
-    waiting = result.options.waiting_cost * waited(begun)
+    waiting = result.options.waiting_cost * waited(task, begun)
     return sum((cost_of(task, name) for name in names), waiting)
 
 

@@ -15,7 +15,7 @@ from serendipity.model.arguments import FUNCTION, RESULT_IN_TIME, TASK_IN_TIME, 
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.keywords import AnswerOptions, InterruptionOptions, listing
 from serendipity.model.resources.limits import limits_from
-from serendipity.model.task.plans import PlanEntry
+from serendipity.model.task.plans import PlanEntry, left_after
 from serendipity.model.task.plans_in_time import times_of
 
 _MODES: Final = ("serendipity", "communication", "composite")
@@ -93,7 +93,7 @@ def _before(task: Task, result: Result) -> tuple[PlanEntry, ...] | None:
     entries, early = result.human_entries, result.options.head_start
     if entries is None or not early:
         return entries
-    sooner = tuple((entry[0] - early, entry[1]) for entry in entries if not isinstance(entry, str))
+    sooner = left_after(entries, early)
     try:
         task.plan_from_names(sooner)
     except PlanError:

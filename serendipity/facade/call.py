@@ -60,8 +60,8 @@ class Request:
         return None if self.question is None else self.question.warm
 
 
-Given = Callable[[], HumanPlan] | None
-"""The plan of the human, replayed when it is asked for; None to predict it."""
+Given = Callable[[int], HumanPlan] | None
+"""The plan of the human, replayed when it is asked for behind a head start; None to predict it."""
 
 Solver = Callable[[Request], Iterator[Answer]]
 """Answers to a call, each better than the one before or better proved; the last one is the best known."""
@@ -97,7 +97,7 @@ def checked_call(
     if visible is not None and options.human_model != "local":
         raise UsageError(f"visible: is for human_model 'local' only, not for '{options.human_model}'")
     limits = limits_from(options.time_limit, options.memory_limit, outer, cancelled)
-    human_plan = None if given is None else given()
+    human_plan = None if given is None else given(options.head_start)
     if options.mode == "assistance":
         if human_plan is not None:
             raise UsageError("human_plan: in mode 'assistance' the human chooses anew in each round")

@@ -164,12 +164,12 @@ def in_units(call: Request, units: UnitSteps) -> Request:
         LimitReachedError: the deadline came.
         PlanError: the human's plan can't be executed after the head start, or misses the goal.
     """
-    prepared, given = PreparedTask(units.task), None if call.given is None else units.plan(call.given)
-    epochs = call.options.head_start
+    prepared, epochs = PreparedTask(units.task), call.options.head_start
+    given = None if call.given is None else units.plan(call.given, epochs)
     asleep = epochs if call.options.human_model == "observant" else 0
     options = call.options.but(head_start=asleep, ties="fixed")
     if given is not None:  # it may come too late, or be in a bystander's way
-        call.task.replay_alone(units.begun(units.after_waiting(given, epochs)), strict=options.strict)
+        call.task.replay_alone(units.begun(given), strict=options.strict)
     inner = replace(call, prepared=prepared, given=given, options=options, question=None, original=call.task)
     if not epochs:
         return inner
@@ -178,13 +178,13 @@ def in_units(call: Request, units: UnitSteps) -> Request:
         return replace(inner, predicts=False)
     later = PreparedTask(units.task.at(state))
     if options.mode == "individual":
-        return replace(inner, prepared=later)
-    best = canonical_human_plan(later, call.deadline, options)
+        return replace(inner, prepared=later, given=None if given is None else given[epochs:])
+    found = canonical_human_plan(later, call.deadline, options)
+    best = None if found is None else units.after_waiting(found, epochs)
     plan = best if given is None else given
     if plan is None:
         return replace(inner, predicts=False)
-    least = None if best is None else units.task.cost_of(units.after_waiting(best, epochs))
-    return replace(inner, given=units.after_waiting(plan, epochs), optimum=least)
+    return replace(inner, given=plan, optimum=None if best is None else units.task.cost_of(best))
 
 
 def _tied(call: Request, units: UnitSteps) -> list[HumanPlan]:

@@ -22,7 +22,8 @@ from serendipity.model.task.actions import GroundAction, apply
 from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.gate import is_bound
 from serendipity.model.task.passing import epoch_later
-from serendipity.model.task.plans import PlanEntry
+from serendipity.model.task.plans import PlanEntry, left_after
+from serendipity.model.task.plans_in_time import before_waiting, waited
 
 _Key = tuple[Hashable, ...]
 """A question: all options but limits; candidate goals and what was observed, where goals are not known."""
@@ -55,16 +56,18 @@ class _Known:
 
 
 class Rest(NamedTuple):
-    """The rest of a plan, and the discount that it was made with."""
+    """The rest of a plan, and the options that it was made with."""
 
     steps: tuple[Step, ...]
-    discount: Fraction
+    options: Options
 
 
 class SessionMemory:
     """Knowledge of the last few questions."""
 
     def __init__(self) -> None:
+        self.passed = 0
+        """Epochs that are over."""
         self._known: OrderedDict[_Key, _Known] = OrderedDict()
 
     def question(
@@ -120,7 +123,7 @@ class SessionMemory:
         known = next(reversed(self._known.values()))
         if not known.warm.is_sure:
             return None
-        return Rest(known.warm.steps, known.options.discount)
+        return Rest(known.warm.steps, known.options)
 
     def forget(self) -> None:
         """The questions are others now."""
@@ -134,8 +137,10 @@ class SessionMemory:
             now: the task from the present state.
             epochs: how many have passed, 1 or 0.
         """
-        for key, known in self._known.items():
-            self._known[key] = _moved(before, known, now, epochs)
+        self.passed += epochs
+        every, self._known = self._known, OrderedDict()
+        for (*_, about), known in every.items():
+            self.keep(about, _moved(before, known, now, epochs))
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,7 +210,7 @@ class RememberedQuestion:
             bound, is_best = _bound(answer, self.options), answer.status == "optimal"
             warm = WarmStart(answer.steps or (), answer.window, True, bound, is_best, answer.horizon)
             if answer.human_plan is not None:
-                plan = named_plan(task, answer.human_plan)
+                plan = named_plan(task, before_waiting(task, answer.human_plan, self.options.head_start))
         self.memory.keep(self.about, _Known(self.options, answer, warm, plan, self.visible))
 
 
@@ -291,9 +296,10 @@ def _moved(before: Task, known: _Known, task: Task, epochs: int) -> _Known:
     changed, it is as it was; otherwise it may be a plan by luck.
     """
     warm, options = known.warm, known.options
+    asleep = options.head_start
     now = [before.actions[step.action] for step in warm.steps if step.epoch == 1]
-    planned = _leads_to(before, now, task)
-    if (task.init, task.script) == (before.init, before.script) and not planned:
+    planned = bool(epochs or not asleep) and _leads_to(before, now, task)
+    if (task.init, task.script) == (before.init, before.script) and not planned and not (asleep and epochs):
         return known
     passed = 1 if planned else epochs
     steps = (Step(step.epoch - passed, step.action) for step in warm.steps if step.epoch > passed)
@@ -304,7 +310,10 @@ def _moved(before: Task, known: _Known, task: Task, epochs: int) -> _Known:
         is_best = warm.is_best and (warm.window is None or warm.window.start > 1)
         left = replace(left, bound=warm.bound - paid, is_best=is_best, horizon=last)
     plan = known.human_plan
-    return _Known(options, None, left, plan if plan is None else plan[passed:], known.visible)
+    if plan is not None and not asleep:
+        plan = plan[passed:] if all(isinstance(entry, str) for entry in plan) else left_after(plan, passed)
+    options = options.but(head_start=max(0, asleep - epochs))
+    return _Known(options, None, left, plan, known.visible)
 
 
 def _leads_to(before: Task, actions: list[GroundAction], task: Task) -> bool:
@@ -335,7 +344,7 @@ def _stays(task: Task, options: Options, warm: WarmStart) -> bool:
     """
     if options.max_cost is not None or options.human_model != "omniscient" or options.keep_prefix:
         return False
-    if is_bound(task, options):
+    if options.waiting_cost or is_bound(task, options):
         return False
     if not options.windowed:
         return options.mode != "communication" or not options.communication_weight
@@ -363,10 +372,11 @@ def is_better(rest: WarmStart, answer: Answer, task: Task, options: Options) -> 
         return False
     plan, window = [task.actions[i].name for i in answer.human_plan], rest.window
     steps = [(step.epoch, task.actions[step.action]) for step in rest.steps]
+    his = [(epoch, action) for epoch, action in steps if task.human in action.participants]
     cost = total(task.team_cost(action, options.discount) for _, action in steps)
+    cost += options.waiting_cost * waited(task, ((epoch, action.duration) for epoch, action in his))
     if options.max_cost is not None and cost > answer.cost:
         return False  # it may be more than is allowed
-    his = [(epoch, action) for epoch, action in steps if task.human in action.participants]
     announced = total(action.cost for _, action in his if action.name not in plan)
     paid = cost + options.communication_weight * announced
     if not options.windowed:

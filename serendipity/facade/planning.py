@@ -22,7 +22,7 @@ from serendipity.model.arguments import FUNCTION, expect_or_none
 from serendipity.model.keywords import listing
 from serendipity.model.numbers import Number
 from serendipity.model.resources.collection import no_collection
-from serendipity.model.task.gate import needs_time, refuse_time, require_metered
+from serendipity.model.task.gate import needs_time, require_metered
 from serendipity.model.task.plans import PlanEntry, checked_entries
 
 if TYPE_CHECKING:
@@ -203,6 +203,8 @@ def _begun(
     visible, deadline = options.pop("visible", None), options.pop("deadline", None)
     expect_or_none(FUNCTION, visible=visible)
     chosen = options_from(options)
+    if memory is not None:
+        chosen = chosen.but(head_start=max(0, chosen.head_start - memory.passed))
     solver = _solver(chosen)
     read = _unsure(chosen, given, said)
     call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
@@ -214,8 +216,6 @@ def _begun(
         call = replace(call, question=memory.question(chosen, visible, about, plan))
     if call.known is not None:
         return call, iter(((call, call.known),))
-    if memory is not None:
-        refuse_time(options=chosen)
     if unsure is not None:
         from serendipity.facade import scenarios
 

@@ -12,7 +12,7 @@ from serendipity.model.answers.result_parts import GapEntry, GoalAnswer, TiedAns
 from serendipity.model.numbers import figure, rounded
 from serendipity.model.task.execution import actions_of, participants, shares
 from serendipity.model.task.plans import PlanEntry, PlanTimes, TimedPlan
-from serendipity.model.task.plans_in_time import times_of, waited
+from serendipity.model.task.plans_in_time import cost_alone, times_of, waited
 
 
 def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> Result:
@@ -25,10 +25,7 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
     discount = Fraction(0) if options.mode == "assistance" else options.discount  # semantics 7
     human_cost = answer.baseline if answer.goals else None
     if answer.human_plan is not None:
-        human_cost = task.cost_of(answer.human_plan)
-        if options.waiting_cost:
-            times = times_of(task, answer.human_plan)
-            human_cost += options.waiting_cost * waited(zip(times.starts, times.durations, strict=True))
+        human_cost = cost_alone(task, answer.human_plan, options.waiting_cost)
     counted = {"expanded": answer.expanded, "generated": answer.generated}
     return Result(
         mode=options.mode,
@@ -130,7 +127,8 @@ def _agent_costs(task: Task, discount: Fraction, answer: Answer, waiting: Fracti
     costs = shares(task, actions_of(task, answer.steps), discount)
     if waiting:
         his = ((step.epoch, task.actions[step.action]) for step in answer.steps)
-        costs[task.human] += waiting * waited((t, a.duration) for t, a in his if task.human in a.participants)
+        begun = ((t, a.duration) for t, a in his if task.human in a.participants)
+        costs[task.human] += waiting * waited(task, begun)
     if answer.goals is not None and len(answer.goals) > 1:
         costs = dict.fromkeys(costs, Fraction(0))
         for goal in answer.goals:

@@ -21,8 +21,8 @@ from serendipity.model.task.actions import NOOP, GroundAction, apply, conflictin
 from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.facts import Facts
 from serendipity.model.task.passing import epoch_later, going_on, taken_up
-from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries
-from serendipity.model.task.plans_in_time import times_of
+from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries, left_after
+from serendipity.model.task.plans_in_time import cost_alone, times_of
 from serendipity.model.task.task import canonical_name, several
 
 SNAPSHOT: Final = "serendipity.session/1"
@@ -31,7 +31,8 @@ SNAPSHOT: Final = "serendipity.session/1"
 class Session:
     """A task in its present state, and the human's plan as far as it is known.
 
-    In time the script counts from the present state, too, and what has begun goes on (semantics 10.4).
+    In time the script counts from the present state, too, and what has begun goes on (semantics 10.4). A head
+    start counts from where the session has begun.
 
     Packed actions, finite-domain variables and projections are kept from call to call,
     also after an epoch has been executed or a fact has changed; a new goal packs anew.
@@ -60,8 +61,8 @@ class Session:
         """Whether it is not the caller who has said so."""
         self._is_outdated = False
         """Whether it is known not to be what a human would do who looks up."""
-        self._passed = 0
-        """Epochs that are over."""
+        self._up = Options(head_start=options.get("head_start", 0)).head_start
+        """The epoch with which the head start is over, as it was asked for last."""
         self._cancelled = threading.Event()
         self._memory = SessionMemory()
 
@@ -75,7 +76,10 @@ class Session:
 
     @property
     def human_plan(self) -> tuple[PlanEntry, ...] | None:
-        """The plan of the human, in time with epochs from now; None until it is given or predicted."""
+        """The plan of the human, behind what is left of a head start; None until it is given or predicted.
+
+        In time its epochs count from now, or from the end of the head start.
+        """
         return self._given if self._human_plan is None else named_plan(self.task, self._human_plan)
 
     @property
@@ -85,7 +89,7 @@ class Session:
         It can be finished, whatever the question from the present state would be answered with.
         """
         rest = self._memory.rest
-        return None if rest is None else named_steps(self.task, rest.discount, rest.steps)
+        return None if rest is None else named_steps(self.task, rest.options.discount, rest.steps)
 
     @listing
     def plan(self, **options: Unpack[SessionOptions]) -> Result:
@@ -118,9 +122,9 @@ class Session:
             raise UsageError(f"snapshot: {min(other)} is no plain value; give it to each call")
         task, chosen = self.task, options_from(dict(self._options))
         asked, begun = chosen.to_dict(), self._begun
-        time = {}
-        if begun.needs_time:
-            time = {"time": {"passed": self._passed, "going": going_on(begun, self._passed, task)}}
+        time, passed = {}, self._memory.passed
+        if begun.needs_time or passed:
+            time = {"time": {"passed": passed, "going": going_on(begun, passed, task)}}
         return {
             "schema": SNAPSHOT,
             "task": begun.digest,
@@ -155,7 +159,7 @@ class Session:
             asked: dict[str, Any] = {**snapshot["options"], **options}
             time, true = snapshot.get("time", {"passed": 0, "going": ()}), frozenset(snapshot["facts"])
             session = cls(taken_up(task, time["passed"], time["going"]) if task.needs_time else task, **asked)
-            session._begun, session._passed = task, time["passed"]
+            session._begun, session._memory.passed = task, time["passed"]
             session.set_goal(snapshot["goal"])
             session.change({fact: fact in true for fact in task.facts})
             session.follow(snapshot["human_plan"])
@@ -175,24 +179,28 @@ class Session:
         unknown = self.human_plan is None or (self._predicted and others)  # which predict the human otherwise
         return None if unknown else self._replayed
 
-    def _replayed(self) -> HumanPlan:
-        """The plan of the human, replayed.
+    def _replayed(self, head_start: int) -> HumanPlan:
+        """The plan of the human, replayed behind a head start.
 
         Raises:
             PlanError: the names that were given are no plan.
         """
         if self._human_plan is None:
             assert self._given is not None, "asked for a plan that nobody knows"
-            self._human_plan, self._given = self.task.plan_from_names(self._given), None
+            self._human_plan, self._given = self.task.plan_from_names(self._given, head_start), None
         return self._human_plan
 
     def _learn(self, answer: Result) -> None:
+        head_start = answer.options.head_start
+        self._up = self._memory.passed + head_start
         if answer.ties is not None or answer.goals is not None:
             return  # they are about several plans
         # Robots may have made another plan cheaper, and nothing helps beside this one.
         self._is_outdated = self._predicted and bool(answer.saving_alone) and not answer.opportunity
         if self.human_plan is None:
-            self._given, self._predicted = answer.human_entries, True
+            entries = answer.human_entries
+            self._given = left_after(entries, head_start) if entries and head_start else entries
+            self._predicted = True
 
     def cancel(self) -> None:
         """End the running call, from any thread; it returns the incumbent."""
@@ -220,13 +228,19 @@ class Session:
         self._take_up_rest()
 
     @property
+    def _asleep(self) -> int:
+        """What is left of the head start."""
+        return max(0, self._up - self._memory.passed)
+
+    @property
     def _in_time(self) -> bool:
         timed = any(not isinstance(entry, str) for entry in self._given or ())
-        return self.task.needs_time or timed or isinstance(self._human_plan, TimedPlan)
+        return self.task.needs_time or timed or isinstance(self._human_plan, TimedPlan) or self._asleep > 0
 
     def _execute_in_time(self, chosen: list[GroundAction], his: list[GroundAction]) -> None:
         self._keep_plan_if_it_works()
         before, plan, left = self.task, self._human_plan, list[tuple[int, str]]()
+        asleep = self._asleep
         if plan is not None:
             left = times_of(before, plan).timed(before.actions[i].name for i in plan)
         try:
@@ -238,9 +252,8 @@ class Session:
             on_plan = not his[0].joint and bool(left) and left[0][1] == his[0].name
             plan, left = plan if on_plan else None, left[1:]
         is_late = not his and bool(left) and left[0][0] == 1 and left[0][1] != NOOP
-        if not is_late:
-            left = [(epoch - 1, name) for epoch, name in left if epoch > 1]
-        self._human_plan, self._given = None, None if plan is None else tuple(left)
+        left_over = left if is_late or asleep else left_after(left, 1)
+        self._human_plan, self._given = None, None if plan is None else tuple(left_over)
         self._keep_plan_if_it_works()
 
     def change(self, facts: Mapping[str, bool]) -> None:
@@ -276,7 +289,6 @@ class Session:
 
     def _move(self, now: PreparedTask, *, epochs: int) -> None:
         before, self._prepared = self.task, now
-        self._passed += epochs
         self._memory.moved(before, self.task, epochs=epochs)
 
     def _follow(self, his: list[GroundAction]) -> None:
@@ -289,23 +301,29 @@ class Session:
         self._keep_plan_if_it_works()
 
     def _take_up_rest(self) -> None:
-        rest, task = self._memory.rest, self.task
+        rest, task, asleep = self._memory.rest, self.task, self._asleep
         if not self._predicted or self._human_plan is None or rest is None or not rest.steps:
             return
         plan: HumanPlan = tuple(step.action for step in rest.steps)
-        own = all(task.actions[i].participants == (task.human,) for i in plan)
-        if own and task.cost_of(plan) < task.cost_of(self._human_plan):
-            if task.needs_time:
-                steps = sorted(rest.steps)
-                plan = task.plan_from_names([(step.epoch, task.actions[step.action].name) for step in steps])
+        if (
+            any(task.actions[i].participants != (task.human,) for i in plan)
+            or min(rest.steps).epoch <= asleep
+        ):
+            return
+        if task.needs_time:
+            steps = sorted(rest.steps)
+            named = [(step.epoch - asleep, task.actions[step.action].name) for step in steps]
+            plan = task.plan_from_names(named, asleep)
+        price = rest.options.waiting_cost
+        if cost_alone(task, plan, price, asleep) < cost_alone(task, self._human_plan, price, asleep):
             self._human_plan = plan
 
     def _keep_plan_if_it_works(self) -> None:
         try:
             if self._human_plan is not None:
-                self._human_plan = self.task.variants_of(self._human_plan)
+                self._human_plan = self.task.variants_of(self._human_plan, self._asleep)
             elif self._given is not None:
-                self._replayed()
+                self._replayed(self._asleep)
         except PlanError:
             self._human_plan = self._given = None
 

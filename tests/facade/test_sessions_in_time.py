@@ -58,20 +58,21 @@ MODES: Final = ("serendipity", "composite", "individual")
     st.randoms(use_true_random=False),
 )
 def test_in_each_epoch_it_answers_what_brute_force_does(call: Call, dice: Random) -> None:
-    """Also in the middle of actions, with plans that are followed and others that are not."""
-    changes = {"head_start": 0, "waiting_cost": 0, "horizon": None}
-    options, asked = call.options.but(**changes), call.keywords(**changes)
+    """Also in the middle of actions and head starts, with plans that are followed and others that are not."""
+    options, asked = call.options.but(horizon=None), call.keywords(horizon=None)
     session = Session(call.task, human_plan=call.human_entries, **asked)
-    for _ in range(3):
+    for passed in range(3):
         try:
             answer = session.plan()
         except (UsageError, PlanError):
             return
-        moment, entries = session.task, session.human_plan
-        again = fresh(session, **asked)
+        moment, entries, left = session.task, session.human_plan, max(0, options.head_start - passed)
+        again = fresh(session, **{**asked, "head_start": left})
         assert [getattr(answer, name) for name in _FIGURES] == [getattr(again, name) for name in _FIGURES]
-        if moment.needs_time and entries is not None:
-            found = best(moment, options, moment.plan_from_names(entries))
+        assert session.plan().objective == answer.objective
+        if entries is not None:
+            plan = moment.plan_from_names(entries, left)
+            found = best(moment, options.but(head_start=left), plan)
             cost = None if found.cost is None else float(found.cost)
             assert (answer.status, answer.cost, answer.window) == (found.status, cost, found.window)
         try:
@@ -167,15 +168,56 @@ def test_what_is_left_of_the_last_answer() -> None:
     assert session.rest is None
 
 
-def test_a_session_says_what_it_does_not_know() -> None:
-    with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
-        Session(lane().task, head_start=2).plan()
+def test_a_head_start_is_over_when_so_many_epochs_are() -> None:
+    session = Session(lane().task, mode="composite", head_start=2)
+    assert session.plan().human_entries == ((3, "walk h"), (7, "pass h"))
+    assert session.human_plan == ((1, "walk h"), (5, "pass h")), "from the end of the head start"
+    session.execute([])
+    assert session.plan().options.head_start == 1
+    again = Session.restore(lane().task, json.loads(json.dumps(session.snapshot())))
+    for one in (session, again):
+        one.execute(["unlock r"])
+        assert one.human_plan == ((1, "walk h"), (5, "pass h"))
+        one.execute([])
+        assert one.human_plan == ((1, "walk h"), (5, "pass h")), "later by as much"
+        assert one.plan().options.head_start == 0
+
+
+def test_who_is_up_early_does_the_rest_when_they_planned_to() -> None:
+    ways = {"rise h": "bed -> up !bed @ 1", "eat h": "up -> fed @ 1"}
+    session = Session(task(init="bed", goal="fed", actions=ways), head_start=2)
+    assert session.plan().human_entries == ((3, "rise h"), (4, "eat h"))
+    session.execute(["rise h"])
+    assert session.human_plan == ((2, "eat h"),)
+    assert session.plan().human_entries == ((3, "eat h"),)
+
+
+def test_a_plan_that_is_given_begins_behind_the_head_start() -> None:
+    """The door is still closed now."""
+    door = task(goal="in", actions={"pass h": "open -> in"}).with_script(Script(facts=[(2, "open")]))
+    answer = serendipity.plan(door, human_plan=["pass h"], head_start=2)
+    assert answer.human_entries == ((3, "pass h"),)
+    session = Session(door, human_plan=["pass h"], head_start=2)
+    session.execute([])
+    assert session.plan().human_entries == ((2, "pass h"),)
+
+
+@pytest.mark.parametrize("early", [0, 1, 3])
+def test_going_on_with_something_is_no_waiting(early: int) -> None:
+    session = Session(lane().task, mode="individual", waiting_cost="0.5")
+    session.execute(["walk h"])
+    session.follow(None)
+    now = session.task
+    answer = serendipity.plan(now, mode="individual", waiting_cost="0.5", head_start=early)
+    assert answer.cost == answer.human_cost == 1 + 3 * 0.5
+    assert best(now, answer.options).cost == answer.cost
+    assert serendipity.verify(now, answer).verdict == "proved"
 
 
 @pytest.mark.long
 @given(calls_in_time(modes=(*MODES, "communication")), st.randoms(use_true_random=False))
 def test_answers_in_the_middle_of_actions_are_proved(call: Call, dice: Random) -> None:
-    changes = {"head_start": 0, "waiting_cost": 0, "horizon": None, "nobody_pays": False}
+    changes = {"horizon": None, "nobody_pays": False}
     options = {**call.keywords(), **changes, "preservation": "kernel", "human_plan": None}
     session = Session(call.task.with_goal(call.task.goal, Condition()), **options)
     for _ in range(3):
@@ -207,9 +249,7 @@ def test_what_takes_effect_at_other_times_shares_an_epoch() -> None:
 @pytest.mark.long
 @given(calls_in_time(modes=("serendipity", "composite")), st.randoms(use_true_random=False))
 def test_a_restored_session_goes_on_in_the_middle_of_actions(call: Call, dice: Random) -> None:
-    changes = {"head_start": 0, "waiting_cost": 0, "horizon": None}
-    options = {**call.keywords(), **changes}
-    options.pop("human_plan", None)
+    options = call.keywords(horizon=None)
     begun = call.task.with_goal(call.task.goal, Condition())
     session = Session(begun, **options)
     for _ in range(4):

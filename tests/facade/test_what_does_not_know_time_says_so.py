@@ -17,7 +17,7 @@ def plain() -> Task:
     return task(goal="done", actions={"do h": " -> done", "help r": " -> done"})
 
 
-def test_waiting_is_played_and_a_head_start_is_not_for_sessions() -> None:
+def test_waiting_and_a_head_start_are_played() -> None:
     waiting = serendipity.plan(plain(), human_plan=[(3, "do h")])
     assert (waiting.status, waiting.horizon) == ("optimal", 3)
     assert serendipity.verify(plain(), waiting).verdict == "proved"
@@ -26,8 +26,6 @@ def test_waiting_is_played_and_a_head_start_is_not_for_sessions() -> None:
     for answer in (waiting, begun):
         played = serendipity.simulate(plain(), answer)
         assert played.realised and [epoch.did for epoch in played.epochs] == [None, None, "do h"]
-    with pytest.raises(UsageError, match="time: waiting_cost and head_start"):
-        serendipity.Session(plain(), head_start=2).plan()
 
 
 def test_options_that_are_not_for_time_are_refused() -> None:

@@ -62,8 +62,9 @@ def solve(
     started = perf_counter()
     end = (deadline or Deadline()).within(options.time_limit, options.memory_limit)
     effort = Effort(encoding, solver, end.sooner(limits().end_share), method)
-    given: HumanPlan | None = None if human_plan is None else task.plan_from_names(human_plan)
-    if given is not None:
+    given: HumanPlan | None = None
+    if human_plan is not None:
+        given = task.plan_from_names(human_plan, options.head_start)
         options = options.but(ties="fixed")  # there is but one plan
     with no_collection():  # beside a large task a collection takes longer than a short limit
         try:

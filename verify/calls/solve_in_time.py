@@ -28,18 +28,17 @@ def solved_in_time(task: Task, options: Options, given: HumanPlan | None, effort
         raise UsageError("encoding: the paper's equations know no time; expected automata")
     units = unit_steps(task, effort.deadline, options.waiting_cost)
     if given is not None:  # it may come too late, or be in a bystander's way
-        late = units.after_waiting(units.plan(given), options.head_start)
+        late = units.plan(given, options.head_start)
         task.replay_alone(units.begun(late), strict=options.strict)
     plans = OptimalPlans(units.task, alone_of(units.task, effort.deadline, options))
     if given is None or options.mode == "individual":
         start = plans.alone.start
-        plan = None if start is None else next(plans.plans(start), None)
+        found = None if start is None else next(plans.plans(start), None)
+        plan = None if found is None else units.after_waiting(found, options.head_start)
     else:
-        plan = units.plan(given)
-    if plan is not None:
-        plan = units.after_waiting(plan, options.head_start)
-        if options.horizon is not None:
-            horizon_of(task, options, units.begun(plan))  # which says whether what it reaches lasts
+        plan = late
+    if plan is not None and options.horizon is not None:
+        horizon_of(task, options, units.begun(plan))  # which says whether what it reaches lasts
     call = ExaminedCall(units.task, options, plan, plans, effort)
     return _told(units, plan, to_result(answer(call)))
 

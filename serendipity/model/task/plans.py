@@ -166,6 +166,12 @@ PlanEntry = str | tuple[int, str]
 """An action's name, or the epoch in which it begins, from 1, and its name."""
 
 
+def left_after(entries: Iterable[PlanEntry], epochs: int) -> tuple[tuple[int, str], ...]:
+    """What is left of the entries of a plan with epochs when some of these have passed."""
+    timed = (entry for entry in entries if not isinstance(entry, str))
+    return tuple((epoch - epochs, name) for epoch, name in timed if epoch > epochs)
+
+
 def checked_entries(entries: Iterable[PlanEntry], what: str) -> tuple[PlanEntry, ...]:
     """The entries of a plan that is given: all of them names, or all of them with epochs.
 

@@ -1,6 +1,7 @@
 """Human plans beside a script, or with waiting in them: read from names, and replayed (semantics 10)."""
 
 from collections.abc import Iterable
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from serendipity.model.errors import PlanError
@@ -13,19 +14,34 @@ if TYPE_CHECKING:
     from serendipity.model.task.task import HumanPlan, Task
 
 
-def plan_in_time(task: "Task", entries: Iterable[PlanEntry]) -> "HumanPlan":
+def plan_in_time(task: "Task", entries: Iterable[PlanEntry], head_start: int = 0) -> "HumanPlan":
     """The human plan that entries write down, which reaches the goal; waiting without an epoch is skipped.
+
+    Args:
+        task: the task.
+        entries: the plan; its epochs count from the end of the head start.
+        head_start: epochs of waiting before it.
 
     Raises:
         PlanError: naming the first step that is unknown, not theirs, begins too early or can't be done, or
             saying that the goal is missed.
     """
     human = _Human(task)
+    human.wait_until(head_start)
     for step, entry in enumerate(entries, start=1):
         epoch, name = (None, entry) if isinstance(entry, str) else entry
-        human.step(step, epoch, canonical_name(name))
+        human.step(step, None if epoch is None else epoch + head_start, canonical_name(name))
     task.require_goal(human.course.state, tuple(human.actions))
-    return without_gaps(task, TimedPlan(human.actions, human.starts, human.course.epoch))
+    whole = TimedPlan(human.actions, human.starts, human.course.epoch)
+    return before_waiting(task, whole, head_start)
+
+
+def before_waiting(task: "Task", plan: "HumanPlan", epochs: int) -> "HumanPlan":
+    """A human plan without some epochs of waiting that it begins with; a plain tuple where there is none."""
+    plain = tuple(plan)
+    starts, length = tuple(start - epochs for start in task.starts_of(plan)), task.epochs_of(plan) - epochs
+    waits = (starts, length) != (task.starts_of(plain), task.epochs_of(plain))
+    return TimedPlan(plan, starts, length) if waits else plain
 
 
 def times_of(task: "Task", plan: "HumanPlan") -> PlanTimes:
@@ -34,10 +50,22 @@ def times_of(task: "Task", plan: "HumanPlan") -> PlanTimes:
     return PlanTimes(task.starts_of(plan), durations, task.epochs_of(plan))
 
 
-def waited(begun: Iterable[tuple[int, int]]) -> int:
-    """Epochs idle before the last of what somebody begins (epochs and durations; semantics 10.2)."""
-    times = sorted(begun)
-    return times[-1][0] - 1 - sum(duration for _, duration in times[:-1]) if times else 0
+def cost_alone(task: "Task", plan: "HumanPlan", waiting_cost: Fraction, head_start: int = 0) -> Fraction:
+    """What the human pays for a plan behind a head start, waiting included."""
+    starts = (start + head_start for start in task.starts_of(plan))
+    begun = zip(starts, (task.actions[i].duration for i in plan), strict=True)
+    return task.cost_of(plan) + waiting_cost * waited(task, begun)
+
+
+def waited(task: "Task", begun: Iterable[tuple[int, int]]) -> int:
+    """Epochs in which the human is at nothing and still begins something later (semantics 10.2).
+
+    Args:
+        task: the task, which says what they are at in the beginning.
+        begun: what they begin: epochs and durations.
+    """
+    times, busy = sorted(begun), task.script.busy(task.human)
+    return times[-1][0] - 1 - busy - sum(duration for _, duration in times[:-1]) if times else 0
 
 
 def replayed(task: "Task", plan: "HumanPlan", *, strict: bool = False) -> list[frozenset[int]]:
@@ -88,13 +116,6 @@ def _done(task: "Task", plan: "HumanPlan", *, strict: bool = False) -> "_Human":
     return human
 
 
-def without_gaps(task: "Task", plan: TimedPlan) -> "HumanPlan":
-    """The plan; a plain tuple where the human waits nowhere."""
-    plain = tuple(plan)
-    waits = (plan.starts, plan.length) != (task.starts_of(plain), task.epochs_of(plain))
-    return plan if waits else plain
-
-
 class _Human:
     """The human alone, at a plan."""
 
@@ -104,8 +125,7 @@ class _Human:
         self.states = [task.init]
         self.actions: list[int] = []
         self.starts: list[int] = []
-        deeds = (deed for deed in task.script.deeds if task.human in deed.variants[0].participants)
-        self._busy = max((deed.end for deed in deeds), default=0)  # in the middle of something
+        self._busy = task.script.busy(task.human)
         self.wait_until(self._busy)
 
     def step(self, step: int, epoch: int | None, name: str) -> None:

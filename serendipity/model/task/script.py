@@ -124,6 +124,10 @@ class Timeline:
         """What bystanders begin in an epoch."""
         return self._begun.get(epoch, ())
 
+    def busy(self, agent: int) -> int:
+        """Epochs at first in which somebody, who is no bystander, goes on with what they are at."""
+        return max((deed.end for deed in self.deeds if agent in deed.variants[0].participants), default=0)
+
     def moments(self) -> Iterator[GroundAction]:
         """What it changes as actions of one epoch, for what asks only which facts may change how."""
         for epoch, (true, false) in sorted(self._changes.items()):

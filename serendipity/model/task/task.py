@@ -15,7 +15,7 @@ from serendipity.model.task.course import first_unmet
 from serendipity.model.task.names import ActionNames
 from serendipity.model.task.names import canonical_name as canonical_name
 from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries
-from serendipity.model.task.plans_in_time import plan_in_time, replayed
+from serendipity.model.task.plans_in_time import plan_in_time, replayed, times_of
 from serendipity.model.task.script import UNDER_WAY, Script, Timeline, moments, resolved
 from serendipity.model.task.variables import Variable, find_variables
 from serendipity.model.telling import Grid, Line, Told, team
@@ -253,12 +253,16 @@ class Task(Told):
         """Whether waiting of the human is called so, in some case at least."""
         return name == NOOP or (name, self.human) in self.waiting
 
-    def plan_from_names(self, names: Iterable[PlanEntry]) -> HumanPlan:
+    def plan_from_names(self, names: Iterable[PlanEntry], head_start: int = 0) -> HumanPlan:
         """The human plan that a list of action names writes down.
 
         Waiting is skipped, unless each action comes with the epoch in which it begins: then what is left
         between them is waiting, and a last ``noop`` may say until when.  A name shared by several actions
         is read as the first that is applicable there.
+
+        Args:
+            names: the list.
+            head_start: epochs of waiting before the plan, which are no part of it.
 
         Raises:
             PlanError: naming the first step that is unknown, not theirs, or not applicable,
@@ -268,7 +272,7 @@ class Task(Told):
         entries = checked_entries(names, "human plan")
         untimed = [entry for entry in entries if isinstance(entry, str)]
         if self.needs_time or len(untimed) < len(entries):
-            return plan_in_time(self, entries)
+            return plan_in_time(self, entries, head_start)
         plan: list[int] = []
         state = set(self.init)  # moved in place: such plans may be very long
         known: dict[str, tuple[int, ...]] = {}
@@ -291,15 +295,17 @@ class Task(Told):
         self.require_goal(state, tuple(plan))
         return tuple(plan)
 
-    def variants_of(self, plan: HumanPlan) -> HumanPlan:
+    def variants_of(self, plan: HumanPlan, head_start: int = 0) -> HumanPlan:
         """The same human plan from this initial state: each action in the variant that is applicable then.
+
+        ``head_start`` is as in :meth:`plan_from_names`.
 
         Raises:
             PlanError: a step is not applicable, or the goal is missed.
         """
         names = [self.actions[i].name for i in plan]
         if self.needs_time or isinstance(plan, TimedPlan):
-            return plan_in_time(self, zip(self.starts_of(plan), names, strict=True))
+            return plan_in_time(self, times_of(self, plan).timed(names), head_start)
         return self.plan_from_names(names)
 
     def names(self, plan: HumanPlan) -> frozenset[str]:

@@ -75,19 +75,19 @@ class UnitSteps:
             (*goal.positive, *(fact for fact in self.task.goal.positive if fact >= own)), goal.negative
         )
 
-    def plan(self, plan: HumanPlan) -> HumanPlan:
-        """A human plan of the original, one action for each epoch, waiting included."""
+    def plan(self, plan: HumanPlan, head_start: int = 0) -> HumanPlan:
+        """A human plan of the original, one action for each epoch, waiting included; some before it, too."""
         found = [*self.busy]
         for action, start in zip(plan, self.original.starts_of(plan), strict=True):
-            found += [self.waiting] * (start - 1 - len(found))
+            found += [self.waiting] * (head_start + start - 1 - len(found))
             found += self.chains[action]
-        found += [self.resting] * (self.original.epochs_of(plan) - len(found))
+        found += [self.resting] * (head_start + self.original.epochs_of(plan) - len(found))
         return tuple(found)
 
     def after_waiting(self, plan: HumanPlan, epochs: int) -> HumanPlan:
-        """A plan in single epochs, with some of waiting before it."""
-        acts = any(action in self._begins for action in plan)
-        return (self.waiting if acts else self.resting,) * epochs + plan
+        """A plan in single epochs from some epochs on, with waiting before it once the human is free."""
+        busy, acts = self.busy[:epochs], any(action in self._begins for action in plan)
+        return busy + (self.waiting if acts else self.resting,) * (epochs - len(busy)) + plan
 
     def begun(self, plan: HumanPlan) -> HumanPlan:
         """The plan of the original that a plan in single epochs is."""

@@ -27,7 +27,8 @@ class OwnStep(NamedTuple):
 class Alone:
     """Optimal costs of the human alone, for all moments that were asked for.
 
-    Epochs are those that are over; moments are ones in which the human is free. Robots may be at something.
+    Epochs are those that are over; moments are ones in which the human is free, or the first ones. Robots may
+    be at something.
 
     Args:
         task: the task.
@@ -60,7 +61,7 @@ class Alone:
         passed = 0
         now: Moment | None = moment
         while now is not None:
-            if self.world.reached(now):
+            if self._is_over(now, epoch + passed):
                 return (Fraction(0), passed, 0)
             if self._is_calm(now, epoch + passed):
                 return None
@@ -70,7 +71,7 @@ class Alone:
 
     def _least(self, moment: Moment, epoch: int) -> Worth | None:
         """The same with an action at least; None where the goal holds: they have nothing to do."""
-        if self.world.reached(moment):
+        if self._is_over(moment, epoch):
             return None
         if epoch >= self.world.settled:
             if moment not in self._settled:
@@ -85,6 +86,10 @@ class Alone:
         if worth is None:
             return []
         return [way for way in self.ways(moment, epoch) if _plus(way.price, self._rest(way)) == worth]
+
+    def _is_over(self, moment: Moment, epoch: int) -> bool:
+        """Whether the human has what they want, and is at nothing."""
+        return self.world.reached(moment) and not self.world.at_work(moment, epoch + 1)
 
     def _is_calm(self, moment: Moment, epoch: int) -> bool:
         """Whether nothing happens from a moment on unless the human does it."""
@@ -107,7 +112,8 @@ class Alone:
     def waited(self, moment: Moment, epoch: int) -> OwnStep | None:
         """An epoch of waiting, if something happens meanwhile."""
         later = None if self._is_calm(moment, epoch) else self.world.alone(moment, epoch + 1)
-        return None if later is None else OwnStep(None, (self.waiting_cost, 1, 0), later, epoch + 1)
+        paid = Fraction(0) if self.world.at_work(moment, epoch + 1) else self.waiting_cost
+        return None if later is None else OwnStep(None, (paid, 1, 0), later, epoch + 1)
 
     def plans(self, moment: Moment, epoch: int) -> Iterator[tuple[tuple[int, ...], tuple[int, ...], int]]:
         """All plans of the worth of a moment, the canonical one first: actions, when they begin, the end.

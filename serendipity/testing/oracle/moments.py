@@ -137,13 +137,20 @@ class World:
         """Whether an agent is at something."""
         return any(agent in self._who[i] for i, _ in moment.going)
 
+    def at_work(self, moment: Moment, epoch: int) -> bool:
+        """Whether the human goes on with something in an epoch: what has begun before it all is a deed."""
+        deeds = self.task.script.begun(epoch) if epoch <= self.settled else ()
+        begun = any(self.task.human in deed.variants[0].participants for deed in deeds)
+        return begun or self.busy(moment, self.task.human)
+
     def others_busy(self, moment: Moment) -> bool:
         """Whether a robot is at something."""
         return any(self.busy(moment, robot) for robot in self.task.robots)
 
     def plan_is_over(self, moment: Moment) -> bool:
         """Whether nobody but bystanders is at anything."""
-        return all(i >= len(self.task.actions) for i, _ in moment.going)
+        people = self.task.script.people
+        return all(not people.isdisjoint(self._who[i]) for i, _ in moment.going)
 
     def _forced(self, moment: Moment, epoch: int) -> Going | None:
         """What goes on or is begun by bystanders in an epoch; None where something of it can't be."""

@@ -53,6 +53,7 @@ class Plans:
         notices = Notices(task, human_plan) if options.noticed and human_plan is not None else None
         self.alone = Alone(task, options.waiting_cost, strict=options.strict, notices=notices)
         self.world = self.alone.world
+        self._busy = task.script.busy(task.human)
         self.length = 0 if human_plan is None else task.epochs_of(human_plan)
         self.robots_goal = bool(task.robot_goal) and options.mode != "individual"
         self.horizon = self._horizon()
@@ -115,7 +116,7 @@ class Plans:
             return Fraction(0)
         last = self.task.starts_of(plan)[-1] + self.task.actions[plan[-1]].duration - 1
         waits = last - sum(self.task.actions[i].duration for i in plan)
-        return self.task.cost_of(plan) + self.options.waiting_cost * waits
+        return self.task.cost_of(plan) + self.options.waiting_cost * (waits - self._busy)
 
     def optimum_alone(self) -> tuple[Fraction, int] | None:
         """Cost and number of actions of an optimal plan of the human alone."""
@@ -125,7 +126,8 @@ class Plans:
         if worth is None:
             return None
         cost, _, actions = worth
-        return (cost + self.options.waiting_cost * early if actions else cost, actions)
+        waits = max(0, early - self._busy)
+        return (cost + self.options.waiting_cost * waits if actions else cost, actions)
 
     def price(self, i: int) -> Label:
         """Objective, cost and count of one action: semantics 1 and Def. 3.2."""
@@ -178,14 +180,17 @@ class Plans:
         last = max(epoch, self.world.settled) if horizon == "inf" else int(horizon)
         while epoch < last:
             if horizon == "inf":
-                yield from self._goal_labels(layer)
+                yield from self._goal_labels(layer, epoch)
             epoch += 1
             layer = advance(layer, self._moves(phase, epoch))
         if horizon == "inf":
             layer = _closure(layer, self._moves(phase, epoch + 1))
-        yield from self._goal_labels(layer)
+        yield from self._goal_labels(layer, epoch)
 
-    def _goal_labels(self, layer: Layer[Moment]) -> Iterator[Label]:
+    def _goal_labels(self, layer: Layer[Moment], epoch: int) -> Iterator[Label]:
+        deeds = () if epoch else self.task.script.begun(1)
+        if any(deed.agent not in self.task.script.people for deed in deeds):
+            return  # somebody is in the middle of something
         for moment, labels in layer.items():
             if self._done(moment):
                 yield from (plus(label, self._left(moment)) for label in labels if self.pays(label))
@@ -237,7 +242,7 @@ class Plans:
                 step = (0, 0, 0, 0, self._disturbing.by(moment, chosen))
             for i in chosen:
                 step = plus(step, self._priced(i))
-            waits = not his and not self.world.busy(moment, self.task.human)
+            waits = not his and not self.world.at_work(moment, epoch)
             for then, paid in self._waited(onward, waits=waits):
                 steps.setdefault(then, []).append(plus(step, paid))
         for then, labels in steps.items():
@@ -287,7 +292,8 @@ class Plans:
         now: Moment | None = Moment(self.task.init)
         for epoch in range(1, self.length + 1):
             now = None if now is None else self.world.alone(now, epoch, self._starts.get(epoch))
-        if now is None or not self.world.plan_is_over(now) or not holds(self.task.goal, now.state):
+        at_it = now is None or self.world.busy(now, self.task.human)
+        if now is None or at_it or not holds(self.task.goal, now.state):
             raise PlanError("human plan: it can't be done, or misses the goal")
         last = self.length if self.horizon in (None, "inf") else int(self.horizon or 0)
         end = self.world.idled(now, self.length, last)
