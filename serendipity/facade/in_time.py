@@ -84,18 +84,11 @@ class ScenariosInTime:
         require_few_epochs(self._call.task)
         return unit_steps(self._call.task, self._call.deadline)
 
-    def canonical(self, goal: Condition) -> HumanPlan | None:
-        """The human's canonical plan to a goal (semantics 10.3), or None where they have none."""
-        found = canonical_human_plan(self._aimed(goal), self._call.deadline, self._call.options)
-        return None if found is None else self._units.begun(found)
-
     def optimal(self, goal: Condition) -> Iterator[HumanPlan]:
         """Their optimal plans to a goal that differ in names."""
-        found = optimal_plans_in_time(self._aimed(goal), self._call.deadline, self._call.options)
+        aimed = PreparedTask(self._units.task.with_goal(self._units.goal(goal)))
+        found = optimal_plans_in_time(aimed, self._call.deadline, self._call.options)
         return map(self._units.begun, found)
-
-    def _aimed(self, goal: Condition) -> PreparedTask:
-        return PreparedTask(self._units.task.with_goal(self._units.goal(goal)))
 
     def answers(self, candidates: Sequence[Candidate]) -> Iterator[Answer]:
         """Answers over scenarios (semantics 11).

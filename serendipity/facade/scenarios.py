@@ -11,7 +11,7 @@ from itertools import islice
 from typing import Final, NamedTuple
 
 from search import canonical_human_plan, first_answer, optimal_human_plans
-from search.modes.goals import Explainer, Likelihood
+from search.modes.goals import Explainer
 from search.modes.scenarios import Candidate
 from serendipity.facade import ties
 from serendipity.facade.call import Request
@@ -25,6 +25,7 @@ from serendipity.model.errors import LIMITS, LimitReachedError, limit_reason
 from serendipity.model.numbers import Number
 from serendipity.model.task.gate import needs_time
 from serendipity.model.task.plans import TimedPlan
+from serendipity.recognition.in_time import explained_in_time
 from serendipity.recognition.library import LibraryGiven, LibraryPlan, plan_library
 from serendipity.recognition.recognise import (
     CandidateGoal,
@@ -35,6 +36,7 @@ from serendipity.recognition.recognise import (
     noise_from,
     observed_actions,
     posterior,
+    refuse_noise,
     strictness,
 )
 
@@ -134,7 +136,7 @@ def _require_answerable(call: Request, unsure: Unsure) -> None:
     if unsure.goals is not None and len(unsure.goals) > 1:
         _refuse(call.task, call.options)
     if unsure.observed and call.task.needs_time:
-        raise UsageError("observed: in time the posterior is not known, only the goals' priors")
+        refuse_noise(unsure.noise)
     if unsure.observed and call.options.ties == "watched":
         raise UsageError("ties: 'watched' goes without observed: each goal's plans are all its optimal ones")
 
@@ -201,7 +203,7 @@ def _by_goals(
         LimitReachedError: a limit came first.
     """
     noise = unsure.noise
-    recognition, plans = _recognised(call, in_time, candidates, unsure.observed, unsure.beta, noise)
+    recognition, plans = _recognised(call, candidates, unsure.observed, unsure.beta, noise)
     considered = _considered(candidates, recognition, plans)
     shared = _shared(call, in_time, considered) if call.options.ties == "watched" else considered
     return shared, None if noise else recognition
@@ -244,7 +246,6 @@ def _optimal_plans(call: Request, in_time: ScenariosInTime, goal: Condition) -> 
 
 def _recognised(
     call: Request,
-    in_time: ScenariosInTime,
     candidates: Sequence[CandidateGoal],
     observed: tuple[str, ...],
     beta: float,
@@ -258,10 +259,11 @@ def _recognised(
     task, deadline = call.task, call.deadline
     conditions = [candidate.goal for candidate in candidates]
     if task.needs_time:
-        plans = [in_time.canonical(goal) for goal in conditions]
-        costs = [None if plan is None else task.cost_of(plan) for plan in plans]
-        known = [Likelihood(cost, None, plan) for cost, plan in zip(costs, plans, strict=True)]
-        return posterior(task, candidates, observed, known, beta), plans
+        found = explained_in_time(task, conditions, observed, call.options, deadline)
+        recognition = posterior(task, candidates, observed, found, beta)
+        if not recognition.explained:
+            found = explained_in_time(task, conditions, (), call.options, deadline)
+        return recognition, [one.plan for one in found]
     explainer = Explainer(call.prepared, conditions)
     found = explainer.explain(observed, deadline)
     read = explainer.readings(observed, noise.prices(beta), deadline) if noise else None

@@ -14,7 +14,7 @@ from typing import Any
 
 from search import PreparedTask
 from search.modes.goals import Explainer, Likelihood, Prices, Reading
-from serendipity.model import Condition, Deadline, InputError, Task, UsageError, exact
+from serendipity.model import Condition, Deadline, InputError, Options, Task, UsageError, exact
 from serendipity.model.answers.recognition import Errors, GoalPosterior, Recognition
 from serendipity.model.arguments import LIST, TASK_IN_TIME, Kind, expect, expect_or_none
 from serendipity.model.numbers import Number, as_written
@@ -26,6 +26,7 @@ from serendipity.model.task.task import canonical_name, several
 from serendipity.model.task.whole_actions import in_whole_actions
 from serendipity.pddl.parsing.files import read_text
 from serendipity.pddl.parsing.lists import FileItem, actions_in, json_items, lines_of, starts_json
+from serendipity.recognition.in_time import explained_in_time
 
 GoalsGiven = str | PathLike[str] | Iterable[Mapping[str, Any]]
 """A file of goals, or its JSON form: ``[{"name": ..., "goal": [literals], "prior": ...}]``."""
@@ -249,19 +250,23 @@ def recognise(
 
     Raises:
         InputError: a file or an entry in it is wrong; it says where, and what was expected.
-        UsageError: ``beta`` or a limit is not a number of at least 0, or there is a script.
+        UsageError: ``beta`` or a limit is not a number of at least 0, or there is noise beside a script.
         LimitReachedError: a limit came first.  A posterior takes the costs of all goals, so
             there is none then.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
     expect(TASK_IN_TIME, task=task)
-    if task.script:
-        raise UsageError("time: the task has a script, beside which it is not known what an observation says")
-    task = in_whole_actions(task) if task.needs_time else task
+    task = in_whole_actions(task) if task.needs_time and not task.script else task
     candidates = candidate_goals(task, goals)
+    conditions = [candidate.goal for candidate in candidates]
     names = observed_actions(task, observed)
     noisy, strict = noise_from(noise), strictness(beta)
-    explainer = Explainer(PreparedTask(task), [candidate.goal for candidate in candidates])
+    if task.script:
+        refuse_noise(noisy)
+        with no_collection():
+            found = explained_in_time(task, conditions, names, Options(), limits)
+        return posterior(task, candidates, names, found, strict)
+    explainer = Explainer(PreparedTask(task), conditions)
     with no_collection():  # beside a large task a collection takes longer than a short deadline
         found = explainer.explain(names, limits)
         read = explainer.readings(names, noisy.prices(strict), limits) if noisy else None
@@ -277,6 +282,16 @@ def noise_from(given: Noise | str | None) -> Noise | None:
     noise = Noise.parse(given) if isinstance(given, str) else given
     expect_or_none(Kind("Noise, or a text", lambda value: isinstance(value, Noise)), noise=noise)
     return noise if noise and (noise.miss or noise.wrong) else None
+
+
+def refuse_noise(noise: Noise | None) -> None:
+    """Return if nothing may have been missed or seen wrongly.
+
+    Raises:
+        UsageError: it may.
+    """
+    if noise:
+        raise UsageError("noise: where a script or durations count, observations are taken as they are")
 
 
 def strictness(beta: Number) -> float:

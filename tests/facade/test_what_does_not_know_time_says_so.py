@@ -43,8 +43,8 @@ def test_options_of_time_are_written_down_only_where_they_are_in_force() -> None
 def test_scenarios_in_time_refuse_what_is_not_settled() -> None:
     one, goals = slow(), [{"name": name, "goal": ["done"]} for name in "ab"]
     plans = [{"probability": 1, "plan": [[epoch, "do h"]]} for epoch in (1, 2)]
-    with pytest.raises(UsageError, match="observed: in time the posterior is not known"):
-        serendipity.plan(one, goals=goals, observed=["do h"])
+    with pytest.raises(UsageError, match="noise: where a script or durations count"):
+        serendipity.plan(one, goals=goals, observed=["do h"], noise="miss=0.1")
     for name, value in {"head_start": 1, "waiting_cost": 1, "suffix": "subplan"}.items():
         with pytest.raises(UsageError, match=f"{name}: in time, with several goals or plans, only"):
             serendipity.plan(one, plans=plans, **{name: value})

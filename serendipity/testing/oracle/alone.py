@@ -61,7 +61,7 @@ class Alone:
         passed = 0
         now: Moment | None = moment
         while now is not None:
-            if self._is_over(now, epoch + passed):
+            if self.is_over(now, epoch + passed):
                 return (Fraction(0), passed, 0)
             if self._is_calm(now, epoch + passed):
                 return None
@@ -71,7 +71,7 @@ class Alone:
 
     def _least(self, moment: Moment, epoch: int) -> Worth | None:
         """The same with an action at least; None where the goal holds: they have nothing to do."""
-        if self._is_over(moment, epoch):
+        if self.is_over(moment, epoch):
             return None
         if epoch >= self.world.settled:
             if moment not in self._settled:
@@ -87,7 +87,7 @@ class Alone:
             return []
         return [way for way in self.ways(moment, epoch) if _plus(way.price, self._rest(way)) == worth]
 
-    def _is_over(self, moment: Moment, epoch: int) -> bool:
+    def is_over(self, moment: Moment, epoch: int) -> bool:
         """Whether the human has what they want, and is at nothing."""
         return self.world.reached(moment) and not self.world.at_work(moment, epoch + 1)
 
