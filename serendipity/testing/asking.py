@@ -20,8 +20,10 @@ def call_of(call: PlanCall) -> Call:
         UsageError: an option has no legal value.
         PlanError: the plan that is given is none.
     """
-    plan = None if call.human_plan is None else call.task.plan_from_names(call.human_plan)
-    return Call(call.task, options_from(call.keywords()), plan)
+    options, plan = options_from(call.keywords()), None
+    if call.human_plan is not None:
+        plan = call.task.plan_from_names(call.human_plan, options.head_start)
+    return Call(call.task, options, plan)
 
 
 def written(call: Call) -> PlanCall:

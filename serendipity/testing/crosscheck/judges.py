@@ -25,7 +25,8 @@ def may_be_refused(call: PlanCall) -> bool:
     """True if an option has no legal value, a plan does not work, or a horizon is missing or too short."""
     try:
         options = options_from(call.keywords())
-        given = None if call.human_plan is None else call.task.plan_from_names(call.human_plan)
+        told, early = call.human_plan, options.head_start
+        given = None if told is None else call.task.plan_from_names(told, early)
     except (UsageError, PlanError):
         return True
     if needs_time(call.task, options=options, plan=given):
