@@ -107,7 +107,7 @@ class SearchContext:
             bound = human.projection(self.deadline)
         # What it finds serves calls that weigh otherwise.
         memory = human.memory(strict=self.options.strict)
-        if packed.in_time and may_stride(packed):
+        if packed.in_time and may_stride(packed, strict=memory.strict):
             alone = human.alone(self.deadline)
             nearest = bound if alone is None else NearestGoal(human.projection(self.deadline), alone)
             return StridingPlanner(packed, packed.goal, nearest, memory, self.deadline, prices=self.weights)

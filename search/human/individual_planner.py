@@ -35,7 +35,7 @@ class Memory:
         strict: strict interference, which matters beside bystanders.
 
     Attributes:
-        weight: the same.
+        weight, strict: the same.
         lookup: the human's own operators.
         known: optimal keys by state.
         at_least: what optimal keys are not below.
@@ -49,6 +49,7 @@ class Memory:
     ) -> None:
         own = own_weights(packed)
         self.weight = weight or (lambda op: own[op.cost])
+        self.strict = strict
         self.lookup = Lookup(packed.own_index, self.weight)
         if packed.clock_bit:
             self.lookup = BesideScript(packed, self.weight, strict=strict)

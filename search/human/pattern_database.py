@@ -18,7 +18,7 @@ from typing import Final, NamedTuple
 from search.engine.shortest_paths import backward
 from search.packed.cost_vector import INFINITE_KEY, own_actions, own_weights
 from search.packed.operator_index import OperatorIndex, most_asked
-from search.packed.operators import Signature, set_by
+from search.packed.operators import Signature, forms_of, set_by
 from search.packed.packed_task import PackedGoal, PackedTask
 from serendipity.model.resources.deadline import Deadline
 
@@ -197,12 +197,14 @@ def _tractable(packed: PackedTask, fields: Sequence[int]) -> list[int]:
 def alone_projection(packed: PackedTask, deadline: Deadline) -> PatternDatabase | None:
     """Costs to the human's goal alone in all that they change themselves; None where that is too much.
 
-    What a script changes, and how far actions have come, is left out.  A state that is not listed is one that
+    What a script changes alone, and how far actions have come, is left out; what it changes of theirs, or
+    others who are at something, may come at any time, for nothing.  A state that is not listed is one that
     they don't come by without others: nothing is known of it.
     """
     fields = [field for field in packed.fields if field & set_by(packed.own_forms) & packed.lasting]
     whole = _tractable(packed, fields) == fields
-    graph = _graph(packed, fields, _MAX_STATES if whole else _FEW_STATES, deadline, packed.own_forms)
+    free = forms_of(packed.scripted, packed.all_ones, deadline)
+    graph = _graph(packed, fields, _MAX_STATES if whole else _FEW_STATES, deadline, packed.own_forms, free)
     return None if graph is None else own_projection(packed, graph, deadline)
 
 
@@ -212,18 +214,21 @@ def _graph(
     most: int,
     deadline: Deadline,
     forms: Iterable[Signature] | None = None,
+    free: Iterable[Signature] = (),
 ) -> Projected | None:
     """The human's graph over some fields; None where it has too many states.
 
     Args:
         most: states that it may have.
         forms: of their actions; None for all of them.
+        free: of what comes for nothing.
     """
     weights = own_weights(packed)
     forms = (*packed.own_forms, *packed.joint_forms) if forms is None else forms
     # The cheapest last, so that it stays where forms look alike.
     dearest_first = sorted(forms, key=lambda form: -form.cost)
     weighed = [(form, weights[form.cost], packed.is_interaction(form)) for form in dearest_first]
+    weighed += ((form, 0, True) for form in free)
     mask = sum(fields)
     return _explore(mask, packed.init & mask, _transitions(fields, weighed, deadline), most, deadline)
 

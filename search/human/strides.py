@@ -1,23 +1,26 @@
 """The human alone in time, from action to action: epochs in which nothing can begin cost nothing.
 
-While the human is alone, nobody but the script changes what the script changes.  So they lose nothing where
-they begin an action as soon as it can be done from start to end: whatever they do later they may do as early,
-and wait.  Being there at an earlier epoch, at no higher cost, is as good for the same reason.  So a search
-has no node for epochs of walks, or of waiting, and keeps few of those that differ in their epochs alone.
+They lose nothing where they begin an action as soon as it can be done from start to end: whatever they do
+later they may do as early, and wait.  Where others change or ask for what the action touches, it may also
+begin when that makes a difference (:mod:`search.human.agenda`).  Being there at an earlier epoch, at no
+higher cost, is as good for the same reason.  So a search has no node for epochs of walks, or of waiting,
+and keeps few of those that differ in their epochs alone.
 """
 
 from bisect import bisect_right
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from heapq import heappop, heappush
-from itertools import chain, count
+from itertools import count
 from typing import NamedTuple
 
+from search.human.agenda import Agenda, Course
 from search.human.individual_planner import FoundPlan, IndividualPlanner, TakenOverError
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due, as_one
 from search.packed.operator_index import OperatorIndex, by_most_asked
-from search.packed.operators import Operator, set_by
+from search.packed.operators import Operator, set_by, union
 from search.packed.packed_task import PackedGoal, PackedTask
 
 
@@ -25,11 +28,11 @@ class Stride(NamedTuple):
     """An action of the human's from its first epoch to its last.
 
     Attributes:
-        need_mask, need, forbidden: what it asks for at first of what the script does not change.
+        need_mask, need, forbidden: what it asks for at first of what nobody else changes meanwhile.
         keep, put: what it does.
         weight: of all its epochs.
         ops: one for each.
-        script: from which of its epochs on, for how many, it asks what of the script's fields.
+        script: from which of its epochs on, for how many, it asks what of fields that are known by epoch.
     """
 
     need_mask: int
@@ -38,66 +41,8 @@ class Stride(NamedTuple):
     keep: int
     put: int
     weight: int
-    ops: tuple[int, ...]
+    ops: tuple[Operator, ...]
     script: tuple[tuple[int, int, PackedGoal], ...]
-
-
-class Script:
-    """The fields of the script, as they are after each epoch while the human is alone.
-
-    Attributes:
-        clock: the field of the clock; 0 without a script.
-        fields: what the script changes.
-        last: the epoch after which nothing changes.
-    """
-
-    def __init__(self, packed: PackedTask) -> None:
-        ticks = [(field, value, op) for field, value, op in packed.due if op.agents == packed.clock_bit]
-        self.clock = ticks[0][0] if ticks else 0
-        self._shift = (self.clock & -self.clock).bit_length() - 1 if ticks else 0
-        self.last = len(ticks)
-        self._ticks = {value >> self._shift: op for _, value, op in ticks}
-        self.fields = packed.changed_by(self._ticks.values()) & ~self.clock
-        self._changing = sorted(v for v, op in self._ticks.items() if ~op.keep & self.fields)
-        self._courses: dict[tuple[int, int], list[int]] = {}
-        self._runs: dict[tuple[int, int, PackedGoal], list[int]] = {}
-
-    def epoch(self, state: int) -> int:
-        """The epochs that are over in a packed state."""
-        return (state & self.clock) >> self._shift
-
-    def course(self, state: int) -> tuple[int, int]:
-        """How the script's fields go on from a packed state: their values, and the next change."""
-        return state & self.fields, bisect_right(self._changing, self.epoch(state) - 1)
-
-    def at(self, course: tuple[int, int], epoch: int) -> int:
-        """The script's fields and the clock after an epoch."""
-        epoch = min(epoch, self.last)
-        return self._values(course)[epoch] | epoch << self._shift if self.clock else 0
-
-    def _values(self, course: tuple[int, int]) -> list[int]:
-        found = self._courses.get(course)
-        if found is None:
-            value, following = course
-            found, changes = [], self._changing[following:]
-            for change in changes:
-                found += [value] * (change + 1 - len(found))
-                value = (value & self._ticks[change].keep | self._ticks[change].put) & self.fields
-            found += [value] * (self.last + 1 - len(found))
-            self._courses[course] = found
-        return found
-
-    def runs(self, course: tuple[int, int], condition: PackedGoal) -> list[int]:
-        """By epoch for how many epochs on a condition holds; more than matter, where it does for good."""
-        found = self._runs.get((*course, condition))
-        if found is None:
-            found, following = [], 0
-            for place, value in enumerate(reversed(self._values(course))):
-                following = 0 if not condition.holds(value) else following + 1 if place else 1 << 62
-                found.append(following)
-            found.reverse()
-            self._runs[*course, condition] = found
-        return found
 
 
 class _Label(NamedTuple):
@@ -109,89 +54,183 @@ class _Label(NamedTuple):
     state: int
 
 
+class _Beside(NamedTuple):
+    """What happens beside a way.
+
+    Attributes:
+        agenda: of the state in which it starts, or of one before.
+        course: how that goes on.
+        first: its epoch at the start of the way.
+        end: the first one that can't be.
+    """
+
+    agenda: Agenda
+    course: Course
+    first: int
+    end: int
+
+
 class StridingPlanner(IndividualPlanner):
     """An :class:`.IndividualPlanner` that goes from action to action, where :func:`may_stride`."""
 
     @cached_property
     def _due(self) -> Due:
-        return Due(self._packed, lambda op: self._memory.weight(op), strict=True)
+        return Due(self._packed, lambda op: self._memory.weight(op), strict=self._memory.strict)
 
     @cached_property
-    def _script(self) -> Script:
-        return Script(self._packed)
+    def _agendas(self) -> dict[int, tuple[Agenda, int]]:
+        """By what is due what happens from there on, as that of an agenda's epoch."""
+        return {}
+
+    def _beside(self, state: int) -> _Beside:
+        at = state & self._due.deciding
+        if at not in self._agendas:
+            agenda = Agenda(self._packed, self._due, state, strict=self._memory.strict)
+            for epoch, progress in enumerate(agenda.progress):
+                self._agendas.setdefault(progress, (agenda, epoch))
+        agenda, first = self._agendas[at]
+        course = agenda.course(state, first)
+        return _Beside(agenda, course, first, agenda.end(state, course, first))
 
     @cached_property
-    def _strides(self) -> OperatorIndex[Stride]:
-        """What may begin, by the busiest field of the human's own ops that no script changes."""
-        packed, script = self._packed, self._script
-        fields = [field for field in packed.fields if not field & (script.fields | script.clock)]
-        index = by_most_asked(packed.own_forms, fields, self._deadline)
-        found: OperatorIndex[Stride] = OperatorIndex(index.field)
-        found.always = [*self._begun_by(index.always)]
-        found.by_value = {value: [*self._begun_by(ops)] for value, ops in index.by_value.items()}
+    def _indices(self) -> dict[tuple[int, int], OperatorIndex[Stride]]:
+        return {}
+
+    def _strides(self, fields: int, known: int) -> OperatorIndex[Stride]:
+        """What may begin, by the busiest field of the human's own ops that is not left out.
+
+        Args:
+            fields: what is left out of what is asked for at first.
+            known: of these what an agenda knows by epoch.
+        """
+        found = self._indices.get((fields, known))
+        if found is None:
+            packed, left = self._packed, [field for field in self._packed.fields if not field & fields]
+            index = by_most_asked(packed.own_forms, left, self._deadline)
+            found = self._indices[fields, known] = OperatorIndex(index.field)
+            found.always = [*self._begun_by(index.always, fields, known)]
+            found.by_value = {
+                value: [*self._begun_by(ops, fields, known)] for value, ops in index.by_value.items()
+            }
         return found
 
-    def _begun_by(self, ops: Sequence[Operator]) -> Iterator[Stride]:
-        return (self._stride(op) for op in ops if self._packed.counted(op.action))
+    def _begun_by(self, ops: Sequence[Operator], fields: int, known: int) -> Iterator[Stride]:
+        return (self._stride(op, fields, known) for op in ops if self._packed.counted(op.action))
 
-    def _stride(self, first: Operator) -> Stride:
+    def _stride(self, first: Operator, fields: int, known: int) -> Stride:
         """An action from its first op on; no state allows it where none allows all of it."""
-        packed, script = self._packed, self._script.fields | self._script.clock
-        ops = packed.chain(first)
+        ops = self._packed.chain(first)
         asked, own = list[PackedGoal](), list[Operator]()
         for op in ops:
             condition = PackedGoal(op.need_mask, op.need, op.forbidden)
-            asked.append(condition.within(script))
-            theirs = condition.within(~script)
+            asked.append(condition.within(known))
+            theirs = condition.within(~fields)
             own.append(op._replace(need_mask=theirs.need_mask, need=theirs.need, forbidden=theirs.forbidden))
-        whole = as_one(packed, own)
+        whole = as_one(self._packed, own)
         weight = sum(map(self._memory.weight, ops))
-        actions = tuple(op.action for op in ops)
-        return Stride(*whole[:2], whole.forbidden, *whole[2:4], weight, actions, tuple(_together(asked)))
+        return Stride(*whole[:2], whole.forbidden, *whole[2:4], weight, ops, tuple(_together(asked)))
 
-    def _onward(self, label: _Label, course: tuple[int, int]) -> Iterator[_Label]:
-        """What may be done next, each as soon as it can be done to its end."""
-        script, state = self._script, label.state
-        outside = ~(script.fields | script.clock)
-        now, awake = script.epoch(state), self._packed.awake
-        for stride in self._strides.candidates(state):
+    def _onward(self, label: _Label, beside: _Beside) -> Iterator[_Label]:
+        """What may be done next, each as soon as it makes a difference that it can be done to its end."""
+        agenda, course, first, end = beside
+        state, now, awake = label.state, first + label.epochs, self._packed.awake
+        is_open, known = agenda.is_open(now), agenda.fields
+        strides = self._strides(known if is_open else known | agenda.shared, known)
+        for stride in strides.candidates(state):
             if state & stride.need_mask != stride.need:
                 continue
             if any(state & field == value for field, value in stride.forbidden):
                 continue
-            begins = self._soonest(stride, course, now)
-            if begins is None or (begins > now and state & awake != awake):
-                continue
-            waited, ends = begins - now, begins + len(stride.ops)
-            after = (state & stride.keep | stride.put) & outside | script.at(course, ends)
-            weight = label.weight + waited * self._waiting_weight + stride.weight
-            start = label.epochs + waited
-            yield _Label(weight, start + len(stride.ops), (*label.begun, (start, stride.ops[0])), after)
+            for begins in self._beginnings(stride, beside, now):
+                waited, ends = begins - now, begins + len(stride.ops)
+                if ends > end or (waited and state & awake != awake):
+                    break
+                after: int | None = (state & stride.keep | stride.put) & ~known | agenda.at(course, ends)
+                if not is_open:
+                    after = agenda.passed(state, course, now, begins, stride.ops)
+                if after is None or (agenda.stuck(after, ends) and not self._goal.holds(after)):
+                    continue
+                weight = label.weight + waited * self._waiting_weight + stride.weight
+                start = label.epochs + waited
+                begun = (*label.begun, (start, stride.ops[0].action))
+                yield _Label(weight, start + len(stride.ops), begun, after)
+                if not ~stride.keep & agenda.touched:
+                    break  # nobody minds how early it is
 
-    def _soonest(self, stride: Stride, course: tuple[int, int], now: int) -> int | None:
-        """After how many epochs an action can begin, ``now`` at the soonest; None: never."""
-        if not stride.script:
-            return now
-        known = self._begins.get((stride.ops[0], course))
-        if known is None:
-            known = self._begins[stride.ops[0], course] = self._beginnings(stride, course)
-        return known[now]
+    def _until_goal(self, label: _Label, beside: _Beside) -> _Label | None:
+        """Waiting for the goal, where it comes by itself; None where it does not."""
+        agenda, course, first, end = beside
+        now, state = first + label.epochs, label.state
+        if not self._goal.mask & (agenda.fields | agenda.shared):
+            return None
+        moments = self._moments_of(agenda, course)
+        for moment in moments[bisect_right(moments, now) :]:
+            after = None if moment > end else agenda.passed(state, course, now, moment)
+            if after is None:
+                break
+            if self._goal.holds(after):
+                waited = moment - now
+                weight = label.weight + waited * self._memory.weight(self._packed.op(self._packed.idling[-1]))
+                return _Label(weight, label.epochs + waited, label.begun, after)
+        return None
+
+    def _beginnings(self, stride: Stride, beside: _Beside, now: int) -> Iterator[int]:
+        """Epochs in which an action may begin, ascending: now, and when others make a difference to it."""
+        agenda, course, *_ = beside
+        edges: Sequence[int] = ()
+        if not agenda.is_open(now):
+            edges = self._edges_of(stride, agenda)
+        soonest = self._soonest(stride, agenda, course) if stride.script else None
+        before = -1
+        for epoch in (now, *edges[bisect_right(edges, now) :]):
+            found = epoch if soonest is None else soonest[min(epoch, agenda.last)]
+            if found is None:
+                return
+            if max(epoch, found) != before:
+                before = max(epoch, found)
+                yield before
+
+    def _edges_of(self, stride: Stride, agenda: Agenda) -> list[int]:
+        key = stride.ops[0].action, agenda
+        if key not in self._known_edges:
+            sets, mentioned = (
+                self._packed.changed_by(stride.ops),
+                union(map(self._packed.mentioned, stride.ops)),
+            )
+            self._known_edges[key] = agenda.begins(stride.ops, sets, mentioned)
+        return self._known_edges[key]
+
+    def _moments_of(self, agenda: Agenda, course: Course) -> list[int]:
+        if (agenda, course) not in self._known_moments:
+            self._known_moments[agenda, course] = agenda.moments(course, self._goal.mask)
+        return self._known_moments[agenda, course]
 
     @cached_property
-    def _begins(self) -> dict[tuple[int, tuple[int, int]], list[int | None]]:
+    def _known_moments(self) -> dict[tuple[Agenda, Course], list[int]]:
         return {}
 
-    def _beginnings(self, stride: Stride, course: tuple[int, int]) -> list[int | None]:
-        """By epoch when an action can begin at the soonest."""
-        last = self._script.last
-        runs = [(first, epochs, self._script.runs(course, asked)) for first, epochs, asked in stride.script]
-        found: list[int | None] = []
-        soonest: int | None = None
-        for epoch in range(last, -1, -1):
-            if all(row[min(epoch + first, last)] >= epochs for first, epochs, row in runs):
-                soonest = epoch
-            found.append(soonest)
-        found.reverse()
+    @cached_property
+    def _known_edges(self) -> dict[tuple[int, Agenda], list[int]]:
+        return {}
+
+    @cached_property
+    def _begins(self) -> dict[tuple[int, Agenda, Course], list[int | None]]:
+        return {}
+
+    def _soonest(self, stride: Stride, agenda: Agenda, course: Course) -> list[int | None]:
+        """By epoch when an action can begin at the soonest, by what is known by epoch."""
+        key = stride.ops[0].action, agenda, course
+        found = self._begins.get(key)
+        if found is None:
+            last, soonest = agenda.last, None
+            rows = [(first, epochs, agenda.lengths(course, asked)) for first, epochs, asked in stride.script]
+            found = []
+            for epoch in range(last, -1, -1):
+                if all(row[min(epoch + first, last)] >= epochs for first, epochs, row in rows):
+                    soonest = epoch
+                found.append(soonest)
+            found.reverse()
+            self._begins[key] = found
         return found
 
     @cached_property
@@ -236,11 +275,11 @@ class StridingPlanner(IndividualPlanner):
         if freed is None or found is None:
             return None
         actions = [*freed[2]]
-        every = (*self._strides.always, *chain.from_iterable(self._strides.by_value.values()))
-        strides = {stride.ops[0]: stride.ops for stride in every}
+        waiting, resting = self._packed.idling[0], self._packed.idling[-1]
         for start, action in found.begun:
-            actions += [self._packed.idling[0]] * (start + len(freed[2]) - len(actions))
-            actions += strides[action]
+            actions += [waiting] * (start + len(freed[2]) - len(actions))
+            actions += (op.action for op in self._packed.chain(self._packed.op(action)))
+        actions += [resting] * (found.epochs + len(freed[2]) - len(actions))
         return FoundPlan(tuple(actions), self._memory.expanded - before, 0)
 
     def _best(self, start: int, limit: int, *, in_order: bool) -> _Label | None:
@@ -250,8 +289,8 @@ class StridingPlanner(IndividualPlanner):
             start: a packed state in which the human is free.
             in_order: of the best ones the one of fewest actions, and then the canonical one.
         """
-        outside = ~(self._script.fields | self._script.clock)
-        course, left = self._script.course(start), self._script.last - self._script.epoch(start)
+        beside = self._beside(start)
+        outside = ~beside.agenda.fields
         fronts: dict[int, list[_Label]] = {}
         ticket = count()
         label = _Label(0, 0, (), start)
@@ -263,7 +302,7 @@ class StridingPlanner(IndividualPlanner):
             bound, _, label = heappop(queue)
             if bound >= limit:
                 break
-            if label not in fronts[label.state & outside]:
+            if not self._goal.holds(label.state) and label not in fronts[label.state & outside]:
                 continue
             self._deadline.tick()
             self._count(number)
@@ -275,32 +314,40 @@ class StridingPlanner(IndividualPlanner):
                     return best
                 limit = label.weight + 1
                 continue
-            for after in self._onward(label, course):
+            last = self._until_goal(label, beside)
+            if last is not None and last.weight < limit:
+                heappush(queue, (last.weight, next(ticket), last))
+            for after in self._onward(label, beside):
                 bound = after.weight + self._estimate(after.state)
                 if bound >= limit:
                     continue
                 front = fronts.get(after.state & outside, [])
-                if any(self._covers(known, after, left, in_order=in_order) for known in front):
+                if any(self._covers(known, after, beside, in_order=in_order) for known in front):
                     continue
-                kept = [known for known in front if not self._covers(after, known, left, in_order=in_order)]
+                kept = [known for known in front if not self._covers(after, known, beside, in_order=in_order)]
                 fronts[after.state & outside] = [*kept, after]
                 heappush(queue, (bound, next(ticket), after))
         return best
 
-    def _covers(self, known: _Label, other: _Label, left: int, *, in_order: bool) -> bool:
-        """Whether whatever comes of another label may as well come of a known one.
-
-        Args:
-            left: epochs after which nothing depends on the epoch any more, so that nobody waits for one.
-        """
-        caught_up = known.weight
-        if self._script.clock:
+    def _covers(self, known: _Label, other: _Label, beside: _Beside, *, in_order: bool) -> bool:
+        """Whether whatever comes of another label may as well come of a known one."""
+        caught_up, agenda, first = known.weight, beside.agenda, beside.first
+        if agenda.last:
             if known.epochs > other.epochs:
                 return False
-            caught_up += max(0, min(other.epochs, left) - known.epochs) * self._waiting_weight
+            if agenda.edges and _differ(agenda.edges, first + known.epochs, first + other.epochs):
+                return False
+            # After the last epoch nothing depends on which it is, so that nobody waits for one.
+            waited = min(other.epochs, agenda.last - first) - known.epochs
+            caught_up += max(0, waited) * self._waiting_weight
         if caught_up != other.weight or not in_order:
             return caught_up <= other.weight
         return len(known.begun) <= len(other.begun) and known.begun <= other.begun
+
+
+def _differ(edges: Sequence[int], epoch: int, other: int) -> bool:
+    """Whether an edge is between two epochs."""
+    return bisect_right(edges, epoch) != bisect_right(edges, other)
 
 
 def _order(label: _Label) -> tuple[int, int, tuple[tuple[int, int], ...]]:
@@ -317,14 +364,23 @@ def _together(asked: Sequence[PackedGoal]) -> Iterator[tuple[int, int, PackedGoa
             first = epoch + 1
 
 
-def may_stride(packed: PackedTask) -> bool:
-    """Whether the human alone may go from action to action: nothing but facts happens beside them.
+def may_stride(packed: PackedTask, *, strict: bool) -> bool:
+    """Whether the human alone may go from action to action.
+
+    What others are to do is told by fields of their own, and they have one way to do it.
+    """
+    begun = Counter((field, value, packed.task.actions[op.action].name) for field, value, op in packed.due)
+    deciding = union(field for field, _, op in packed.due if not op.agents & packed.human_bit)
+    own = packed.own_mask if strict else set_by(packed.own_forms)
+    return bool(begun) and max(begun.values()) == 1 and not deciding & own
+
+
+def is_undisturbed(packed: PackedTask) -> bool:
+    """Whether nothing but facts happens beside the human alone, and none that they or a goal ask to last.
 
     The script changes nothing that they do, or that a goal asks for, no bystander has a plan, and nobody is
     in the middle of anything.
     """
-    if not packed.task.due:
-        return False
     clock = next((field for field, _, op in packed.due if op.agents == packed.clock_bit), 0)
     if any(field == clock and op.agents != packed.clock_bit for field, _, op in packed.due):
         return False

@@ -7,6 +7,7 @@ from search.human.individual_planner import IndividualPlanner, canonical
 from search.human.plan_suffix import PlanSuffix
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.packed.due import Due
+from search.packed.joint_actions import as_option
 from search.packed.packed_task import PackedGoal, PackedTask
 
 
@@ -90,6 +91,16 @@ class Lasting:
         alone, both = self.replan.alone, self.replan.both
         awake = state | self.packed.awake
         planner = both or alone
+
+        def lasts(end: int, spent: int) -> bool:
+            left = epochs - spent
+            return self.due.lasting(end, left, lambda last: all(goal.holds(last) for goal in self.goals))
+
+        if awake == state and both is None:  # of the plans that last the canonical one is the first
+            found = planner.canonical(state)
+            end = None if found is None else self._end(state, found.actions)
+            if found is None or (end is not None and lasts(end, len(found.actions))):
+                return None if found is None else found.actions
         graph, others = planner.plans(awake), awake & ~planner.mask
         if graph is None:
             return None
@@ -100,12 +111,17 @@ class Lasting:
             least = alone.plans(awake)
             if least is None or least.size(size) < graph.size(size):
                 return None
-        left = epochs - len(graph.canonical())
+        spent = len(graph.canonical())
+        return graph.ending(lambda end: lasts(end | others, spent))
 
-        def holds(end: int) -> bool:
-            return all(goal.holds(end) for goal in self.goals)
-
-        return graph.ending(lambda end: self.due.lasting(end | others, left, holds))
+    def _end(self, state: int, plan: Sequence[int]) -> int | None:
+        """The packed state after a plan of the human's own; None where it is impossible."""
+        for action in plan:
+            after = self.due.after(state, [as_option(self.packed.op(action), 0)])
+            if after is None:
+                return None
+            state = after
+        return state
 
 
 Suffix = Replan | Lasting | PlanSuffix

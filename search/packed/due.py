@@ -3,11 +3,37 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from search.packed.joint_actions import NOTHING, JointAction, as_option, together
-from search.packed.operators import Operator, applicable
+from search.packed.operators import Operator, applicable, union
 from search.packed.packed_task import PackedTask
 
-_Options = dict[int, dict[int, dict[str, list[JointAction]]]]
-"""By field and value what is due, by the names of actions: one of each name."""
+_ByName = dict[str, list[JointAction]]
+"""What is due, by the names of actions: one of each name."""
+
+
+class _Options:
+    """What is due by field and value.  Fields of one bit, which are many, are told by what is set."""
+
+    def __init__(self) -> None:
+        self._bits = 0
+        self._single: dict[int, _ByName] = {}
+        self._wide: dict[int, dict[int, _ByName]] = {}
+
+    def under(self, field: int, value: int) -> _ByName:
+        """What is due at a value, to be added to."""
+        if field == value and not field & (field - 1):
+            self._bits |= field
+            return self._single.setdefault(field, {})
+        return self._wide.setdefault(field, {}).setdefault(value, {})
+
+    def at(self, state: int) -> Iterator[list[JointAction]]:
+        """What is due in a packed state, each in all its ways."""
+        bits = state & self._bits
+        while bits:
+            lowest = bits & -bits
+            yield from self._single[lowest].values()
+            bits ^= lowest
+        for field, by_value in self._wide.items():
+            yield from by_value.get(state & field, {}).values()
 
 
 class Due:
@@ -15,14 +41,18 @@ class Due:
 
     Args:
         weight: key increment of an op.
+
+    Attributes:
+        deciding: the fields that say what is due to others, and to the clock.
     """
 
     def __init__(self, packed: PackedTask, weight: Callable[[Operator], int], *, strict: bool) -> None:
         self._packed = packed
         self._weight = weight
         self._strict = strict
-        self._human: _Options = {}
-        self._others: _Options = {}
+        self.deciding = union(field for field, _, op in packed.due if not op.agents & packed.human_bit)
+        self._human = _Options()
+        self._others = _Options()
         self._clock: dict[int, Operator] = {}
         self._clock_field = 0
         for field, value, op in packed.due:
@@ -31,22 +61,31 @@ class Due:
                 self._clock[value] = op
             else:
                 kind = self._human if op.agents & packed.human_bit else self._others
-                by_name = kind.setdefault(field, {}).setdefault(value, {})
+                by_name = kind.under(field, value)
                 by_name.setdefault(packed.task.actions[op.action].name, []).append(as_option(op, weight(op)))
 
     def __bool__(self) -> bool:
         return bool(self._packed.due)
 
+    def at(self, state: int) -> tuple[tuple[Operator, ...], tuple[Operator, ...]] | None:
+        """What others have to do, and what the clock changes after it; None where nothing is due.
+
+        Of what they may do in several ways it is the first.
+        """
+        theirs = [self._packed.op(ways[0].actions[0]) for ways in self._others.at(state)]
+        last = self.last(state)
+        return (tuple(theirs), () if last is None else (last,)) if theirs or last is not None else None
+
     def human(self, state: int) -> tuple[JointAction, ...] | None:
         """What the human has to go on with, if it is possible; None where they are free."""
-        for variants in self._in(self._human, state):
+        for variants in self._human.at(state):
             return self._possible(variants, state)
         return None
 
     def others(self, state: int) -> list[JointAction]:
         """What others have to do, as one set; no set where that is impossible."""
         found = NOTHING
-        for variants in self._in(self._others, state):
+        for variants in self._others.at(state):
             for option in self._possible(variants, state)[:1]:
                 if not self.fits(option, found):
                     return []
@@ -59,12 +98,12 @@ class Due:
     def pending(self, state: int) -> int:
         """What it adds to a key that others end what they are at."""
         packed = self._packed
-        going_on = (variants[0] for variants in self._in(self._others, state))
+        going_on = (variants[0] for variants in self._others.at(state))
         return sum(self._weight(op) for part in going_on for op in packed.chain(packed.op(part.actions[0])))
 
     def is_calm(self, state: int) -> bool:
         """Whether nothing happens from a state on unless somebody does it."""
-        happens = (self.last(state), self.human(state), next(self._in(self._others, state), None))
+        happens = (self.last(state), self.human(state), next(self._others.at(state), None))
         return happens == (None, None, None)
 
     def may_end(self, state: int, epoch: int, horizon: int | None) -> bool:
@@ -142,11 +181,6 @@ class Due:
             return True
         mine = option.actions[0]
         return all(self._packed.compatible(mine, other, self._strict) for other in others.actions)
-
-    @staticmethod
-    def _in(options: _Options, state: int) -> Iterator[list[JointAction]]:
-        for field, by_value in options.items():
-            yield from by_value.get(state & field, {}).values()
 
 
 def as_one(packed: PackedTask, ops: Sequence[Operator]) -> Operator:

@@ -183,6 +183,14 @@ class PackedTask:
         return 1 << agents.index(CLOCK) if CLOCK in agents else 0
 
     @cached_property
+    def scripted(self) -> tuple[Operator, ...]:
+        """What others do by the script, or are in the middle of at first, and what the clock changes."""
+        clock = {field for field, _, op in self.due if op.agents == self.clock_bit}
+        begun = [op for field, _, op in self.due if field in clock and not op.agents & self.human_bit]
+        chains = [(op,) if op.agents == self.clock_bit else self.chain(op) for op in begun]
+        return tuple(op for chain in chains for op in chain)
+
+    @cached_property
     def freedom(self) -> int:
         """The fields that say who is at nothing, where actions take time; last epochs do not need them."""
         task = self.task

@@ -17,7 +17,7 @@ from search.call.context import SearchContext
 from search.engine.dominance import ParetoFront
 from search.human.pattern_database import NOTHING_KNOWN
 from search.human.plan_suffix import PlanSuffix
-from search.human.strides import StridingPlanner
+from search.human.strides import is_undisturbed
 from search.human.suffix_rules import Lasting, Replan, Suffix
 from search.packed.cost_vector import INFINITE_KEY, NEVER, CostLayout
 from search.packed.due import Due
@@ -304,7 +304,7 @@ def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
     if options.suffix == "subplan" or options.preservation == "state":
         own = None if options.preservation == "kernel" else _own_facts(packed)
         return PlanSuffix(packed, plan, context.weights.team, due, context.goals, own, context.deadline)
-    lasts = isinstance(context.alone, StridingPlanner) and not context.alone_to_both and not packed.awake
+    lasts = packed.in_time and is_undisturbed(packed) and not context.alone_to_both and not packed.awake
     theirs, both = packed.robot_goal, context.alone_to_both
     if packed.clock_bit and not lasts:
         # Beside a script robots' goals may come true, or be lost, once the human is done: Lasting asks.

@@ -1,5 +1,8 @@
 """The human alone in time: the canonical plan of brute force, at the cost of the few epochs that matter."""
 
+from contextlib import suppress
+from random import Random
+
 import pytest
 from hypothesis import given
 
@@ -7,6 +10,8 @@ import serendipity
 from benchmarks.problems import building
 from search import PreparedTask, canonical_human_plan
 from serendipity.model import Deadline, HumanPlan, Options, Script, Task
+from serendipity.model.task.course import BrokenPlanError
+from serendipity.model.task.passing import epoch_later
 from serendipity.model.task.unit_steps import unit_steps
 from serendipity.testing.builders import task
 from serendipity.testing.generator import random_call_in_time
@@ -50,6 +55,43 @@ def test_a_day_of_a_thousand_epochs(seed: int, most: int) -> None:
     assert alone.status == "optimal"
     assert alone.statistics["expanded"] < most
     assert serendipity.plan(day(seed), discount="0.9").status == "optimal"
+
+
+@pytest.mark.parametrize("seed", range(0, 120, 3))
+def test_plans_beside_what_robots_are_at_are_the_canonical_ones(seed: int) -> None:
+    call, dice = random_call_in_time(seed), Random(seed)
+    now = call.task
+    long = [a for a in now.actions if a.timing is not None and now.human not in a.participants]
+    possible = [action for action in long if action.applicable(now.init)]
+    with suppress(BrokenPlanError):
+        now = epoch_later(now, [dice.choice(possible)] if possible else [])
+    units = unit_steps(now)
+    plan = canonical_human_plan(PreparedTask(units.task), Deadline(), Options())
+    found = told(now, None if plan is None else units.begun(plan))
+    assert found == told(now, optimal_human_plan(now))
+
+
+def test_epochs_in_which_a_robot_is_only_at_work_cost_nothing() -> None:
+    """Beside a robot at work each epoch was looked at, and a day took more than four minutes."""
+    counts = []
+    for epochs in (10, 500):
+        actions = {"a h": "-> !done f @ 3", "b h": "f done -> g", "c r": f"-> / !g / -> done @ 1 [{epochs}]"}
+        built = task(agents="h r", human="h", goal="g", actions=actions)
+        now = epoch_later(built, [action for action in built.actions if action.name == "c r"])
+        answer = serendipity.plan(now, mode="individual")
+        assert (answer.status, answer.horizon) == ("optimal", epochs)
+        counts.append(answer.statistics["expanded"])
+    assert len(set(counts)) == 1
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("seed", "begun"), [(1, "walk robot kitchen hall"), (3, "do robot 2")])
+def test_a_day_beside_a_robot_at_work(seed: int, begun: str) -> None:
+    home = day(seed)
+    now = epoch_later(home, [home.actions[home.named[begun][0]]])
+    alone = serendipity.plan(now, mode="individual")
+    assert (alone.status, alone.statistics["expanded"] < 1_000) == ("optimal", True)
+    assert serendipity.plan(now, discount="0.9").status == "optimal"
 
 
 @pytest.mark.parametrize("robots", [1, 2])
