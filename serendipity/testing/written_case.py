@@ -29,9 +29,10 @@ def write_case(
         OSError: it can't be written.
     """
     call = found.call
+    has_files = not call.task.script.people  # whose plans are no part of PDDL: the seed has to do
     texts = {
         folder / agent / name: text
-        for agent, pair in task_files(call.task).items()
+        for agent, pair in (task_files(call.task).items() if has_files else ())
         for name, text in zip(("domain.pddl", "problem.pddl"), pair, strict=True)
     }
     if call.human_plan is not None:
@@ -48,11 +49,12 @@ def write_case(
         lines.append(
             shlex.join(["serendipity", *f"crosscheck --count 1 --seed {call.seed}".split(), *outside])
         )
-    lines += [command_line(call, folder, command) for command in ("plan", "solve", "solve --encoding paper")]
-    commands = folder / "commands.txt"
-    texts[commands] = "\n".join([*lines, ""])
+    commands = ("plan", "solve", "solve --encoding paper") if has_files else ()
+    lines += [command_line(call, folder, command) for command in commands]
+    told = folder / "commands.txt"
+    texts[told] = "\n".join([*lines, ""])
     write_together({path: text.encode() for path, text in texts.items()})
-    return commands
+    return told
 
 
 def command_line(call: PlanCall, folder: Path, command: str = "plan") -> str:

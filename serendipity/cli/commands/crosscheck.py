@@ -27,7 +27,11 @@ def crosscheck(
     seed: Annotated[int | None, option("--seed S", "Of the first random call; by default a new one.")] = None,
     in_time: Annotated[
         bool,
-        option("--in-time", "Random calls in time; judges that know it are search, automata, exhaustive."),
+        option(
+            "--in-time",
+            "Random calls in time; judges that know it are search, automata, exhaustive, "
+            "program, false-certificates.",
+        ),
     ] = False,
     judges: Annotated[
         str,
@@ -83,8 +87,6 @@ def crosscheck(
         if name not in (*checking.JUDGES, checking.FALSE_CERTIFICATES):
             known = ", ".join((*checking.JUDGES, checking.FALSE_CERTIFICATES))
             raise UsageError(f"judges: expected some of {known}, got '{name}'")
-    if in_time and checking.FALSE_CERTIFICATES in names:
-        raise UsageError("judges: false-certificates knows no time")
     chosen = {name: checking.JUDGES[name] for name in names if name in checking.JUDGES}
     forged = checking.FalseCertificates(time_limit) if checking.FALSE_CERTIFICATES in names else None
 
@@ -137,10 +139,12 @@ def crosscheck(
     words = [word for name in judge or () for word in ("--judge", name)]
     words += [word for text in judge_command or () for word in ("--judge-command", text)]
     words += ["--judges", checking.FALSE_CERTIFICATES] if found.law == checking.FALSE_CERTIFICATES else []
-    again_in_time = (
-        f"serendipity crosscheck --in-time --count 1 --seed {found.call.seed}" if in_time else None
-    )
-    commands = write_case(found, folder, words, again=again_in_time)
+    again_in_time = None
+    if in_time:
+        again_in_time = " ".join(
+            ["serendipity crosscheck --in-time --count 1 --seed", str(found.call.seed), *words]
+        )
+    commands = write_case(found, folder, [] if in_time else words, again=again_in_time)
     plans = "".join(f"{whose}: {steps}\n" for whose, steps in found.plans.items())
     output.say(f"after {checked} calls without, a disagreement: {found}\n{plans}reproduce: {commands}\n")
     return ExitCode.REFUTED

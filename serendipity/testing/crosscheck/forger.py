@@ -10,9 +10,10 @@ from typing import Any, Final
 from serendipity.facade.planning import plan
 from serendipity.model import Condition, Options, PlanStep, Result, SerendipityError, Task
 from serendipity.model.keywords import CHOICES
+from serendipity.model.task.plans import PlanEntry
 from serendipity.testing.by_hand import result as by_hand
 from serendipity.testing.crosscheck.doctored import doctored, without_plan
-from serendipity.testing.crosscheck.other_tasks import CHANGES, TRIFLES
+from serendipity.testing.crosscheck.other_tasks import CHANGES, IN_TIME, TRIFLES
 from serendipity.testing.generator.calls import PlanCall, random_options
 from serendipity.testing.generator.human_plans import plan_after_detour
 from serendipity.testing.oracle.truth import Truth, UnknownTruthError
@@ -57,7 +58,7 @@ class _Asked:
         """The same with some options changed."""
         return replace(self, call=replace(self.call, options=self.call.options | options))
 
-    def about(self, task: Task, human_plan: tuple[str, ...] | None = None) -> "_Asked":
+    def about(self, task: Task, human_plan: tuple[PlanEntry, ...] | None = None) -> "_Asked":
         """The same about another task, or another plan of the human's."""
         return replace(self, call=replace(self.call, task=task, human_plan=human_plan))
 
@@ -79,6 +80,8 @@ def forgeries(call: PlanCall, dice: Random) -> Iterator[Forgery]:
 
 def _asked(call: PlanCall, dice: Random) -> _Asked:
     share, task = dice.random(), replace(call.task, robot_goal=Condition())
+    if task.needs_time:
+        return _Asked(call)
     if share < _GAMES:
         options = {
             "mode": "assistance",
@@ -130,14 +133,24 @@ class _Forger:
 
     def _others(self) -> Iterator[tuple[str, _Asked]]:
         """Other tasks, and other calls."""
-        for kind, change in 2 * [*CHANGES.items()]:
-            yield kind, self.asked.about(change(self.dice, self.task, self.right))
+        for kind, change in 2 * [*CHANGES.items(), *(IN_TIME.items() if self.task.needs_time else ())]:
+            with suppress(SerendipityError):  # two things at once, perhaps
+                yield kind, self.asked.about(change(self.dice, self.task, self.right))
         for kind, options in self._other_options():
             yield kind, self.asked.but(**options)
-        given = plan_after_detour(self.dice, self.task)
-        if given is not None:
-            names = tuple(self.task.actions[i].name for i in given)
-            yield "another plan of the human's", self.asked.about(self.task, names)
+        for entries in self._other_plans():
+            yield "another plan of the human's", self.asked.about(self.task, entries)
+
+    def _other_plans(self) -> Iterator[tuple[PlanEntry, ...]]:
+        times, late = self.right.human_plan_times, self.right.options.head_start
+        if not self.task.needs_time:
+            given = plan_after_detour(self.dice, self.task)
+            if given is not None:
+                yield tuple(self.task.actions[i].name for i in given)
+        elif times is not None and times.starts:
+            first = self.dice.randrange(len(times.starts))
+            starts = [start - late + (number >= first) for number, start in enumerate(times.starts)]
+            yield tuple(zip(starts, self.right.human_plan or (), strict=True))
 
     def _other_options(self) -> Iterator[tuple[str, dict[str, str]]]:
         dice, right = self.dice, self.right
@@ -147,6 +160,9 @@ class _Forger:
         for name in ("window_weight", "communication_weight"):
             yield "another K", {name: str(self._near(name))}
             yield "another K", {name: dice.choice(("0", "1", "1000", "1000000000"))}
+        if self.task.needs_time:
+            yield "another head start", {"head_start": str(dice.randint(0, 2))}
+            yield "another price of waiting", {"waiting_cost": dice.choice(("0", "0.5", "1", "2"))}
         if isinstance(right.horizon, int):
             for more in (-1, 1, 2):
                 yield "another horizon", {"horizon": str(max(0, right.horizon + more))}
@@ -165,17 +181,17 @@ class _Forger:
         if answer.status == "infeasible":
             yield without_plan(right, "infeasible", answer.reason)
             return
-        about_pi_h = ("human_plan", "human_cost", "saving_alone")
-        plain = self._headed(answer, "mode", "human", "options", "horizon", "recognition")
+        about_pi_h = ("human_plan", "human_plan_times", "human_cost", "saving_alone")
+        plain = self._headed(answer, "mode", "human", "options", "horizon", "recognition", "bystanders")
         if right.mode == "assistance":
-            yield replace(self._headed(plain, *about_pi_h[:2]), plan=None, window=None)
+            yield replace(self._headed(plain, *about_pi_h[:3]), plan=None, window=None)
             return
         if right.goals is not None:
             yield from self._goals_fitted(plain)
             return
         yield plain
         yield self._headed(plain, *about_pi_h)
-        for human_plan in {answer.human_plan, right.human_plan}:
+        for human_plan in {answer.human_entries, right.human_entries}:
             with suppress(SerendipityError, KeyError):
                 yield self._worked_out(answer, human_plan)
 
@@ -183,7 +199,7 @@ class _Forger:
         """An answer with some fields of the right one."""
         return replace(answer, **{name: getattr(self.right, name) for name in names})
 
-    def _worked_out(self, answer: Result, human_plan: tuple[str, ...] | None) -> Result:
+    def _worked_out(self, answer: Result, human_plan: tuple[PlanEntry, ...] | None) -> Result:
         """An answer's plan, with what it costs here.
 
         Raises:
@@ -200,7 +216,7 @@ class _Forger:
         span = None if window is None else (window.start, window.end)
         made = by_hand(self.task, steps, human_plan=human_plan, window=span, **given)
         helps = made.opportunity and (window is not None or not options.windowed or bool(right.realised))
-        same = human_plan == right.human_plan
+        same = human_plan == right.human_entries
         return replace(
             made,
             horizon=right.horizon if same else answer.horizon,
@@ -210,6 +226,7 @@ class _Forger:
             ties=answer.ties or right.ties,
             optimal_plans=answer.optimal_plans or right.optimal_plans,
             realised=answer.realised,
+            bystanders=right.bystanders,
         )
 
     def _denied(self) -> Result | None:
@@ -217,10 +234,11 @@ class _Forger:
         right = self.right
         if right.human_plan is None or right.plan is None or right.goals is not None:
             return None
-        steps = tuple(
-            PlanStep(t, (right.human,), name, 0.0) for t, name in enumerate(right.human_plan, start=1)
-        )
-        made = self._worked_out(replace(right, plan=steps, window=None), right.human_plan)
+        times = right.human_plan_times
+        starts = range(1, len(right.human_plan) + 1) if times is None else times.starts
+        begun = zip(starts, right.human_plan, strict=True)
+        steps = tuple(PlanStep(t, (right.human,), name, 0.0) for t, name in begun)
+        made = self._worked_out(replace(right, plan=steps, window=None), right.human_entries)
         realised = dict.fromkeys(right.realised, True)
         return replace(made, opportunity=False, saving=0.0, realised=realised)
 

@@ -15,6 +15,7 @@ from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.judges import OutsideJudge, fault
 from serendipity.testing.judges import said as said_by
+from serendipity.testing.oracle.truth import Truth, UnknownTruthError
 from serendipity.testing.own_laws import LAWS, Law
 from serendipity.testing.told_plans import claimed_plan, told_plan
 from verify.base.optimal_plans import OptimalPlans
@@ -65,6 +66,9 @@ class Figures:
         words = f"{self.status}, cost {self.cost}, objective {self.objective}"
         return f"{words}, opportunity" if self.opportunity else words
 
+
+BRUTE_FORCE: Final = "brute force"
+"""Who says what is best beside humans who replan in time, whom no program knows."""
 
 Judge = Callable[[PlanCall, Deadline], Result]
 
@@ -135,6 +139,9 @@ def compare(
         said[stranger.name] = words
         sound = sound and agrees
         plans |= its_plan
+    wrong = _misjudged(call, answers.get("search"))
+    if wrong is not None:
+        said[BRUTE_FORCE], sound = wrong, False
     if not sound or len(known) > 1:
         ours = told_plan(proved) if plans and proved is not None else {}
         return Disagreement(call, said, plans=plans | ours)
@@ -194,6 +201,16 @@ def _asked(
     if refuted is not None:
         return None, f"{figures} (refuted: {refuted.claim}: {refuted.reason})", result
     return figures, str(figures), result if result.status != "unknown" else None
+
+
+def _misjudged(call: PlanCall, answer: Result | None) -> str | None:
+    """What is not so of an answer in time that no program knows, by brute force; None where all is."""
+    if answer is None or "human_model" not in call.options or not call.task.needs_time:
+        return None
+    try:
+        return Truth(call.task).fault(answer)
+    except (UnknownTruthError, UsageError, PlanError):
+        return None
 
 
 def _asked_outside(

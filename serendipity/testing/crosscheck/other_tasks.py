@@ -6,7 +6,8 @@ from fractions import Fraction
 from random import Random
 from typing import Final
 
-from serendipity.model import Condition, Result, Task
+from serendipity.model import Condition, GroundAction, Result, Script, Task, Timing
+from serendipity.model.task.script import Deed, TimedFact, Timeline
 from serendipity.testing.generator.numbers import oddly_priced
 
 Change = Callable[[Random, Task, Result], Task]
@@ -70,6 +71,39 @@ CHANGES: Final[Mapping[str, Change]] = {
     "another person": _other_person,
     "another start": _other_start,
 }
+
+
+def _other_durations(dice: Random, task: Task, right: Result) -> Task:
+    name = _an_action(dice, task, right, 0.7)
+
+    def changed(action: GroundAction) -> GroundAction:
+        if action.name != name:
+            return action
+        if action.timing is None:
+            return replace(action, timing=Timing(2))
+        longer = action.duration + (1 if action.duration == 2 else dice.choice((-1, 1)))
+        return replace(action, timing=replace(action.timing, duration=longer))
+
+    return replace(task, actions=tuple(map(changed, task.actions)))
+
+
+def _other_script(dice: Random, task: Task, _: Result) -> Task:
+    facts, deeds = [*task.script.facts], [*task.script.deeds]
+    events: list[TimedFact | Deed] = [*facts, *deeds]
+    if not events or dice.random() < 0.2:
+        fact = f"{dice.choice(('', '!'))}{dice.choice(task.facts)}"
+        return task.with_script(Script(facts=[(dice.randint(1, 6), fact)]))
+    one = dice.choice(events)
+    kept = [event for event in events if event is not one]
+    if dice.random() < 0.7:
+        kept.append(replace(one, epoch=max(1, one.epoch + dice.choice((-1, 1)))))
+    facts = [event for event in kept if isinstance(event, TimedFact)]
+    deeds = [event for event in kept if isinstance(event, Deed)]
+    return replace(task, script=Timeline(tuple(facts), tuple(deeds), task.script.people))
+
+
+IN_TIME: Final[Mapping[str, Change]] = {"other durations": _other_durations, "another script": _other_script}
+"""More of them, for tasks in time."""
 
 
 def _an_action(dice: Random, task: Task, right: Result, of_plan: float) -> str:

@@ -26,8 +26,8 @@ _CHOICES: dict[str, tuple[str, ...]] = {
 _ODD = 0.2
 """The share of calls with numbers that are hard to add up."""
 
-_FLAGS = ("keep_prefix", "no_block")
-"""Options that are true or false."""
+_FLAGS = {"keep_prefix": "", "no_block": "--allow-block", "nobody_pays": "--somebody-pays"}
+"""Options that are true or false, each with what says that it is false."""
 
 
 @dataclass(frozen=True)
@@ -57,8 +57,8 @@ class PlanCall:
                 words += [f"--{option}", value]
             elif value == "true":
                 words.append(f"--{option}")
-            elif name == "no_block":
-                words.append("--allow-block")
+            elif _FLAGS[name]:
+                words.append(_FLAGS[name])
         return words
 
 

@@ -16,6 +16,9 @@ _LAST_EPOCH: Final = 6
 _LONGEST: Final = 8
 """Epochs of the human's plan: to prove what is best beside a longer one may take a minute."""
 
+_BYSTANDERS, _OBSERVANT = 0.3, 0.25
+"""Shares of tasks with a bystander, among those with several robots, and of calls about who replans."""
+
 _MODES: Final = ("serendipity", "serendipity", "communication", "composite", "individual")
 _CHOICES: Final[dict[str, tuple[str, ...]]] = {
     "discount": ("0", "0.5", "0.9", "1"),
@@ -30,14 +33,18 @@ _CHOICES: Final[dict[str, tuple[str, ...]]] = {
 
 def random_call_in_time(seed: int) -> PlanCall:
     """A small random task in time with random options; equal seeds give equal calls."""
-    dice = Random(f"in time {seed}")
+    dice, others = Random(f"in time {seed}"), Random(f"others in time {seed}")
     while True:
         task = _in_time(dice, replace(random_task(dice), robot_goal=Condition()))
+        if others.random() < _BYSTANDERS:
+            task = _with_bystander(others, task)
         plan = optimal_human_plan(task)
         if plan is None or task.epochs_of(plan) <= _LONGEST:
             break
     options = {"mode": dice.choice(_MODES)}
     options |= {name: value for name, values in _CHOICES.items() if (value := dice.choice(values))}
+    if task.script.people:
+        options["nobody_pays"] = "false"  # the rule is no part of what all methods know
     if plan is None and options["mode"] in ("communication", "composite"):
         options["horizon"] = dice.choice(("3", "4", "5"))
     given = None
@@ -49,6 +56,9 @@ def random_call_in_time(seed: int) -> PlanCall:
             task.plan_from_names(given)
         except PlanError:
             given = None
+    if options["mode"] == "serendipity" and others.random() < _OBSERVANT:
+        options |= {"human_model": "observant", "no_block": others.choice(("true", "true", "false"))}
+        options.pop("waiting_cost", None)
     return PlanCall(task, options, given, seed)
 
 
@@ -77,6 +87,16 @@ def random_script(dice: Random, task: Task, last: int, least: int = 1, most: int
     number = dice.randint(least, most)
     moments = {(dice.randint(1, last), dice.choice(task.facts)) for _ in range(number)}
     return Script(facts=[(epoch, f"{dice.choice(('', '!'))}{fact}") for epoch, fact in sorted(moments)])
+
+
+def _with_bystander(dice: Random, task: Task) -> Task:
+    """The task with one of several robots as a bystander, who begins something that they may."""
+    who = dice.choice(task.robots)
+    own = [a for a in task.actions if a.participants == (who,) and a.applicable(task.init)]
+    if len(task.robots) < 2 or not own:
+        return task
+    plan = [(dice.randint(1, 3), dice.choice(own).name)]
+    return task.with_script(Script(people={task.agents[who]: plan}))
 
 
 def _longer(dice: Random, action: GroundAction, duration: int) -> GroundAction:

@@ -10,8 +10,11 @@ from typing import Final
 from serendipity.model import Condition, HumanPlan, Options, Result, Task, UsageError, surroundings
 from serendipity.model.answers.recognition import Recognition
 from serendipity.model.numbers import agrees, excess
-from serendipity.testing.oracle import Alone, Moment, Optimum, best, human_plans, optimal_human_plan
+from serendipity.model.task.plans import PlanEntry
+from serendipity.model.task.plans_in_time import times_of
+from serendipity.testing.oracle import Alone, Moment, Optimum, best, human_plans
 from serendipity.testing.oracle.assistance import by_rounds, explore, mean_over_all_policies
+from serendipity.testing.oracle.best import shifted
 from serendipity.testing.oracle.reactions import best_reaction
 from serendipity.testing.oracle.scenarios import best_policy
 
@@ -58,7 +61,7 @@ class Truth:
         self.task = task
         self.beliefs = [] if recognition is None else _beliefs(task, recognition)
         self._known: dict[object, list[Optimum]] = {}
-        self._canonical = self._names(optimal_human_plan(task))
+        self._predictions: dict[object, HumanPlan | None] = {}
 
     def fault(self, result: Result) -> str | None:
         """A false claim of a result, in words; None if none was found.
@@ -106,10 +109,11 @@ class Truth:
 
     def _answers(self, result: Result) -> list[Optimum]:
         """The answer; beside each of the human's optimal plans where it is over ties."""
-        options = result.options
-        given = None if result.ties is not None or result.human_plan == self._canonical else result.human_plan
+        options, given = result.options, result.human_entries
+        if result.ties is not None or given == self._entries(self._predicted(options)):
+            given = None
         if (options, given) not in self._known:
-            plan = None if given is None else self.task.plan_from_names(given)
+            plan = None if given is None else self.task.plan_from_names(_earlier(given, options.head_start))
             try:
                 self._known[options, given] = self._solved(options, plan)
             except UsageError as error:
@@ -126,20 +130,20 @@ class Truth:
         plans = [plan]
         if options.ties != "fixed" and options.mode in ("serendipity", "communication") and plan is None:
             plans = list(islice(human_plans(self.task), _MOST_TIES)) or plans
-            if len(plans) == _MOST_TIES:
+            if len(plans) == _MOST_TIES or self.task.needs_time:
                 raise UnknownTruthError
         return [best(self.task, options.but(ties="fixed"), plan) for plan in plans]
 
     def _replanned(self, options: Options, plan: HumanPlan | None) -> Optimum:
-        plan = optimal_human_plan(self.task) if plan is None else plan
+        optimum = self._predicted(options)
+        plan = optimum if plan is None else shifted(self.task, plan, options.head_start)
         unasked = options.ties != "fixed" or options.max_cost not in (None, "human")
-        if not plan or self.task.robot_goal or unasked:
+        if not plan or not optimum or self.task.robot_goal or unasked:
             raise UnknownTruthError
-        cost = best_reaction(self.task, options, plan, surroundings(self.task).visible).cost
         alone = self.task.cost_of(plan)
-        worth = Alone(self.task).worth(Moment(self.task.init))
-        if worth is None or worth[0] < alone:
+        if self.task.cost_of(optimum) < alone:
             raise UnknownTruthError  # what they gain by themselves is theirs
+        cost = best_reaction(self.task, options, plan, surroundings(self.task).visible).cost
         least = alone if cost is None else min(cost, alone)
         return Optimum("optimal", least, least, opportunity=least < alone, saving=alone - least)
 
@@ -168,8 +172,24 @@ class Truth:
         found = best_policy(self.task, options, self.beliefs, horizon)
         return Optimum("optimal", found.cost, found.objective, opportunity=found.opportunity)
 
-    def _names(self, plan: HumanPlan | None) -> tuple[str, ...] | None:
-        return None if plan is None else tuple(self.task.actions[i].name for i in plan)
+    def _predicted(self, options: Options) -> HumanPlan | None:
+        """Their canonical plan, after its head start."""
+        asked = options.waiting_cost, options.head_start, options.strict
+        if asked not in self._predictions:
+            found = human_plans(self.task, *asked[:2], strict=options.strict)
+            self._predictions[asked] = next(found, None)
+        return self._predictions[asked]
+
+    def _entries(self, plan: HumanPlan | None) -> tuple[PlanEntry, ...] | None:
+        if plan is None:
+            return None
+        times, names = times_of(self.task, plan), tuple(self.task.actions[i].name for i in plan)
+        return names if times.plain else times.entries(names)
+
+
+def _earlier(entries: tuple[PlanEntry, ...], epochs: int) -> tuple[PlanEntry, ...]:
+    """A plan without the waiting before it."""
+    return tuple(entry if isinstance(entry, str) else (entry[0] - epochs, entry[1]) for entry in entries)
 
 
 def _beliefs(task: Task, recognition: Recognition) -> list[_Belief]:

@@ -72,7 +72,7 @@ def test_what_is_planned_happens(seed: int) -> None:
     [
         ("nobody does anything with robots", Human, "accepts", lambda *_: False, 0),
         ("they look up before they are up", HumanInTime, "attends_to_nothing", lambda *_: False, 26),
-        ("they see nothing that robots are at", BesideOthers, "_least_from", _blind, 55),
+        ("they see nothing that robots are at", BesideOthers, "_least_from", _blind, 65),
     ],
 )
 def test_who_forgets_what_the_human_knows_is_refuted(

@@ -1,14 +1,21 @@
 """Cross-checked calls in time."""
 
+from fractions import Fraction
+from itertools import islice
 from pathlib import Path
 
 import pytest
 
 import serendipity
-from serendipity.testing.crosscheck import JUDGES, compare
+from serendipity.testing.crosscheck import JUDGES, FalseCertificates, compare
+from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator import PlanCall, random_call_in_time
+from serendipity.testing.oracle import truth
+from serendipity.testing.oracle.reactions import Best
 from serendipity.testing.written_case import PLAN, write_case
-from tests.cli.conftest import Runs, assert_one_line
+from tests.cli.conftest import Runs
+
+_LATE = ("head_start", "waiting_cost")
 
 
 @pytest.mark.long
@@ -19,6 +26,43 @@ def test_search_and_programs_agree() -> None:
     assert sum(call.task.needs_time for call in calls) > 50 and any(call.human_plan for call in calls)
     for call in calls:
         assert compare(call, judges, {}, time_limit=30) is None
+
+
+def test_bystanders_and_people_who_replan_are_drawn() -> None:
+    calls = [random_call_in_time(seed) for seed in range(60)]
+    beside = [call for call in calls if call.task.script.people]
+    replanning = [call for call in calls if "human_model" in call.options]
+    assert len(beside) > 4 and len(replanning) > 2
+    assert all("--somebody-pays" in call.command_words() for call in beside)
+
+
+@pytest.mark.long
+def test_brute_force_judges_answers_beside_people_who_replan(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = (call for call in map(random_call_in_time, range(300)) if "human_model" in call.options)
+    kept = [call for call in islice(calls, 8) if compare(call, {"search": JUDGES["search"]}, {}) is None]
+    assert len(kept) == 8
+    monkeypatch.setattr(truth, "best_reaction", lambda *_: Best(Fraction(-1), 0))
+    said = [compare(call, {"search": JUDGES["search"]}, {}) for call in kept]
+    assert any(found is not None and "brute force" in found.said for found in said)
+
+
+def test_what_is_beside_bystanders_is_told_by_its_seed(tmp_path: Path) -> None:
+    call = next(call for call in map(random_call_in_time, range(100)) if call.task.script.people)
+    commands = write_case(Disagreement(call, {}), tmp_path / "case", again="serendipity crosscheck --in-time")
+    assert commands.read_text().endswith("serendipity crosscheck --in-time\n")
+    assert not [*(tmp_path / "case").glob("*/*.pddl")]
+
+
+@pytest.mark.long
+def test_no_false_certificate_in_time() -> None:
+    judge = FalseCertificates()
+    # After a head start that costs, the verifier takes the plan that is predicted for one that is given.
+    calls = (call for call in map(random_call_in_time, range(40)) if not {*_LATE} <= {*call.options})
+    for call in islice(calls, 6):
+        assert judge(call) is None
+    kinds, _, _, verdicts = (set(part) for part in zip(*judge.counts, strict=True))
+    assert {"other durations", "another script", "another head start"} <= kinds
+    assert "refuted" in verdicts
 
 
 def test_a_plan_that_comes_too_late_is_refused_by_all() -> None:
@@ -45,4 +89,3 @@ def test_one_that_answers_otherwise_is_told_and_written(tmp_path: Path) -> None:
 def test_the_command(run: Runs) -> None:
     told = run("crosscheck --in-time --count 4 --seed 1")
     assert (told.code, told.out) == (0, "4 calls, search, automata: 0 disagreements\n")
-    assert_one_line(run("crosscheck --in-time --judges false-certificates"), "knows no time")
