@@ -35,7 +35,8 @@ def result(
     by_name = {action.name: action for action in task.actions}
     done = [(epoch, by_name[name.strip()]) for epoch, names in plan.items() for name in names.split(";")]
     actions = [action for _, action in done]
-    waiting = chosen.waiting_cost * waited((t, a.duration) for t, a in done if task.human in a.participants)
+    begun = [(t, action.duration) for t, action in done if task.human in action.participants]
+    waiting = chosen.waiting_cost * waited(task, begun)
     cost = waiting + total(task.team_cost(action, chosen.discount) for action in actions)
     his = [action for action in actions if task.human in action.participants]
     entries = () if human_plan is None else human_plan
@@ -46,7 +47,7 @@ def result(
     talk = chosen.communication_weight * announced if chosen.mode == "communication" else 0
     human_cost = None
     if human_plan is not None:
-        pauses = chosen.waiting_cost * waited(zip(times.starts, times.durations, strict=True))
+        pauses = chosen.waiting_cost * waited(task, zip(times.starts, times.durations, strict=True))
         human_cost = pauses + total(by_name[name].cost for name in names)
     saving = None if human_cost is None else human_cost - cost
     objective = cost + talk + (0 if window is None else chosen.window_weight * (window[1] - window[0]))

@@ -16,7 +16,7 @@ class ReplanningPerson:
     their own problem is too large, and :class:`serendipity.model.LimitReachedError` at the deadline.
     """
 
-    def __init__(self, task: Task, plans: OptimalPlans, *, strict: bool) -> None:
+    def __init__(self, task: Task, plans: OptimalPlans, *, strict: bool = False) -> None:
         self._task = task
         self._strict = strict
         self._plans = plans
