@@ -45,7 +45,7 @@ class FixedHumanPlan:
 
     def alive(self, node: Node) -> bool:
         """Whether the state was not reached cheaper in the same epoch."""
-        return self._best[node.epoch, node.state] == node.key
+        return self._best[self._told(node.epoch), node.state] == node.key
 
     def expand(self, node: Node, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors of a node; it is offered to ``best`` where ``pi_H`` is over and goals hold."""
@@ -55,8 +55,7 @@ class FixedHumanPlan:
             best.key, best.node = node.key, node
         if node.epoch == self.horizon:
             return
-        # Without a horizon, epochs after the end of pi_H need no telling apart.
-        epoch = node.epoch + (self.horizon is not None or not done)
+        epoch = node.epoch + 1
         part = NOTHING
         if not done:
             op, part = self.steps[node.epoch]
@@ -65,9 +64,13 @@ class FixedHumanPlan:
         for option in self.successors.with_robots(part, node.state):
             state = node.state & option.keep | option.put
             key = node.key + option.weight
-            if key < self._best.get((epoch, state), best.key):
-                self._best[epoch, state] = key
+            if key < self._best.get((self._told(epoch), state), best.key):
+                self._best[self._told(epoch), state] = key
                 yield key + self._left(epoch), Node(key, epoch, state, 0, 0, node, option.actions)
+
+    def _told(self, epoch: int) -> int:
+        """An epoch, as far as it matters: without a horizon not after the end of ``pi_H``."""
+        return min(epoch, len(self.steps)) if self.horizon is None else epoch
 
     def _left(self, epoch: int) -> int:
         """What the rest of the human's plan costs after an epoch."""

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity import PlanError, Result, Script, Task, UsageError
 from serendipity.cli.files.plans import plan_file, timed_plan
-from serendipity.model import PlanTimes
+from serendipity.model import Condition, PlanTimes
 from serendipity.model.task.plans_in_time import times_of
 from serendipity.testing.builders import task
 from serendipity.testing.call import Call
@@ -111,3 +111,12 @@ def test_other_times_are_refused(changes: dict[str, Any], message: str) -> None:
     with pytest.raises(serendipity.InputError) as caught:
         Result.from_dict(written)
     assert str(caught.value).startswith(f"result: {message}")
+
+
+def test_robots_own_goals_have_epochs_without_a_horizon() -> None:
+    """All of it was to begin with the epoch in which the human's plan is over."""
+    slow = task(goal="", actions={"wash r": "-> washed @ 1 [2]", "dry r": "washed -> dry"})
+    slow = slow.with_goal(slow.goal, Condition((slow.facts.index("dry"),)))
+    answer = serendipity.plan(slow, mode="composite", horizon="inf")
+    assert [(step.epoch, step.action) for step in answer.plan or ()] == [(1, "wash r"), (3, "dry r")]
+    assert serendipity.verify(slow, answer).verdict != "refuted"
