@@ -110,7 +110,7 @@ class Execution(Tabular):
         if plans is not None:
             _require_alone(task, goals, mode)
         if task.needs_time:
-            require_known(task, goals=goals, plans=plans, leave_free=leave_free, human_model=human_model)
+            require_known(goals=goals, plans=plans, human_model=human_model)
         if leave_free is not None:
             if goals is not None or plans is not None:
                 raise UsageError("leave_free: goes with a known goal only")

@@ -1,28 +1,34 @@
 """Robots that tidy up: what they leave has to be as it would be without them, but for some facts."""
 
-from serendipity.facade.kept import kept, with_goals
-from serendipity.facade.planning import plan
-from serendipity.model import Condition, Options, Task, UsageError
+from collections.abc import Iterable
+
+from serendipity.facade.kept import with_goals
+from serendipity.model import Condition, GroundAction, Options, Task
+from serendipity.model.task.leftovers import leftovers
 
 
 def tidying(task: Task, free: str) -> Task:
     """The task in which that is a goal of the robots' (semantics 12).
 
-    What the person may change themselves is theirs, and nobody puts it back.
+    What people may change, what goes on, and what the script changes, is left as these leave it.
 
     Args:
         task: where things stand.
         free: patterns of the facts that may be left changed, apart by commas.
 
     Raises:
-        UsageError: the person has no plan alone, or these are no patterns.
+        UsageError: these are no patterns.
     """
-    options = Options(leave_free=free, nobody_pays=False)
-    names = plan(task, mode="individual").human_plan
-    if names is None:
-        raise UsageError("leave_free: the person has no plan alone, so it is not known what they would leave")
-    theirs = task.plan_from_names(names)
-    rule = kept(task, options, theirs, task.epochs_of(theirs), task)
-    own = (task.actions[i] for i in task.human_actions)
-    changed = {fact for action in own for fact in (*action.add, *action.delete)}
-    return with_goals(task, rule.facts.without(Condition(tuple(changed), tuple(changed))))
+    rest = leftovers(Options(leave_free=free))
+    assert rest is not None, "some facts are free"
+    script, robots = task.script, (a for i, a in enumerate(task.actions) if i not in task.of_bystanders)
+    anyway = [*(task.actions[i] for i in task.human_actions), *(a for d in script.deeds for a in d.variants)]
+    others = _changed(anyway).union(one.fact for one in script.facts)
+    kept = sorted(f for f in _changed(robots) - others if rest.price(task.facts[f]) is None)
+    true, false = (tuple(f for f in kept if (f in task.init) is wanted) for wanted in (True, False))
+    return with_goals(task, Condition(true, false))
+
+
+def _changed(actions: Iterable[GroundAction]) -> set[int]:
+    """Ids of the facts that some actions may change."""
+    return {fact for a in actions for part in a.moments for fact in (*part.add, *part.delete)}

@@ -238,7 +238,8 @@ class _Series:
                     run.drop(gone)
                     left = [robot for robot in left if robot not in gone]
                 spoilt += _spoils(run, person)
-            while run.done and run.left and run.epoch <= self.epochs and run.decided.actions:
+            arrived = run.done
+            while arrived and run.epoch <= self.epochs and _at_work(run):
                 run.step()  # robots may end what they have to do
         decided = [passed.decided for passed in run.passed]
         verdicts = Counter(each.verdict for each in decided)
@@ -262,6 +263,13 @@ class _Series:
         ties = TIES[self.drawn]
         notes = {"run": number, "seed": seed, "policy": self.name, "ties": ties, "faults": asdict(faults)}
         return row, tuple(log_lines(run, **notes))
+
+
+def _at_work(run: Execution) -> bool:
+    """Whether robots have something to do still that they see to."""
+    return bool(run.left and (run.decided.actions or run.decided.plan)) or bool(
+        run.task.robot_goal and run.going
+    )
 
 
 def _spoils(run: Execution, person: Person) -> bool:

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 
@@ -198,7 +199,6 @@ def test_a_robot_that_drops_out_leaves_what_it_is_at() -> None:
     [
         {"goals": [{"name": "up", "goal": ["above"]}]},
         {"plans": [{"plan": ["carry ann"], "probability": 1}]},
-        {"leave_free": "free"},
         {"human_model": "local"},
     ],
     ids=lambda asked: next(iter(asked)),
@@ -210,9 +210,47 @@ def test_what_is_not_known_in_time_is_refused(asked: dict[str, object]) -> None:
         person_of(_box(), "local")
 
 
-def test_robots_with_goals_of_their_own_are_refused() -> None:
-    with pytest.raises(UsageError, match="goals of their own"):
-        Execution(_box().with_goal(_box().goal, _box().goal))
+@pytest.mark.long
+@given(tasks_in_time(), DISCOUNTS, SEEDS, st.sampled_from(["observant", "drawn"]))
+def test_nobody_pays_for_robots_own_goals(task: Task, discount: str, seed: int, human: str) -> None:
+    fact = Random(seed).randrange(len(task.facts))
+    task = task.with_goal(task.goal, Condition((), (fact,)) if seed % 2 else Condition((fact,)))
+    dice = Random(seed) if human == "drawn" else None
+    _arrives(task, Execution(task, discount=discount), dice=dice)
+
+
+def test_robots_finish_goals_of_their_own_when_the_person_is_there() -> None:
+    """Carol sweeps beside Ann, who carries the box up, and leaves after that; it was refused."""
+    box = _box()
+    own = box.with_goal(box.goal, Condition((box.facts.index("gone"),)))
+    for human in ("observant", "omniscient"):
+        (row,) = serendipity.execute(own, human, discount="0").rows
+        assert (row.reached, row.left, row.human_cost, row.cost) == (True, 0, 4, 6)
+    short = replace(own, goal=Condition((own.facts.index("rested"),)), known_variables=own.variables)
+    runs = serendipity.execute(short, discount="0")
+    assert runs.rows[0].left == 0 and runs.rows[0].epochs == 5, "they had no time before she rested"
+
+
+def test_robots_own_goals_wait_while_they_spoil_something() -> None:
+    """Bob could lock the shed at once, through which Ann is on her way."""
+    made = Builder(("ann", "bob"))
+    made.named("pass ann", (0,), "open", "there", "1", 2)
+    made.named("lock bob", (1,), "", "!open", "1")
+    task = made.task("open", "there")
+    task = task.with_goal(task.goal, Condition((), (task.facts.index("open"),)))
+    run = Execution(task, discount="0.5")
+    assert run.decided.actions == ()
+    (row,) = serendipity.execute(task, discount="0.5").rows
+    assert (row.reached, row.left, row.human_cost) == (True, 0, 1)
+
+
+def test_robots_put_things_back_in_time() -> None:
+    """As in the guide's plan: going back to the charger costs 1."""
+    runs = serendipity.execute(
+        serendipity.example("morning"), discount="0.5", leave_free="coffee, table-laid*"
+    )
+    (row,) = runs.rows
+    assert (row.reached, row.left, row.cost, row.human_cost) == (True, 0, 36, 28)
 
 
 def test_records_and_strays(tmp_path: Path) -> None:

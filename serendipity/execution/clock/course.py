@@ -21,6 +21,7 @@ class Help:
         cost: what it costs the team, or, beside somebody who is not told, what it will come to.
         proved: whether nothing is better.
         settled: whether it is the best plan of the mode, so that it stands while all goes as planned.
+        pays: whether it helps; else robots see to goals of their own in it.
     """
 
     plan: tuple[PlanStep, ...]
@@ -28,6 +29,7 @@ class Help:
     cost: Fraction
     proved: bool
     settled: bool
+    pays: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from serendipity.execution.why import Why
 from serendipity.facade.person.follower import Follower
 from serendipity.facade.person.ways import Way, Ways
 from serendipity.facade.session import Session
-from serendipity.model import INFINITE, Deadline, Options, PlanError, PlanStep, Task, UsageError
+from serendipity.model import INFINITE, Condition, Deadline, Options, PlanError, PlanStep, Task, UsageError
 from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.numbers import as_written, total
 from serendipity.model.task.actions import GroundAction
@@ -26,14 +26,12 @@ _TIME_TO_PLAN: Final = 0.6
 """The share of the time for plans; the rest is for what they mean for somebody who is not told."""
 
 
-def require_known(task: Task, **given: Any) -> None:
+def require_known(**given: Any) -> None:
     """Return if an execution in time knows all that is asked for.
 
     Raises:
         UsageError: it does not.
     """
-    if task.robot_goal:
-        raise UsageError("time: robots with goals of their own are not known here yet")
     model = given.pop("human_model")
     name = next((name for name, value in given.items() if value is not None), None)
     if model == "local" or name is not None:
@@ -125,36 +123,52 @@ class RobotsInTime:
             alone: Way | None = course.alone
         else:
             alone = self._ways.of(now, deadline)
-            if alone is not None and not alone.plan and now.human not in at_work(now):
-                return self._idle(outlook, Why("no-help"), robots)  # they have what they want
+            if _is_over(now, alone) and now.robot_goal.holds(now.init):
+                return self._idle(outlook, Why("no-help"), robots)  # everybody has what they want
             if now.human not in at_work(now):
                 self._theirs.look(now, deadline)
-        found = course.found if course is not None else self._best(now, alone, deadline.sooner(_TIME_TO_PLAN))
+        if course is None:
+            found, why = self._promised(now, alone, deadline)
+        elif course.found is None or self._told:
+            found, why = course.found, self._none_pays(now, alone)
+        else:
+            found, why = self._safe(now, course.found, alone, deadline, foreseen=True)
         if found is None:
-            self._course = None if robots or alone is None else self._onward_alone(now, alone)
-            return self._idle(outlook, self._none_pays(alone), robots)
-        if not self._told:
-            foreseen = None if course is None else found
-            found, why = self._safe(now, found, alone, deadline, foreseen)
-            if found is None:
-                return self._idle(outlook, why, robots)
+            lasts = why.kind in ("no-help", "done") and alone is not None and not robots
+            self._course = self._onward_alone(now, alone) if lasts and alone is not None else None
+            return self._idle(outlook, why, robots)
         self._course = self._onward(now, found, deadline)
         return self._following(outlook, now, found, alone, robots, deadline)
+
+    def _promised(self, now: Task, alone: Way | None, deadline: Deadline) -> tuple[Help | None, Why]:
+        """The best plan that robots may follow; None, and why, where there is none.
+
+        Their own goals they see to without what would spoil something.
+        """
+        asked = now
+        while True:
+            found = self._best(asked, alone, deadline.sooner(_TIME_TO_PLAN))
+            if found is None or self._told:
+                return found, self._none_pays(now, alone)
+            safe, why = self._safe(now, found, alone, deadline)
+            begun = [step for step in found.plan if step.epoch == 1 and step.agents != (self._human,)]
+            if safe is not None or not begun or alone is None or not now.robot_goal:
+                return safe if safe is None or asked is now else replace(
+                    safe, proved=False, settled=False
+                ), why
+            left = {asked.actions[i] for i in actions_named(asked, begun[0].action, begun[0].agents)}
+            asked = _with(asked, [action for action in asked.actions if action not in left])
 
     def _able(self, now: Task) -> Task:
         """The task as it stands, without what robots can't do any more."""
         gone, actions = self._gone, now.actions
-        kept = tuple(
-            a for i, a in enumerate(actions) if i not in self._unable and gone.isdisjoint(a.participants)
-        )
-        if len(kept) == len(actions):
-            return now
-        return replace(now, actions=kept, known_variables=now.variables)
+        kept = [a for i, a in enumerate(actions) if i not in self._unable and gone.isdisjoint(a.participants)]
+        return now if len(kept) == len(actions) else _with(now, kept)
 
     def _asked(self, now: Task) -> Session:
         """The session where things stand."""
         session = self._session
-        if session is None or (session.task.init, session.task.script) != (now.init, now.script):
+        if session is None or _stand(session.task) != _stand(now):
             options = self._options
             session = self._session = Session(
                 now,
@@ -172,27 +186,37 @@ class RobotsInTime:
         return session
 
     def _best(self, now: Task, alone: Way | None, deadline: Deadline) -> Help | None:
-        """The best plan of the mode that pays, or the rest of the last one; None where none does.
+        """The best plan of the mode that pays or sees to robots' own goals, or the rest of the last one.
+
+        Robots' own goals wait where the person has no plan alone.
 
         Raises:
             LimitReachedError: the deadline came before it was known.
         """
+        works, over = bool(now.robot_goal) and alone is not None, _is_over(now, alone)
+        if alone is None and now.robot_goal:
+            now = now.with_goal(now.goal, Condition())
+        if over:
+            now = _with(now, [action for action in now.actions if now.human not in action.participants])
         session = self._asked(now)
-        rest = self._rest(session, alone)
-        if alone is None:
+        rest = self._rest(session, None if works else alone)
+        if alone is None or over:
             answer = session.plan(mode="composite", horizon=INFINITE, deadline=deadline)
+        elif works and not self._told:
+            answer = session.plan(human_model="observant", deadline=deadline)
         else:
             answer = session.plan(deadline=deadline)
-        if answer.plan is None or (alone is not None and not answer.opportunity):
+        pays = alone is None or (answer.opportunity and not over)
+        if answer.plan is None or not (pays or works):
             if rest is None and answer.status not in ("optimal", "infeasible"):
                 raise LimitReachedError("time-limit")
             self._is_sure = answer.status == "optimal"
             return rest
         cost = total(as_written(step.cost) for step in answer.plan)
-        if rest is not None and rest.cost <= cost:
-            return replace(rest, proved=answer.status == "optimal")
         is_best = answer.status == "optimal"
-        return Help(answer.plan, answer.window, cost, proved=is_best, settled=is_best)
+        if rest is not None and rest.cost <= cost:
+            return replace(rest, proved=is_best, pays=pays or rest.cost < cost)
+        return Help(answer.plan, answer.window, cost, proved=is_best, settled=is_best, pays=pays)
 
     def _rest(self, session: Session, alone: Way | None) -> Help | None:
         """What is left of the last plan, if robots have a part in it and it still pays."""
@@ -204,32 +228,36 @@ class RobotsInTime:
             return None
         return Help(steps, None, cost, proved=False, settled=False)
 
-    def _none_pays(self, alone: Way | None) -> Why:
+    def _none_pays(self, now: Task, alone: Way | None) -> Why:
         if alone is None:
             return Why("out-of-reach")
+        if not now.robot_goal.holds(now.init):
+            return Why("own-goals-lost")
         return Why("done" if self._history.helped else "no-help", float(alone.cost), float(alone.cost))
 
     # -- beside somebody who is not told
 
     def _safe(
-        self, now: Task, found: Help, alone: Way | None, deadline: Deadline, foreseen: Help | None
+        self, now: Task, found: Help, alone: Way | None, deadline: Deadline, *, foreseen: bool = False
     ) -> tuple[Help | None, Why]:
         """The plan as it will come out with such a person; None, and why, where it does not pay or spoils.
 
         Args:
-            foreseen: the same, if all went as it was to go with them.
+            foreseen: it is known to come out so, if all goes as it was to go with them.
         """
         cost, before = found.cost, None if alone is None else alone.cost
-        will_be = self._outcome(now, found.plan, deadline) if foreseen is None else cost
         figures = float(cost), None if before is None else float(before)
-        if will_be is None or (before is not None and will_be >= before):
-            return None, Why("untold" if before is not None else "only-told", *figures)
+        if not (foreseen or (now.robot_goal and before is not None)):  # else it was made for such a person
+            will_be = self._outcome(now, found.plan, deadline)
+            if will_be is None or (before is not None and will_be >= before):
+                return None, Why("untold" if before is not None else "only-told", *figures)
+            found = replace(found, cost=will_be, window=None, proved=False)
         first = [step for step in found.plan if step.epoch == 1]
         robots = [self._variant(now, step) for step in first if self._human not in step.agents]
         offers = [self._variant(now, s) for s in first if self._human in s.agents and len(s.agents) > 1]
         if robots and before is not None and self._spoils(now, robots, offers, before, deadline):
-            return None, Why("spoils", *figures)
-        return replace(found, cost=will_be, window=None, proved=False), Why("pays", *figures)
+            return None, Why("spoils", *figures) if found.pays else Why("own-goals-spoil")
+        return found, Why("pays", *figures)
 
     def _outcome(self, now: Task, plan: Sequence[PlanStep], deadline: Deadline) -> Fraction | None:
         """What the team will pay if robots do their part of a plan, as far as that goes; None: no end."""
@@ -346,13 +374,16 @@ class RobotsInTime:
         cost, before = float(found.cost), None if alone is None else float(alone.cost)
         later = min((s.epoch for s in found.plan if s.agents != (self._human,)), default=None)
         verdict, why = "helps", Why("pays" if alone is not None else "only-way", cost, before)
+        if not found.pays:
+            verdict, why = "works", Why("own-goals")
         if not (own or offers):
             if robots:
                 why = Why("goes-on", action=robots[0].action)
             elif later is None:
-                verdict, why = "aside", self._none_pays(alone)
+                verdict, why = "aside", self._none_pays(now, alone)
             else:
-                verdict, why = "waits", Why("later", cost, before, epoch=outlook.epoch + later - 1)
+                verdict = "waits" if found.pays else verdict
+                why = Why("later", cost, before, epoch=outlook.epoch + later - 1)
         return Decided(
             outlook.epoch,
             verdict,
@@ -381,3 +412,18 @@ class RobotsInTime:
         if robots:
             return Decided(outlook.epoch, "helps", "", because=Why("goes-on", action=robots[0].action))
         return Decided(outlook.epoch, "aside", "", because=why)
+
+
+def _is_over(now: Task, alone: Way | None) -> bool:
+    """Whether the person has what they want, or it comes by itself."""
+    return alone is not None and not alone.plan and now.human not in at_work(now)
+
+
+def _with(now: Task, actions: Iterable[GroundAction]) -> Task:
+    """The task as it stands, with these of its actions only."""
+    return replace(now, actions=tuple(actions), known_variables=now.variables)
+
+
+def _stand(task: Task) -> tuple[object, ...]:
+    """What tells where things stand, and what can be done and is wanted."""
+    return task.init, task.script, task.robot_goal, task.actions

@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 
 from search import PreparedTask, optimal_plans_in_time
 from serendipity.facade.planning import planned
-from serendipity.model import Deadline, HumanPlan, Options, Task
+from serendipity.model import Condition, Deadline, HumanPlan, Options, Task
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.script import Deed, TimedFact
 from serendipity.model.task.unit_steps import unit_steps
@@ -63,10 +63,9 @@ class Ways:
         return self._known[key]
 
     def _found(self, now: Task, deadline: Deadline) -> Way | None:
+        asked = PreparedTask(now.with_goal(now.goal, Condition()))  # robots' own goals are theirs
         interference = self._options.interference
-        answer = planned(
-            PreparedTask(now), None, None, mode="individual", interference=interference, deadline=deadline
-        )
+        answer = planned(asked, None, None, mode="individual", interference=interference, deadline=deadline)
         if answer.status not in ("optimal", "infeasible"):
             raise LimitReachedError("time-limit")
         if answer.human_plan is None or answer.human_entries is None:
