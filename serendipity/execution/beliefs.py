@@ -34,8 +34,10 @@ class Beliefs:
         candidates: goals, with their priors.
         beta: how strictly the person is taken to minimise cost.
         noise: of what is seen of them; where time is short there is none.
+        explainer: makes what explains what was seen; None: the exact one.
 
     Attributes:
+        explainer: what explains it.
         weights: how probable each is.
 
     Raises:
@@ -48,10 +50,12 @@ class Beliefs:
         candidates: Sequence[CandidateGoal],
         beta: Number,
         noise: Noise | str | None = None,
+        explainer: type[Explainer] | None = None,
     ) -> None:
         self.candidates = candidates
         self._task = task
-        self._explainer = Explainer(PreparedTask(task), [candidate.goal for candidate in self.candidates])
+        goals = [candidate.goal for candidate in self.candidates]
+        self.explainer = (explainer or Explainer)(PreparedTask(task), goals)
         self._beta, self._noise = strictness(beta), noise_from(noise)
         self._priors = [candidate.prior for candidate in self.candidates]
         self._observed: list[str] = []
@@ -105,12 +109,12 @@ class Beliefs:
         if self._observed:
             share, noise, read = deadline.part(_EXACT), self._noise, None
             try:
-                found = self._explainer.explain(self._observed, share, canonical=False)
+                found = self.explainer.explain(self._observed, share, canonical=False)
                 if noise is not None:
-                    read = self._explainer.readings(self._observed, noise.prices(self._beta), share)
+                    read = self.explainer.readings(self._observed, noise.prices(self._beta), share)
             except LIMITS:
                 deadline.check()
-                found, noise = self._explainer.from_here(self._observed, state, deadline), None
+                found, noise = self.explainer.from_here(self._observed, state, deadline), None
             priors = zip(self.candidates, self._priors, strict=True)
             weighed = [replace(candidate, prior=prior) for candidate, prior in priors]
             names = tuple(self._observed)
@@ -119,7 +123,7 @@ class Beliefs:
         self._rule_out()
         if self._disturbed:
             self._priors, self._observed = list(self.weights), []
-            self._explainer = self._explainer.at(state)
+            self.explainer = self.explainer.at(state)
             self._disturbed = False
 
     def weighed(self, state: frozenset[int], deadline: Deadline) -> dict[int, Fraction]:

@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any, Final, Literal
 
 from serendipity.execution.beliefs import Beliefs
+from serendipity.execution.clock.explainer import ExplainerInTime
 from serendipity.execution.clock.robots import RobotsInTime, require_known
 from serendipity.execution.clock.world import WorldInTime
 from serendipity.execution.decided import COLUMNS, Decided, Outlook, Passed, Reported, Robots
@@ -110,7 +111,8 @@ class Execution(Tabular):
         if plans is not None:
             _require_alone(task, goals, mode)
         if task.needs_time:
-            require_known(goals=goals, plans=plans, human_model=human_model)
+            several = goals is not None or plans is not None
+            require_known(task, several=several, noise=noise, human_model=human_model, mode=mode)
         if leave_free is not None:
             if goals is not None or plans is not None:
                 raise UsageError("leave_free: goes with a known goal only")
@@ -130,16 +132,11 @@ class Execution(Tabular):
         if noise is not None and not candidates:
             raise UsageError("noise: goes with goals only")
         habits = [one.plan for one in library]
-        beliefs = Beliefs(task, candidates, beta, noise) if candidates else None
-        self._robots: Robots
-        if robots is not None:
-            self._robots = robots
-        elif task.needs_time:
-            self._robots = RobotsInTime(task, options, told=told, surely=adapter is None)
-        else:
-            self._robots = RobotPolicy(
-                task, options, beliefs, told=told, surely=adapter is None, habits=habits
-            )
+        policy, explainer = (RobotsInTime, ExplainerInTime) if task.needs_time else (RobotPolicy, None)
+        beliefs = Beliefs(task, candidates, beta, noise, explainer) if candidates else None
+        if robots is None:
+            robots = policy(task, options, beliefs, told=told, surely=adapter is None, habits=habits)
+        self._robots = robots
         self.goal = None if library and not told else _name_of(task, candidates)
         self._adapter = adapter
         self._failures: Counter[tuple[tuple[str, ...], str]] = Counter()

@@ -45,6 +45,7 @@ class PolicyAdviser:
         self, task: Task, options: Options, actions: RobotActions, *, told: bool, surely: bool
     ) -> None:
         self._task = task
+        self._options = options
         self._discount = options.discount
         self._actions = actions
         self._told = told

@@ -10,11 +10,14 @@ from serendipity.execution.advice import DecisionPoint
 from serendipity.execution.beliefs import Beliefs
 from serendipity.execution.decided import Decided, Outlook
 from serendipity.execution.history import HelpHistory, Untouched
-from serendipity.execution.hypotheses import Hypotheses, Hypothesis, Prospect, best_for_all
+from serendipity.execution.hypotheses import Hypotheses, Hypothesis
 from serendipity.execution.policy_adviser import PolicyAdviser
+from serendipity.execution.prospects import Prospect, best_for_all
 from serendipity.execution.why import Why
 from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Task
 from serendipity.model.errors import LIMITS, LimitReachedError
+
+_Prospect = Prospect[Hypothesis]
 
 _TIME_TO_TELL: Final = 0.5
 """The share of the time that has to be left for finding out why nothing is done."""
@@ -166,7 +169,7 @@ class RobotPolicy:
         self,
         outlook: Outlook,
         now: DecisionPoint,
-        prospects: Sequence[Prospect],
+        prospects: Sequence[_Prospect],
         running: Sequence[PlanStep],
         deadline: Deadline,
         *,
@@ -177,7 +180,7 @@ class RobotPolicy:
         if certain and prospects[0].advice is None:
             return self._idle(outlook, self._lost(now, prospects[0].hypothesis, deadline), running)
         if watched:
-            prospect: Prospect | None = max(prospects, key=lambda one: one.weight * one.saving)
+            prospect: _Prospect | None = max(prospects, key=lambda one: one.weight * one.saving)
         else:
             prospect = prospects[0] if certain else best_for_all(prospects, deadline)
         if prospect is not None:
@@ -200,7 +203,7 @@ class RobotPolicy:
         return made_up or replace(decided, because=self._why_not(now, decided, prospects, deadline))
 
     def _made_up(
-        self, outlook: Outlook, now: DecisionPoint, prospects: Sequence[Prospect], deadline: Deadline
+        self, outlook: Outlook, now: DecisionPoint, prospects: Sequence[_Prospect], deadline: Deadline
     ) -> Decided | None:
         """Robots make up for what they have done, if somebody pays more for it and there is a way."""
         for prospect in prospects:
@@ -232,7 +235,7 @@ class RobotPolicy:
         reachable: Sequence[int],
         now: DecisionPoint,
         deadline: Deadline,
-    ) -> list[Prospect]:
+    ) -> list[_Prospect]:
         """A prospect for each goal, of a policy for all of them; nothing where none is looked for."""
         if self._watching is None:
             return []
@@ -244,14 +247,14 @@ class RobotPolicy:
             one.companion.under(deadline)
         return [Prospect(goal, known[goal], advice, shares[goal]) for goal, advice in policy.items()]
 
-    def _named(self, prospects: Iterable[Prospect]) -> dict[str, Sequence[PlanStep]]:
+    def _named(self, prospects: Iterable[_Prospect]) -> dict[str, Sequence[PlanStep]]:
         """What everybody does, by the name of the goal."""
         assert self._beliefs is not None, "there are candidates"
         return {self._beliefs.candidates[one.goal].name: one.plan for one in prospects}
 
     def _planned(
         self, weights: dict[int, Fraction], now: DecisionPoint, deadline: Deadline
-    ) -> list[Prospect]:
+    ) -> list[_Prospect]:
         """A prospect for each goal; goals that hardly matter get what time is left."""
         total = sum(weights.values())
         prospects = []
@@ -268,7 +271,7 @@ class RobotPolicy:
             prospects.append(Prospect(goal, known, advice, weight / total))
         return prospects
 
-    def _torn(self, now: DecisionPoint, prospects: Sequence[Prospect], deadline: Deadline) -> bool:
+    def _torn(self, now: DecisionPoint, prospects: Sequence[_Prospect], deadline: Deadline) -> bool:
         """Whether help would pay if it were known which goal it is; taken for no if time does not tell."""
         if len(prospects) < 2 or any(prospect.open for prospect in prospects):
             return len(prospects) > 1
@@ -286,7 +289,7 @@ class RobotPolicy:
         return False
 
     def _why_not(
-        self, now: DecisionPoint, decided: Decided, prospects: Sequence[Prospect], deadline: Deadline
+        self, now: DecisionPoint, decided: Decided, prospects: Sequence[_Prospect], deadline: Deadline
     ) -> Why:
         """Why nothing is done, whatever the goal is, and what the person pays more by what was done."""
         owed = self._owed(now.state, *(prospect.hypothesis for prospect in prospects))
@@ -295,7 +298,7 @@ class RobotPolicy:
             why = self._no_help(now, prospects, deadline)
         return replace(why, owed=owed)
 
-    def _no_help(self, now: DecisionPoint, prospects: Sequence[Prospect], deadline: Deadline) -> Why:
+    def _no_help(self, now: DecisionPoint, prospects: Sequence[_Prospect], deadline: Deadline) -> Why:
         """In which sense no help pays."""
         if not all(prospect.advice is not None and prospect.advice.proved for prospect in prospects):
             return Why("unfound")
@@ -331,7 +334,7 @@ class RobotPolicy:
         return Why("out-of-order", robots=gone, owed=owed)
 
     def _following(
-        self, outlook: Outlook, prospect: Prospect, running: Sequence[PlanStep], owed: float = 0.0
+        self, outlook: Outlook, prospect: _Prospect, running: Sequence[PlanStep], owed: float = 0.0
     ) -> Decided:
         """A decision that follows a plan, even if that is to do nothing."""
         now = [PlanStep(outlook.epoch, s.agents, s.action, s.cost) for s in prospect.plan if s.epoch == 1]
@@ -359,7 +362,7 @@ class RobotPolicy:
         )
 
     def _meant(
-        self, epoch: int, prospect: Prospect, running: Sequence[PlanStep], new: Sequence[PlanStep]
+        self, epoch: int, prospect: _Prospect, running: Sequence[PlanStep], new: Sequence[PlanStep]
     ) -> tuple[str, Why]:
         """Verdict and reason of a decision that follows a plan; if nothing is done, others know why."""
         if running and not new and (self._task.robot_goal or not prospect.pays):

@@ -17,6 +17,7 @@ from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.numbers import as_written, total
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named, variant_named
+from serendipity.model.task.script import Timeline
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,18 +29,24 @@ class Pledge:
         now: what was to be done in the epoch.
         state: ids of the facts that are true after it, if all goes as planned.
         later: what is left then, its epochs counted from there.
+        script: in time, what is left of it then, and what goes on; None without, and where it is not known.
     """
 
     before: frozenset[int]
     now: tuple[PlanStep, ...]
     state: frozenset[int]
     later: Advice
+    script: Timeline | None = None
+
+    def stands(self, now: Task) -> bool:
+        """Whether a task as it stands, in time, is what the epoch was to lead to."""
+        return (self.state, self.script) == (now.init, now.script)
 
     @classmethod
     def of(cls, task: Task, state: frozenset[int], advice: Advice) -> "Pledge":
         """What an advice makes of the epoch that is to come."""
         now = tuple(step for step in advice.plan if step.epoch == 1)
-        rest = tuple(_moved(step for step in advice.plan if step.epoch > 1))
+        rest = tuple(moved(step for step in advice.plan if step.epoch > 1))
         window = advice.window
         if window is not None:
             window = None if window.start == 1 else Window(window.start - 1, window.end - 1)
@@ -63,7 +70,7 @@ class Pledge:
         missed = tuple(step for step in self.now if not _done(task, step, now.state))
         if all(step.agents == (task.agents[task.human],) for step in missed):
             return None
-        plan = (*missed, *_moved(self.later.plan, by=1))
+        plan = (*missed, *moved(self.later.plan, by=1))
         if not _goes(task, now, plan, hopeless=hopeless):
             return None
         return replace(self.later, plan=plan, window=None, cost=self.later.cost + _cost(missed), proved=False)
@@ -100,7 +107,8 @@ def _done(task: Task, step: PlanStep, state: frozenset[int]) -> bool:
     return any(state.issuperset(a.add) and state.isdisjoint(set(a.delete).difference(a.add)) for a in same)
 
 
-def _moved(steps: Iterable[PlanStep], by: int = -1) -> Iterator[PlanStep]:
+def moved(steps: Iterable[PlanStep], by: int = -1) -> Iterator[PlanStep]:
+    """Steps so many epochs later."""
     return (replace(step, epoch=step.epoch + by) for step in steps)
 
 

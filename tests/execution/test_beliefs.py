@@ -24,7 +24,7 @@ def test_without_time_for_exact_costs_bounds_tell_goals_apart(monkeypatch: pytes
     def too_late(*_: Any, **__: Any) -> None:
         raise LimitReachedError("time")
 
-    monkeypatch.setattr(beliefs._explainer, "explain", too_late)
+    monkeypatch.setattr(beliefs.explainer, "explain", too_late)
     (action,) = home.named["go h a b"]
     beliefs.saw(action, [action])
     beliefs.update(apply(home.init, home.actions[action]), Deadline())

@@ -72,16 +72,37 @@ def after_helping(now: Task, options: Options, found: Help, choice: PlanStep | s
     later = tuple(replace(step, epoch=step.epoch - 1) for step in found.plan if step.epoch > 1)
     if not found.settled or all(step.agents == (human,) for step in later):
         return None
-    robots = [step for step in found.plan if step.epoch == 1 and human not in step.agents]
-    world = WorldInTime(now, options.discount, strict=options.strict)
+    world = after(now, options, found.plan, choice)
+    if world is None:
+        return None
+    cost = found.cost - world.cost(world.executed)[1]
+    return Course(world.now.init, world.now.script, replace(found, plan=later, window=None, cost=cost), None)
+
+
+class _Foreseen(WorldInTime):
+    """The world after an epoch of a plan; ``executed``: what began in it, by action ids."""
+
+    executed: tuple[int, ...] = ()
+
+
+def after(
+    now: Task, options: Options, plan: Sequence[PlanStep], choice: PlanStep | str | None
+) -> _Foreseen | None:
+    """The world after an epoch of a plan; None where the person's part in it is not possible.
+
+    Args:
+        choice: what the person does: a step of the plan, the name of an action of their own, or nothing.
+    """
+    human = now.agents[now.human]
+    robots = [step for step in plan if step.epoch == 1 and human not in step.agents]
+    world = _Foreseen(now, options.discount, strict=options.strict)
     taken = [choice] if isinstance(choice, PlanStep) and len(choice.agents) > 1 else []
     name = choice.action if isinstance(choice, PlanStep) else choice
     own = None if name is None or taken else world.his(name)
     if own is not None and not world.applicable(own):
         return None
-    happened = world.play(own, [*taken, *robots], _done)
-    cost = found.cost - world.cost(happened.executed)[1]
-    return Course(world.now.init, world.now.script, replace(found, plan=later, window=None, cost=cost), None)
+    world.executed = world.play(own, [*taken, *robots], _done).executed
+    return world
 
 
 def _done(asked: Sequence[PlanStep]) -> Sequence[Outcome]:

@@ -3,106 +3,145 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations
-from typing import Any, Final
+from typing import Final
 
-from serendipity.execution.clock.course import Course, Help, after_going_on, after_helping
-from serendipity.execution.clock.world import WorldInTime
+from serendipity.execution.beliefs import Beliefs
+from serendipity.execution.clock.course import Help
+from serendipity.execution.clock.explainer import ExplainerInTime
+from serendipity.execution.clock.policy import PolicyInTime
+from serendipity.execution.clock.supposed import Supposed, is_over, with_actions
 from serendipity.execution.decided import Decided, Outlook
+from serendipity.execution.guard import RobotActions
 from serendipity.execution.history import HelpHistory
+from serendipity.execution.prospects import Prospect, best_for_all
 from serendipity.execution.why import Why
-from serendipity.facade.person.follower import Follower
-from serendipity.facade.person.ways import Way, Ways
-from serendipity.facade.session import Session
-from serendipity.model import INFINITE, Condition, Deadline, Options, PlanError, PlanStep, Task, UsageError
-from serendipity.model.errors import LIMITS, LimitReachedError
-from serendipity.model.numbers import as_written, total
-from serendipity.model.task.actions import GroundAction
-from serendipity.model.task.course import BrokenPlanError
-from serendipity.model.task.execution import actions_named, variant_named
-from serendipity.model.task.passing import at_work, epoch_later
+from serendipity.facade.person.ways import entries_of
+from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Task, UsageError
+from serendipity.model.errors import LIMITS
 
 _TIME_TO_PLAN: Final = 0.6
-"""The share of the time for plans; the rest is for what they mean for somebody who is not told."""
+"""The share of the time for plans to several goals; the rest is for what they mean with each of them."""
 
 
-def require_known(**given: Any) -> None:
+def require_known(task: Task, *, several: bool, noise: object, human_model: str, mode: str) -> None:
     """Return if an execution in time knows all that is asked for.
+
+    Args:
+        several: whether there are goals or plans that the person may have.
 
     Raises:
         UsageError: it does not.
     """
-    model = given.pop("human_model")
-    name = next((name for name, value in given.items() if value is not None), None)
-    if model == "local" or name is not None:
-        raise UsageError(f"{name or 'human_model local'}: in time, which is not known here yet")
+    if human_model == "local":
+        raise UsageError("human_model local: in time, which is not known here yet")
+    if several and (task.robot_goal or mode != "serendipity"):
+        raise UsageError("goals and plans: in time they go without robots' own goals, and communication")
+    if several and noise is not None:
+        raise UsageError("noise: in time, which is not known here yet")
 
 
 class RobotsInTime:
     """Plans anew in each epoch, and leaves alone what the person may need.
 
-    Beside somebody who is told, robots follow the best plan of their mode, or finish the last one.  Somebody
-    else is taken to follow a plan of their own, and to look up when they are free.  For them robots do what
-    the best plan says, if it pays with such a person, and whatever they begin makes no way dearer that the
-    person may be on.
+    Beside somebody who is told, robots follow the best plan of their mode, or finish the last one; where it
+    is not known what they want, a policy.  Somebody else is taken to follow a plan of their own, and to look
+    up when they are free.  For them robots do what the best plan says, if it pays with such a person, and
+    whatever they begin makes no way dearer that the person may be on, whichever goal is theirs.
 
     Args:
+        beliefs: in goals that the person may have, their explainer one in time; None: they are known to have
+            the task's.
         told: the person keeps to the robots' plan.
         surely: whether robots manage whatever is possible.
+        habits: for each of these goals, the plan that the person would follow, if known.
     """
 
-    goals: Mapping[str, float] = {}
-
-    def __init__(self, task: Task, options: Options, *, told: bool, surely: bool = True) -> None:
+    def __init__(
+        self,
+        task: Task,
+        options: Options,
+        beliefs: Beliefs | None = None,
+        *,
+        told: bool,
+        surely: bool = True,
+        habits: Sequence[HumanPlan] = (),
+    ) -> None:
         self._task = task
-        self._options = options
         self._told = told
-        self._surely = surely
-        self._ways = Ways(options)
-        self._theirs = Follower(self._ways)
+        self._beliefs = beliefs
+        tasks = [task] if beliefs is None else [task.with_goal(one.goal) for one in beliefs.candidates]
+        self._supposed = [Supposed(one, options, told=told, surely=surely) for one in tasks]
+        for one, habit in zip(self._supposed, habits, strict=False):
+            one.theirs.rest, one.theirs.faithful = entries_of(one.task, habit), True
+        if beliefs is not None:
+            self._explainer.ways = [one.ways for one in self._supposed]
+        self._watching = (
+            PolicyInTime(task, options, RobotActions(task), told=told, surely=surely)
+            if told and beliefs is not None
+            else None
+        )
         self._history = HelpHistory(task)
-        self._session: Session | None = None
-        self._course: Course | None = None
-        self._is_sure = False
-        """Whether it is proved that no help pays."""
         self._gone: frozenset[int] = frozenset()
         self._unable: frozenset[int] = frozenset()
         self._human = task.agents[task.human]
+
+    @property
+    def goals(self) -> Mapping[str, float]:
+        """The posterior of each candidate goal; empty where there is only one."""
+        return {} if self._beliefs is None else self._beliefs.named()
 
     # -- what robots learn
 
     def saw(self, own: int | None, executed: Sequence[int], tried: int | None = None) -> None:
         """See :class:`serendipity.execution.Robots`."""
         self._history.saw(executed)
-        actions = self._task.actions
-        if any(self._task.human in actions[i].participants for i in executed if i != own):
-            self._theirs.joined()
-        else:
-            self._theirs.passed(None if own is None else actions[own].name)
-        if tried is not None:
-            self._theirs.rest = None
-        if self._session is not None:
-            try:
-                self._session.execute([actions[i].name for i in executed])
-            except UsageError:
-                self._session = None  # something did not go on
+        for one in self._supposed:
+            one.passed(own, executed, tried)
+        if self._beliefs is None:
+            return
+        self._explainer.passed(own)
+        others, habits = None, [i for i, one in enumerate(self._supposed) if one.theirs.faithful]
+        if self._watching is not None:
+            actions = (self._task.actions[i] for i in (*executed, *(() if tried is None else (tried,))))
+            his = next((one.name for one in actions if self._task.human in one.participants), None)
+            others = self._watching.saw(his)
+        out = [] if others is None else [others]
+        if habits:
+            pledged = frozenset[int]() if self._watching is None else self._watching.pledged
+            strayed = {i for i in habits if self._supposed[i].theirs.rest is None}
+            out.append({*strayed, *set(range(len(self._supposed))).difference(habits)} - pledged)
+        if any(i != own for i in executed):
+            self._beliefs.disturbed()
+        if not out:
+            self._beliefs.saw(own, executed)
+        elif not self._beliefs.rule_out(*out):
+            for one in self._supposed:
+                one.theirs.faithful = False
 
     def surprised(self) -> None:
         """See :class:`serendipity.execution.Robots`."""
         self._history.broken("changed")
-        self._course = None
+        self._begin_anew()
+        if self._beliefs is not None:
+            self._beliefs.disturbed()
 
     def drop(self, robots: Iterable[int]) -> None:
         """See :class:`serendipity.execution.Robots`."""
         gone = frozenset(robots)
         self._history.broken("out-of-order", ", ".join(self._task.agents[i] for i in sorted(gone)))
         self._gone |= gone
-        self._session = self._course = None
+        self._begin_anew()
 
     def unable(self, actions: Iterable[int]) -> None:
         """See :class:`serendipity.execution.Robots`."""
         self._unable |= frozenset(actions)
-        self._session = self._course = None
+        self._begin_anew()
+
+    def _begin_anew(self) -> None:
+        for one in self._supposed:
+            one.begin_anew()
+        if self._watching is not None:
+            self._watching.pledge(frozenset(), {})
 
     # -- what they decide
 
@@ -111,279 +150,133 @@ class RobotsInTime:
         return self._history.told(self._decided(outlook, deadline), outlook.running)
 
     def _decided(self, outlook: Outlook, deadline: Deadline) -> Decided:
-        now, going = self._able(outlook.world.now), outlook.world.going
-        robots = [step for step in going if self._human not in step.agents]
+        now = self._able(outlook.world.now)
         if self._gone.issuperset(self._task.robots):
             gone = tuple(self._task.agents[i] for i in sorted(self._gone))
-            return self._idle(outlook, Why("out-of-order", robots=gone), robots)
-        course, self._course = self._course, None
-        if course is not None and (course.state, course.script) != (now.init, now.script):
-            course = None
-        if course is not None and course.found is None:
-            alone: Way | None = course.alone
-        else:
-            alone = self._ways.of(now, deadline)
-            if _is_over(now, alone) and now.robot_goal.holds(now.init):
-                return self._idle(outlook, Why("no-help"), robots)  # everybody has what they want
-            if now.human not in at_work(now):
-                self._theirs.look(now, deadline)
-        if course is None:
-            found, why = self._promised(now, alone, deadline)
-        elif course.found is None or self._told:
-            found, why = course.found, self._none_pays(now, alone)
-        else:
-            found, why = self._safe(now, course.found, alone, deadline, foreseen=True)
-        if found is None:
-            lasts = why.kind in ("no-help", "done") and alone is not None and not robots
-            self._course = self._onward_alone(now, alone) if lasts and alone is not None else None
-            return self._idle(outlook, why, robots)
-        self._course = self._onward(now, found, deadline)
-        return self._following(outlook, now, found, alone, robots, deadline)
+            return self._idle(outlook, Why("out-of-order", robots=gone))
+        if self._beliefs is None:
+            return self._with_one(outlook, now, 0, deadline)
+        self._explainer.now = outlook.world.now
+        weights = self._beliefs.weighed(now.init, deadline)
+        known = {goal: self._supposed[goal] for goal in weights}
+        if len(known) > 1 or self._watching is not None:
+            for one in known.values():
+                one.look(now.with_goal(one.task.goal), deadline)
+            owes = frozenset[int]() if self._watching is None else self._watching.kept(now)
+            known = {goal: one for goal, one in known.items() if one.way is not None or goal in owes}
+        if not known or (len(known) == 1 and self._watching is None):
+            return self._with_one(outlook, now, next(iter(known or weights)), deadline)
+        total = sum(weights[goal] for goal in known)
+        shares = {goal: weights[goal] / total for goal in known}
+        if self._watching is not None:
+            return self._by_policy(outlook, now, self._watching, known, shares, deadline)
+        return self._with_several(outlook, known, shares, deadline)
 
-    def _promised(self, now: Task, alone: Way | None, deadline: Deadline) -> tuple[Help | None, Why]:
-        """The best plan that robots may follow; None, and why, where there is none.
-
-        Their own goals they see to without what would spoil something.
-        """
-        asked = now
-        while True:
-            found = self._best(asked, alone, deadline.sooner(_TIME_TO_PLAN))
-            if found is None or self._told:
-                return found, self._none_pays(now, alone)
-            safe, why = self._safe(now, found, alone, deadline)
-            begun = [step for step in found.plan if step.epoch == 1 and step.agents != (self._human,)]
-            if safe is not None or not begun or alone is None or not now.robot_goal:
-                return safe if safe is None or asked is now else replace(
-                    safe, proved=False, settled=False
-                ), why
-            left = {asked.actions[i] for i in actions_named(asked, begun[0].action, begun[0].agents)}
-            asked = _with(asked, [action for action in asked.actions if action not in left])
+    @property
+    def _explainer(self) -> ExplainerInTime:
+        """What explains what was seen."""
+        assert self._beliefs is not None and isinstance(self._beliefs.explainer, ExplainerInTime)
+        return self._beliefs.explainer
 
     def _able(self, now: Task) -> Task:
         """The task as it stands, without what robots can't do any more."""
         gone, actions = self._gone, now.actions
         kept = [a for i, a in enumerate(actions) if i not in self._unable and gone.isdisjoint(a.participants)]
-        return now if len(kept) == len(actions) else _with(now, kept)
+        return now if len(kept) == len(actions) else with_actions(now, kept)
 
-    def _asked(self, now: Task) -> Session:
-        """The session where things stand."""
-        session = self._session
-        if session is None or _stand(session.task) != _stand(now):
-            options = self._options
-            session = self._session = Session(
-                now,
-                mode=options.mode,
-                discount=options.discount,
-                interference=options.interference,
-                window_weight=options.window_weight,
-            )
-        known = self._theirs.rest
-        try:
-            working = None if known is None else session.task.plan_from_names(known)
-        except PlanError:
-            working = None
-        session.follow(known if working else None)
-        return session
-
-    def _best(self, now: Task, alone: Way | None, deadline: Deadline) -> Help | None:
-        """The best plan of the mode that pays or sees to robots' own goals, or the rest of the last one.
-
-        Robots' own goals wait where the person has no plan alone.
-
-        Raises:
-            LimitReachedError: the deadline came before it was known.
-        """
-        works, over = bool(now.robot_goal) and alone is not None, _is_over(now, alone)
-        if alone is None and now.robot_goal:
-            now = now.with_goal(now.goal, Condition())
-        if over:
-            now = _with(now, [action for action in now.actions if now.human not in action.participants])
-        session = self._asked(now)
-        rest = self._rest(session, None if works else alone)
-        if alone is None or over:
-            answer = session.plan(mode="composite", horizon=INFINITE, deadline=deadline)
-        elif works and not self._told:
-            answer = session.plan(human_model="observant", deadline=deadline)
+    def _with_one(self, outlook: Outlook, now: Task, goal: int, deadline: Deadline) -> Decided:
+        """The decision where one goal is to be reckoned with."""
+        one, busy = self._supposed[goal], bool(self._busy(outlook))
+        aimed = now if self._beliefs is None else now.with_goal(one.task.goal)
+        found, why, alone = one.help(aimed, deadline, busy=busy)
+        if found is None:
+            helped = why.kind == "no-help" and self._history.helped and not is_over(aimed, alone)
+            decided = self._idle(outlook, replace(why, kind="done") if helped else why)
         else:
-            answer = session.plan(deadline=deadline)
-        pays = alone is None or (answer.opportunity and not over)
-        if answer.plan is None or not (pays or works):
-            if rest is None and answer.status not in ("optimal", "infeasible"):
-                raise LimitReachedError("time-limit")
-            self._is_sure = answer.status == "optimal"
-            return rest
-        cost = total(as_written(step.cost) for step in answer.plan)
-        is_best = answer.status == "optimal"
-        if rest is not None and rest.cost <= cost:
-            return replace(rest, proved=is_best, pays=pays or rest.cost < cost)
-        return Help(answer.plan, answer.window, cost, proved=is_best, settled=is_best, pays=pays)
+            decided = self._following(outlook, one, found, goal)
+            if not self._told:
+                his = one.expected(aimed, decided.offers, deadline)
+                decided = replace(decided, expected=None if his is None else replace(his, epoch=1))
+        if self._watching is None or found is None or self._beliefs is None:
+            return decided
+        return self._watching.for_all(decided, {self._beliefs.candidates[goal].name: found.plan})
 
-    def _rest(self, session: Session, alone: Way | None) -> Help | None:
-        """What is left of the last plan, if robots have a part in it and it still pays."""
-        steps = session.rest
-        if not steps or all(step.agents == (self._human,) for step in steps):
-            return None
-        cost = total(as_written(step.cost) for step in steps)
-        if alone is not None and cost >= alone.cost:
-            return None
-        return Help(steps, None, cost, proved=False, settled=False)
-
-    def _none_pays(self, now: Task, alone: Way | None) -> Why:
-        if alone is None:
-            return Why("out-of-reach")
-        if not now.robot_goal.holds(now.init):
-            return Why("own-goals-lost")
-        return Why("done" if self._history.helped else "no-help", float(alone.cost), float(alone.cost))
-
-    # -- beside somebody who is not told
-
-    def _safe(
-        self, now: Task, found: Help, alone: Way | None, deadline: Deadline, *, foreseen: bool = False
-    ) -> tuple[Help | None, Why]:
-        """The plan as it will come out with such a person; None, and why, where it does not pay or spoils.
-
-        Args:
-            foreseen: it is known to come out so, if all goes as it was to go with them.
-        """
-        cost, before = found.cost, None if alone is None else alone.cost
-        figures = float(cost), None if before is None else float(before)
-        if not (foreseen or (now.robot_goal and before is not None)):  # else it was made for such a person
-            will_be = self._outcome(now, found.plan, deadline)
-            if will_be is None or (before is not None and will_be >= before):
-                return None, Why("untold" if before is not None else "only-told", *figures)
-            found = replace(found, cost=will_be, window=None, proved=False)
-        first = [step for step in found.plan if step.epoch == 1]
-        robots = [self._variant(now, step) for step in first if self._human not in step.agents]
-        offers = [self._variant(now, s) for s in first if self._human in s.agents and len(s.agents) > 1]
-        if robots and before is not None and self._spoils(now, robots, offers, before, deadline):
-            return None, Why("spoils", *figures) if found.pays else Why("own-goals-spoil")
-        return found, Why("pays", *figures)
-
-    def _outcome(self, now: Task, plan: Sequence[PlanStep], deadline: Deadline) -> Fraction | None:
-        """What the team will pay if robots do their part of a plan, as far as that goes; None: no end."""
-        world = WorldInTime(now, self._options.discount, strict=self._options.strict)
-        person, spent = self._theirs.copy(), Fraction(0)
-        is_news = True  # nobody changes their mind while robots do nothing
-        for epoch in range(1, max(step.epoch for step in plan) + 1):
-            steps = [step for step in plan if step.epoch == epoch]
-            offers = [s for s in steps if self._human in s.agents and len(s.agents) > 1]
-            robots = [step for step in steps if self._human not in step.agents]
-            busy = world.now.human in at_work(world.now)
-            if is_news or offers or person.rest is None:
-                choice = person.choose(world.now, offers, deadline)
-                is_news = is_news and busy
-            else:
-                choice = None if busy else person.next
-            taken = [choice] if isinstance(choice, PlanStep) else []
-            own = world.his(choice) if isinstance(choice, str) else None
-            if own is not None and not world.applicable(own):
-                own = None
-            happened = world.play(own, [*taken, *robots], lambda asked: ["done"] * len(asked))
-            if taken:
-                person.joined()
-            else:
-                person.passed(None if own is None else now.actions[own].name)
-            spent += world.cost(happened.executed)[1]
-            others = any(self._human not in step.agents for step in happened.going)
-            is_news = (
-                is_news
-                or others
-                or any(now.actions[i].participants != (now.human,) for i in happened.executed)
-            )
-        left = self._ways.of(world.now, deadline)
-        return None if left is None else spent + left.cost
-
-    def _spoils(
+    def _with_several(
         self,
-        now: Task,
-        robots: Sequence[GroundAction],
-        offers: Sequence[GroundAction],
-        least: Fraction,
+        outlook: Outlook,
+        known: Mapping[int, Supposed],
+        shares: Mapping[int, Fraction],
         deadline: Deadline,
-    ) -> bool:
-        """Whether what robots begin may make a way dearer that the person is on, whichever it is."""
-        sizes = (len(robots),) if self._surely else range(1, len(robots) + 1)
-        teams = [team for size in sizes for team in combinations(robots, size)]
-        for own in self._next_steps(now, offers):
+    ) -> Decided:
+        """The decision beside somebody who is not told, and may have several goals."""
+        part = deadline.sooner(_TIME_TO_PLAN)
+        prospects, late = [], False
+        for number, (goal, one) in enumerate(known.items()):
             try:
-                left = self._ways.of(epoch_later(now, own, strict=self._options.strict), deadline)
-            except BrokenPlanError:
-                continue
-            if left is None or sum((a.cost for a in own), left.cost) > least:
-                continue
-            if any(self._worse(now, [*own, *team], left, deadline) for team in teams):
-                return True
-        return False
-
-    def _next_steps(self, now: Task, offers: Sequence[GroundAction]) -> Iterable[Sequence[GroundAction]]:
-        """What the person may do in the epoch that is to come: go on or wait, or begin something."""
-        yield ()
-        if now.human not in at_work(now):
-            own = (now.actions[i] for i in now.human_actions)
-            yield from ([action] for action in (*own, *offers) if action.applicable(now.init))
-
-    def _worse(self, now: Task, begun: Sequence[GroundAction], left: Way, deadline: Deadline) -> bool:
-        try:
-            then = self._ways.of(epoch_later(now, begun, strict=self._options.strict), deadline)
-        except BrokenPlanError:
-            return True
-        return then is None or then.cost > left.cost
-
-    def _variant(self, now: Task, step: PlanStep) -> GroundAction:
-        return now.actions[variant_named(now, step.action, step.agents, now.init)]
-
-    # -- what stands
-
-    def _onward_alone(self, now: Task, alone: Way) -> Course | None:
-        """What stands after an epoch in which the person goes on with their plan, and no help pays."""
-        if not self._is_sure:
-            return None
-        name = None if now.human in at_work(now) else self._theirs.next
-        return after_going_on(now, self._options, alone, name)
-
-    def _onward(self, now: Task, found: Help, deadline: Deadline) -> Course | None:
-        """What stands after an epoch that goes as planned."""
-        first = [step for step in found.plan if step.epoch == 1]
-        choice: PlanStep | str | None = next((s for s in first if self._human in s.agents), None)
-        if not self._told and found.settled:
-            offers = [s for s in first if self._human in s.agents and len(s.agents) > 1]
-            try:
-                choice = self._theirs.copy().choose(now, offers, deadline)
+                advice = one.advice(part.part(1 / (len(known) - number)))
             except LIMITS:
-                return None
-        return after_helping(now, self._options, found, choice)
+                advice, late = None, True
+            prospects.append(Prospect(goal, one, advice, shares[goal]))
+        best = best_for_all(prospects, deadline)
+        if best is None or best.advice is None:
+            torn = any(prospect.open for prospect in prospects)
+            if torn:
+                return self._idle(outlook, Why("unsure", goals=self._guess()))
+            kind = "unfound" if late else "done" if self._history.helped else "no-help"
+            return self._idle(outlook, Why(kind))
+        if any(one.spoilt(best.plan, deadline) for one in known.values()):
+            alone = None if best.alone is None else float(best.alone)
+            return self._idle(outlook, Why("spoils", float(best.advice.cost), alone))
+        found = Help(best.plan, None, best.advice.cost, proved=False, settled=False, pays=True)
+        return self._following(outlook, best.hypothesis, found, best.goal)
 
-    # -- in words
-
-    def _following(
+    def _by_policy(
         self,
         outlook: Outlook,
         now: Task,
-        found: Help,
-        alone: Way | None,
-        robots: Sequence[PlanStep],
+        watching: PolicyInTime,
+        known: Mapping[int, Supposed],
+        shares: Mapping[int, Fraction],
         deadline: Deadline,
     ) -> Decided:
-        """A decision that follows a plan that pays."""
+        """The decision beside somebody who is told what the robots' plan has them do for each goal."""
+        assert self._beliefs is not None, "there are candidates"
+        policy = watching.policy(known, shares, now, deadline)
+        prospects = [Prospect(goal, known[goal], one, shares[goal]) for goal, one in policy.items()]
+        first = max(prospects, key=lambda one: one.weight * one.saving)
+        assert first.advice is not None, "there is a plan for each"
+        advice = first.advice
+        found = Help(advice.plan, advice.window, advice.cost, advice.proved, settled=False, pays=advice.pays)
+        decided = self._following(outlook, first.hypothesis, found, first.goal)
+        names = self._beliefs.candidates
+        return watching.for_all(decided, {names[one.goal].name: one.plan for one in prospects})
+
+    # -- in words
+
+    def _following(self, outlook: Outlook, one: Supposed, found: Help, goal: int) -> Decided:
+        """A decision that follows a plan."""
         first = [replace(step, epoch=outlook.epoch) for step in found.plan if step.epoch == 1]
         own = tuple(step for step in first if self._human not in step.agents)
         offers = tuple(step for step in first if self._human in step.agents and len(step.agents) > 1)
         his = next((step for step in first if self._human in step.agents), None)
-        if not self._told:
-            his = self._expected(now, offers, deadline)
-        cost, before = float(found.cost), None if alone is None else float(alone.cost)
+        cost, before, robots = float(found.cost), one.alone, self._busy(outlook)
+        alone = None if before is None else float(before)
         later = min((s.epoch for s in found.plan if s.agents != (self._human,)), default=None)
-        verdict, why = "helps", Why("pays" if alone is not None else "only-way", cost, before)
+        guess = self._guess(goal)
+        verdict, why = "helps", Why("pays" if alone is not None else "only-way", cost, alone, goals=guess)
         if not found.pays:
             verdict, why = "works", Why("own-goals")
         if not (own or offers):
             if robots:
-                why = Why("goes-on", action=robots[0].action)
+                verdict, why = "helps" if found.pays else verdict, Why("goes-on", action=robots[0].action)
             elif later is None:
-                verdict, why = "aside", self._none_pays(now, alone)
+                verdict, why = "aside", Why("done" if self._history.helped else "no-help", cost, alone)
+            elif self._beliefs is not None and len(self._beliefs.possible()) > 1:
+                why = Why("unsure", epoch=outlook.epoch + later - 1, goals=self._guess())
+                verdict = "unsure"
             else:
                 verdict = "waits" if found.pays else verdict
-                why = Why("later", cost, before, epoch=outlook.epoch + later - 1)
+                why = Why("later", cost, alone, epoch=outlook.epoch + later - 1)
         return Decided(
             outlook.epoch,
             verdict,
@@ -394,36 +287,23 @@ class RobotsInTime:
             plan=found.plan,
             window=found.window,
             cost=cost,
-            alone=before,
+            alone=alone,
             proved=found.proved,
+            goals=self.goals,
             because=why,
         )
 
-    def _expected(self, now: Task, offers: Sequence[PlanStep], deadline: Deadline) -> PlanStep | None:
-        """What the person is going to begin, as robots take them to be."""
-        choice = self._theirs.copy().choose(now, offers, deadline)
-        if not isinstance(choice, str):
-            return choice
-        action = now.actions[actions_named(now, choice, [self._human])[0]]
-        return PlanStep(1, (self._human,), choice, float(action.cost), action.duration)
-
-    def _idle(self, outlook: Outlook, why: Why, robots: Sequence[PlanStep]) -> Decided:
+    def _idle(self, outlook: Outlook, why: Why) -> Decided:
         """No plan: at most something goes on."""
+        verdict, robots = "unsure" if why.kind == "unsure" else "aside", self._busy(outlook)
         if robots:
-            return Decided(outlook.epoch, "helps", "", because=Why("goes-on", action=robots[0].action))
-        return Decided(outlook.epoch, "aside", "", because=why)
+            verdict, why = "helps", Why("goes-on", action=robots[0].action)
+        return Decided(outlook.epoch, verdict, "", goals=self.goals, because=why)
 
+    def _busy(self, outlook: Outlook) -> list[PlanStep]:
+        """What robots are at."""
+        return [step for step in outlook.world.going if self._human not in step.agents]
 
-def _is_over(now: Task, alone: Way | None) -> bool:
-    """Whether the person has what they want, or it comes by itself."""
-    return alone is not None and not alone.plan and now.human not in at_work(now)
-
-
-def _with(now: Task, actions: Iterable[GroundAction]) -> Task:
-    """The task as it stands, with these of its actions only."""
-    return replace(now, actions=tuple(actions), known_variables=now.variables)
-
-
-def _stand(task: Task) -> tuple[object, ...]:
-    """What tells where things stand, and what can be done and is wanted."""
-    return task.init, task.script, task.robot_goal, task.actions
+    def _guess(self, goal: int | None = None) -> tuple[tuple[str, float], ...]:
+        """The most probable goals with their probabilities, or one of them; nothing where it is known."""
+        return () if self._beliefs is None else self._beliefs.likely(goal)

@@ -23,12 +23,15 @@ class Follower:
 
     Attributes:
         rest: what they mean to do; None where nobody knows.
+        faithful: whether they go on with that as long as it works, though another way be cheaper, and later
+            where they are late.
     """
 
     def __init__(self, ways: Ways, dice: Random | None = None) -> None:
         self.rest: Entries | None = None
+        self.faithful = False
         self._held = False  # for as long as they wait for a way, or are at something with others
-        self._ways = ways
+        self.ways = ways
         self._dice = dice
 
     def copy(self) -> Self:
@@ -48,15 +51,15 @@ class Follower:
             LimitReachedError: the deadline came first.
         """
         self._held = False
-        best = self._ways.of(now, deadline)
+        best = self.ways.of(now, deadline)
         kept = self.working(now)
-        if kept is not None and (best is None or now.cost_of(kept) <= best.cost):
+        if kept is not None and (self.faithful or best is None or now.cost_of(kept) <= best.cost):
             return Way(entries_of(now, kept), now.cost_of(kept))
         if best is None:
             self._held = True
             return None
         dice = self._dice
-        self.rest = best.plan if dice is None else entries_of(now, self._ways.drawn(now, dice))
+        self.rest = best.plan if dice is None else entries_of(now, self.ways.drawn(now, dice))
         return Way(self.rest, best.cost)
 
     def choose(self, now: Task, offers: Sequence[PlanStep], deadline: Deadline) -> PlanStep | str | None:
@@ -82,7 +85,11 @@ class Follower:
         """An epoch is over, in which they began something alone, or nothing."""
         if self.rest is None or self._held:
             return
-        if begun != self.next:
+        if self.faithful and begun != self.next:
+            is_early = begun is not None and [name for _, name in self.rest[:1]] == [begun]
+            left = self.rest if begun is None else tuple((max(e - 1, 1), name) for e, name in self.rest[1:])
+            self.rest = left if begun is None or is_early else None
+        elif begun != self.next:
             self.rest = None
         else:
             self.rest = tuple((epoch - 1, name) for epoch, name in self.rest if epoch > 1)
@@ -120,6 +127,6 @@ class Follower:
                 continue
             if mine is None:
                 return True
-            left = self._ways.of(later, deadline)
+            left = self.ways.of(later, deadline)
             return left is not None and action.cost + left.cost <= mine.cost
         return False

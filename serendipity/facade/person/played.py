@@ -33,6 +33,7 @@ def played_in_time(
     *,
     horizon: int | None,
     deadline: Deadline,
+    mind: Follower | None = None,
 ) -> Simulation:
     """The robots' part of a plan, played beside a person who looks up when they are free.
 
@@ -41,11 +42,15 @@ def played_in_time(
         plan: their plan at the beginning, with its epochs; empty where they have none.
         steps: the plan, by ids; what it wants the person to do alone is not looked at.
         horizon: ``T``, or None for any.
+        mind: what they mean to do, instead of a plan.
 
     Raises:
         LimitReachedError: the deadline ran out in the first epoch.
     """
-    game = _Game(task, options, plan, steps, deadline)
+    if mind is None:
+        mind = Follower(Ways(options))
+        mind.rest = entries_of(task, task.plan_from_names(plan))
+    game = _Game(task, options, mind, steps, deadline)
     epochs: list[SimulatedEpoch] = []
     limit = None
     while not game.over(len(epochs)) and (horizon is None or len(epochs) < horizon):
@@ -69,15 +74,12 @@ class _Game:
         self,
         task: Task,
         options: Options,
-        plan: Sequence[PlanEntry],
+        mind: Follower,
         steps: Iterable[Step],
         deadline: Deadline,
     ) -> None:
         self._now, self._options, self._deadline = task, options, deadline
-        self._ways = Ways(options)
-        self._mind = Follower(self._ways)
-        ids = task.plan_from_names(plan)
-        self._mind.rest = entries_of(task, ids)
+        self._mind, self._ways = mind, mind.ways
         self._left: dict[int, list[int]] = defaultdict(list)
         for step in steps:
             if task.actions[step.action].participants != (task.human,):

@@ -1,0 +1,395 @@
+"""What is so if a goal is the person's: what they follow then, and the best that robots could do."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import combinations
+from typing import Final
+
+from search.modes.simulation.simulator import Simulation
+from serendipity.execution.advice import Advice
+from serendipity.execution.clock.course import Course, Help, after_going_on, after_helping
+from serendipity.execution.clock.world import WorldInTime
+from serendipity.execution.why import Why
+from serendipity.facade.person.follower import Follower
+from serendipity.facade.person.played import played_in_time
+from serendipity.facade.person.ways import Entries, Way, Ways, entries_of
+from serendipity.facade.session import Session
+from serendipity.model import (
+    INFINITE,
+    Condition,
+    Deadline,
+    Options,
+    PlanError,
+    PlanStep,
+    Step,
+    Task,
+    UsageError,
+)
+from serendipity.model.errors import LIMITS, LimitReachedError
+from serendipity.model.numbers import as_written, total
+from serendipity.model.task.actions import GroundAction
+from serendipity.model.task.course import BrokenPlanError
+from serendipity.model.task.execution import actions_named, variant_named
+from serendipity.model.task.passing import at_work, epoch_later
+
+_TIME_TO_PLAN: Final = 0.6
+"""The share of the time for plans; the rest is for what they mean for somebody who is not told."""
+
+
+class Supposed:
+    """The person, if a goal is theirs, and what robots had best do for them.
+
+    Where a deadline comes first, methods raise :class:`serendipity.LimitReachedError`.
+
+    Args:
+        task: with that goal.
+        told: the person keeps to the robots' plan.
+        surely: whether robots manage whatever is possible.
+
+    Attributes:
+        task: as it stood when the person looked up last.
+        theirs: what they mean to do.
+        ways: what they could do alone.
+        way: what they do alone from there; None where they have no plan.
+        session: where plans were asked for last.
+    """
+
+    def __init__(self, task: Task, options: Options, *, told: bool, surely: bool) -> None:
+        self.task = self._begun = task
+        self.ways = Ways(options)
+        self.theirs = Follower(self.ways)
+        self.way: Way | None = None
+        self.session: Session | None = None
+        self._course: Course | None = None
+        self._is_sure = False
+        """Whether it is proved that no help pays."""
+        self._options = options
+        self._told = told
+        self._surely = surely
+        self._human = task.agents[task.human]
+
+    def begin_anew(self) -> None:
+        """What robots can do, or what is so, has changed."""
+        self.session = self._course = None
+
+    def passed(self, own: int | None, executed: Sequence[int], tried: int | None) -> None:
+        """Take in an epoch, see :class:`serendipity.execution.Robots`."""
+        actions = self._begun.actions
+        if any(self._begun.human in actions[i].participants for i in executed if i != own):
+            self.theirs.joined()
+        else:
+            self.theirs.passed(None if own is None else actions[own].name)
+        if tried is not None:
+            self.theirs.rest = None
+        if self.session is not None:
+            try:
+                self.session.execute([actions[i].name for i in executed])
+            except UsageError:
+                self.session = None  # something did not go on
+
+    def help(self, now: Task, deadline: Deadline, *, busy: bool) -> tuple[Help | None, Why, Way | None]:
+        """What robots follow from here, or why they follow nothing, and what the person does alone.
+
+        Args:
+            now: the task as it stands, with this goal.
+            busy: whether robots are at something.
+        """
+        course, self._course = self._course, None
+        if course is not None and (course.state, course.script) != (now.init, now.script):
+            course = None
+        alone = self.look(now, deadline) if course is None or course.alone is None else course.alone
+        self.task, self.way = now, alone
+        if is_over(now, alone) and now.robot_goal.holds(now.init):
+            return None, Why("no-help"), alone  # everybody has what they want
+        if course is None:
+            found, why = self.promised(now, alone, deadline)
+        elif course.found is None or self._told:
+            found, why = course.found, self._none_pays(now, alone)
+        else:
+            found, why = self._safe(now, course.found, alone, deadline, foreseen=True)
+        if found is not None:
+            self._course = self._onward(now, found, deadline)
+        elif alone is not None and why.kind == "no-help" and not busy:
+            self._course = self._onward_alone(now, alone)
+        return found, why, alone
+
+    def look(self, now: Task, deadline: Deadline) -> Way | None:
+        """What the person does alone from here; if they are free, they look up."""
+        self.task, self.way = now, self.ways.of(now, deadline)
+        if now.human not in at_work(now):
+            self.theirs.look(now, deadline)
+        kept = self.theirs.working(now) if self.theirs.faithful else None
+        if kept is not None:
+            self.way = Way(entries_of(now, kept), now.cost_of(kept))
+        return self.way
+
+    @property
+    def alone(self) -> Fraction | None:
+        """What that costs; None where they have no plan."""
+        return None if self.way is None else self.way.cost
+
+    @property
+    def meant(self) -> Entries:
+        """What they mean to begin from here."""
+        kept = self.theirs.working(self.task)
+        if kept is not None:
+            return entries_of(self.task, kept)
+        return () if self.way is None else self.way.plan
+
+    def played(self, part: Sequence[Step], deadline: Deadline) -> Simulation:
+        """What becomes of what robots do, beside this person."""
+        mind = self.theirs.copy()
+        return played_in_time(self.task, self._options, (), part, horizon=None, deadline=deadline, mind=mind)
+
+    def spoilt(self, plan: Sequence[PlanStep], deadline: Deadline) -> bool:
+        """Whether what robots begin now by a plan may spoil something that the person is on the way to."""
+        first, now, alone = [step for step in plan if step.epoch == 1], self.task, self.alone
+        robots = [self._variant(now, step) for step in first if self._human not in step.agents]
+        offers = [self._variant(now, s) for s in first if self._human in s.agents and len(s.agents) > 1]
+        return bool(robots) and alone is not None and self._spoils(now, robots, offers, alone, deadline)
+
+    def advice(self, deadline: Deadline) -> Advice | None:
+        """The best plan of the mode with this goal; None where none pays."""
+        found = self._best(self.task, self.way, deadline)
+        if found is None:
+            return None
+        return Advice(found.plan, found.window, found.cost, found.pays, found.proved)
+
+    def promised(self, now: Task, alone: Way | None, deadline: Deadline) -> tuple[Help | None, Why]:
+        """The best plan that robots may follow; None, and why, where there is none.
+
+        Their own goals they see to without what would spoil something.
+        """
+        asked = now
+        while True:
+            found = self._best(asked, alone, deadline.sooner(_TIME_TO_PLAN))
+            if found is None or self._told:
+                return found, self._none_pays(now, alone)
+            safe, why = self._safe(now, found, alone, deadline)
+            begun = [step for step in found.plan if step.epoch == 1 and step.agents != (self._human,)]
+            if safe is not None or not begun or alone is None or not now.robot_goal:
+                return safe if safe is None or asked is now else replace(
+                    safe, proved=False, settled=False
+                ), why
+            left = {asked.actions[i] for i in actions_named(asked, begun[0].action, begun[0].agents)}
+            asked = with_actions(asked, [action for action in asked.actions if action not in left])
+
+    def _asked(self, now: Task) -> Session:
+        """The session where things stand."""
+        session = self.session
+        if session is None or _stand(session.task) != _stand(now):
+            options = self._options
+            session = self.session = Session(
+                now,
+                mode=options.mode,
+                discount=options.discount,
+                interference=options.interference,
+                window_weight=options.window_weight,
+            )
+        known = self.theirs.rest
+        try:
+            working = None if known is None else session.task.plan_from_names(known)
+        except PlanError:
+            working = None
+        session.follow(known if working else None)
+        return session
+
+    def _best(self, now: Task, alone: Way | None, deadline: Deadline) -> Help | None:
+        """The best plan of the mode that pays or sees to robots' own goals, or the rest of the last one.
+
+        Robots' own goals wait where the person has no plan alone.
+
+        Raises:
+            LimitReachedError: the deadline came before it was known.
+        """
+        works, over = bool(now.robot_goal) and alone is not None, is_over(now, alone)
+        if alone is None and now.robot_goal:
+            now = now.with_goal(now.goal, Condition())
+        if over:
+            now = with_actions(
+                now, [action for action in now.actions if now.human not in action.participants]
+            )
+        session = self._asked(now)
+        rest = self._rest(session, None if works else alone)
+        if alone is None or over:
+            answer = session.plan(mode="composite", horizon=INFINITE, deadline=deadline)
+        elif works and not self._told:
+            answer = session.plan(human_model="observant", deadline=deadline)
+        else:
+            answer = session.plan(deadline=deadline)
+        pays = alone is None or (answer.opportunity and not over)
+        if answer.plan is None or not (pays or works):
+            if rest is None and answer.status not in ("optimal", "infeasible"):
+                raise LimitReachedError("time-limit")
+            self._is_sure = answer.status == "optimal"
+            return rest
+        cost = total(as_written(step.cost) for step in answer.plan)
+        is_best = answer.status == "optimal"
+        if rest is not None and rest.cost <= cost:
+            return replace(rest, proved=is_best, pays=pays or rest.cost < cost)
+        return Help(answer.plan, answer.window, cost, proved=is_best, settled=is_best, pays=pays)
+
+    def _rest(self, session: Session, alone: Way | None) -> Help | None:
+        """What is left of the last plan, if robots have a part in it and it still pays."""
+        steps = session.rest
+        if not steps or all(step.agents == (self._human,) for step in steps):
+            return None
+        cost = total(as_written(step.cost) for step in steps)
+        if alone is not None and cost >= alone.cost:
+            return None
+        return Help(steps, None, cost, proved=False, settled=False)
+
+    def _none_pays(self, now: Task, alone: Way | None) -> Why:
+        if alone is None:
+            return Why("out-of-reach")
+        if not now.robot_goal.holds(now.init):
+            return Why("own-goals-lost")
+        return Why("no-help", float(alone.cost), float(alone.cost))
+
+    def _safe(
+        self, now: Task, found: Help, alone: Way | None, deadline: Deadline, *, foreseen: bool = False
+    ) -> tuple[Help | None, Why]:
+        """The plan as it will come out with such a person; None, and why, where it does not pay or spoils.
+
+        Args:
+            foreseen: it is known to come out so, if all goes as it was to go with them.
+        """
+        cost, before = found.cost, None if alone is None else alone.cost
+        figures = float(cost), None if before is None else float(before)
+        if not (foreseen or (now.robot_goal and before is not None)):  # else it was made for such a person
+            will_be = self._outcome(now, found.plan, deadline)
+            if will_be is None or (before is not None and will_be >= before):
+                return None, Why("untold" if before is not None else "only-told", *figures)
+            found = replace(found, cost=will_be, window=None, proved=False)
+        if self.spoilt(found.plan, deadline):
+            return None, Why("spoils", *figures) if found.pays else Why("own-goals-spoil")
+        return found, Why("pays", *figures)
+
+    def _outcome(self, now: Task, plan: Sequence[PlanStep], deadline: Deadline) -> Fraction | None:
+        """What the team will pay if robots do their part of a plan, as far as that goes; None: no end."""
+        world = WorldInTime(now, self._options.discount, strict=self._options.strict)
+        person, spent = self.theirs.copy(), Fraction(0)
+        is_news = True  # nobody changes their mind while robots do nothing
+        for epoch in range(1, max(step.epoch for step in plan) + 1):
+            steps = [step for step in plan if step.epoch == epoch]
+            offers = [s for s in steps if self._human in s.agents and len(s.agents) > 1]
+            robots = [step for step in steps if self._human not in step.agents]
+            busy = world.now.human in at_work(world.now)
+            if is_news or offers or person.rest is None:
+                choice = person.choose(world.now, offers, deadline)
+                is_news = is_news and busy
+            else:
+                choice = None if busy else person.next
+            taken = [choice] if isinstance(choice, PlanStep) else []
+            own = world.his(choice) if isinstance(choice, str) else None
+            if own is not None and not world.applicable(own):
+                own = None
+            happened = world.play(own, [*taken, *robots], lambda asked: ["done"] * len(asked))
+            if taken:
+                person.joined()
+            else:
+                person.passed(None if own is None else now.actions[own].name)
+            spent += world.cost(happened.executed)[1]
+            others = any(self._human not in step.agents for step in happened.going)
+            is_news = (
+                is_news
+                or others
+                or any(now.actions[i].participants != (now.human,) for i in happened.executed)
+            )
+        left = self.ways.of(world.now, deadline)
+        return None if left is None else spent + left.cost
+
+    def _spoils(
+        self,
+        now: Task,
+        robots: Sequence[GroundAction],
+        offers: Sequence[GroundAction],
+        least: Fraction,
+        deadline: Deadline,
+    ) -> bool:
+        """Whether what robots begin may make a way dearer that the person is on, whichever it is."""
+        sizes = (len(robots),) if self._surely else range(1, len(robots) + 1)
+        teams = [team for size in sizes for team in combinations(robots, size)]
+        for own in self._next_steps(now, offers):
+            try:
+                left = self.ways.of(epoch_later(now, own, strict=self._options.strict), deadline)
+            except BrokenPlanError:
+                continue
+            if left is None or sum((a.cost for a in own), left.cost) > least:
+                continue
+            if any(self._worse(now, [*own, *team], left, deadline) for team in teams):
+                return True
+        return self.theirs.faithful and any(self._breaks(now, team) for team in teams)
+
+    def _breaks(self, now: Task, team: Sequence[GroundAction]) -> bool:
+        """Whether somebody who keeps to what they mean to do can't, if robots begin something."""
+        mind, name = self.theirs.copy(), self.theirs.next
+        mind.passed(name)
+        ids = () if name is None else actions_named(now, name, [self._human])
+        own = [action for action in (now.actions[i] for i in ids) if action.applicable(now.init)][:1]
+        try:
+            if mind.working(epoch_later(now, own, strict=self._options.strict)) is None:
+                return False
+            return mind.working(epoch_later(now, [*own, *team], strict=self._options.strict)) is None
+        except BrokenPlanError:
+            return True
+
+    def _next_steps(self, now: Task, offers: Sequence[GroundAction]) -> Iterable[Sequence[GroundAction]]:
+        """What the person may do in the epoch that is to come: go on or wait, or begin something."""
+        yield ()
+        if now.human not in at_work(now):
+            own = (now.actions[i] for i in now.human_actions)
+            yield from ([action] for action in (*own, *offers) if action.applicable(now.init))
+
+    def _worse(self, now: Task, begun: Sequence[GroundAction], left: Way, deadline: Deadline) -> bool:
+        try:
+            then = self.ways.of(epoch_later(now, begun, strict=self._options.strict), deadline)
+        except BrokenPlanError:
+            return True
+        return then is None or then.cost > left.cost
+
+    def _variant(self, now: Task, step: PlanStep) -> GroundAction:
+        return now.actions[variant_named(now, step.action, step.agents, now.init)]
+
+    def _onward_alone(self, now: Task, alone: Way) -> Course | None:
+        """What stands after an epoch in which the person goes on with their plan, and no help pays."""
+        if not self._is_sure:
+            return None
+        name = None if now.human in at_work(now) else self.theirs.next
+        return after_going_on(now, self._options, alone, name)
+
+    def _onward(self, now: Task, found: Help, deadline: Deadline) -> Course | None:
+        """What stands after an epoch that goes as planned."""
+        first = [step for step in found.plan if step.epoch == 1]
+        choice: PlanStep | str | None = next((s for s in first if self._human in s.agents), None)
+        if not self._told and found.settled:
+            offers = [s for s in first if self._human in s.agents and len(s.agents) > 1]
+            try:
+                choice = self.theirs.copy().choose(now, offers, deadline)
+            except LIMITS:
+                return None
+        return after_helping(now, self._options, found, choice)
+
+    def expected(self, now: Task, offers: Sequence[PlanStep], deadline: Deadline) -> PlanStep | None:
+        """What the person is going to begin, as robots take them to be."""
+        choice = self.theirs.copy().choose(now, offers, deadline)
+        if not isinstance(choice, str):
+            return choice
+        action = now.actions[actions_named(now, choice, [self._human])[0]]
+        return PlanStep(1, (self._human,), choice, float(action.cost), action.duration)
+
+
+def is_over(now: Task, alone: Way | None) -> bool:
+    """Whether the person has what they want, or it comes by itself."""
+    return alone is not None and not alone.plan and now.human not in at_work(now)
+
+
+def with_actions(now: Task, actions: Iterable[GroundAction]) -> Task:
+    """The task as it stands, with these of its actions only."""
+    return replace(now, actions=tuple(actions), known_variables=now.variables)
+
+
+def _stand(task: Task) -> tuple[object, ...]:
+    """What tells where things stand, and what can be done and is wanted."""
+    return task.init, task.script, task.robot_goal, task.actions
