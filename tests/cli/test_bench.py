@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from serendipity.evaluation.benchmark import fast_downward
+from serendipity.classical import fast_downward
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome
 from serendipity.evaluation.benchmark.coverage import CONTENDERS as SUITE_CONTENDERS
 from serendipity.evaluation.benchmark.coverage import Call
@@ -119,3 +119,15 @@ def test_an_interrupted_suite_leaves_what_was_measured(run: Runs, monkeypatch: p
     assert done.code == 130
     assert "Calls decided" in done.out
     assert [row["status"] for row in rows_of(Path("rows.csv"))] == ["optimal"]
+
+
+@pytest.mark.skipif(fast_downward.absent() is not None, reason=fast_downward.absent() or "")
+def test_scorpion_is_a_contender_where_its_program_is_given(run: Runs) -> None:
+    shutil.copytree(DATA / "flights", "suite/flights")
+    Path("other").write_text("#!/bin/sh\necho 'no such search'\nexit 1\n")
+    words = "bench suite --modes individual --contenders scorpion --scorpion other"
+    assert run(words).err == "Error: scorpion: other is no program\n"
+    assert run("bench --scorpion other").err == "Error: --scorpion: is for suites of domains only\n"
+    Path("other").chmod(0o755)
+    told = "scorpion: the search failed: no such search"
+    assert run(words).err == f"Warning: scorpion fails on flights flights, individual: {told}\n"

@@ -7,7 +7,7 @@ import pytest
 
 import serendipity
 from serendipity import InputError, load_agents, load_pddl
-from serendipity.evaluation.benchmark import fast_downward
+from serendipity.classical import fast_downward
 from serendipity.pddl.classical import lifted_files
 from serendipity.pddl.parsing.files import read_unit
 from serendipity.pddl.parsing.lifted import Unit

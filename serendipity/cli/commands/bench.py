@@ -70,7 +70,14 @@ def bench(
             "--contenders NAME,...",
             "Some of search (first calls), in-turn (each task's discounts one after another), again "
             "(the same call again), automata, paper, fast-downward; of a suite some "
-            "of search, fast-downward, fast-downward-ipdb, symk.",
+            "of search, fast-downward, fast-downward-ipdb, symk, and scorpion with --scorpion.",
+        ),
+    ] = None,
+    scorpion: Annotated[
+        Path | None,
+        option(
+            "--scorpion PROGRAM",
+            "Scorpion for a suite, which you build: its builds/release/bin/downward.",
         ),
     ] = None,
     scaling: Annotated[
@@ -116,14 +123,19 @@ def bench(
         if folder is not None:
             raise UsageError("--scaling: generates its buildings, so it takes no folder")
         return _scaling(scaling, seeds or 5, time_limit, tell)
+    from serendipity.evaluation.benchmark.coverage import contenders_with
     from serendipity.evaluation.benchmark.rows import read_rows
     from serendipity.evaluation.measuring.figures import machine
     from serendipity.evaluation.measuring.suites import is_suite
 
+    suite = folder is not None and folder.is_dir() and is_suite(folder)
+    if scorpion is not None and not suite:
+        raise UsageError("--scorpion: is for suites of domains only")
     if folder is not None and folder.is_file():
         return _covered(read_rows(folder), [], tell, markdown=markdown)
-    if folder is not None and folder.is_dir() and is_suite(folder):
+    if folder is not None and suite:
         asked = {"discount": discounts or "0.9", "robots": robots or 2, "time_limit": time_limit}
+        asked["known"] = contenders_with(scorpion)
         rows, complete = _suite(folder, _listed(domains, ()), stride, modes, contenders, **asked)
         where = f"{machine()}; at most {time_limit:g} s a call by the clock."
         code = _covered(rows, [Line(where), Line()], tell, markdown=markdown)
@@ -182,10 +194,10 @@ def _suite(
     folder: Path, domains: Sequence[str], stride: int, modes: str | None, contenders: str | None, **asked: Any
 ) -> "tuple[list[Row], bool]":
     """The rows of a suite's calls, and whether these are all; Ctrl-C leaves those that are there."""
-    from serendipity.evaluation.benchmark.coverage import CONTENDERS, MODES, measure
+    from serendipity.evaluation.benchmark.coverage import MODES, measure
     from serendipity.evaluation.measuring.suites import problems
 
-    present, absent = _present(_listed(contenders, CONTENDERS), CONTENDERS)
+    present, absent = _present(_listed(contenders, asked["known"]), asked["known"])
     output.warn(*absent)
     chosen = problems(folder, domains, stride)
     rows: list[Row] = []

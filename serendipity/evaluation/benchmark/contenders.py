@@ -7,13 +7,15 @@ from dataclasses import dataclass
 from typing import Any, Final, TypeVar
 
 from search import prepare, solve
-from serendipity.evaluation.measuring.figures import peak_memory, timed
+from serendipity.classical import fast_downward
+from serendipity.evaluation.measuring.figures import children_seconds, peak_memory, timed
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LIMITS, UsageError
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
+from serendipity.pddl.classical import ClassicalFiles
 
 T = TypeVar("T")
 
@@ -154,4 +156,35 @@ def searched(
         memory=peak_memory(),
         actions=len(task.actions),
         length=len(answer.human_plan or ()),
+    )
+
+
+def outside(
+    files: ClassicalFiles, search: fast_downward.Search, time_limit: float | None, *, ground: bool = False
+) -> Outcome:
+    """A planner for a single agent's answer; ``seconds`` are of its search process, by its own clock.
+
+    Args:
+        files: the problem.
+        ground: whether nothing is left in it to be ground; then ``seconds`` are its search time, or all
+            processor time until the limit.
+
+    Raises:
+        SerendipityError: it fails, with what it says.
+    """
+    before = children_seconds()
+    found = fast_downward.run(files, search, time_limit, invariants=not ground)
+    used, seconds = children_seconds() - before, found.seconds
+    if ground:
+        seconds = used if found.status == "unknown" else found.search_seconds
+    return Outcome(
+        found.status,
+        found.cost,
+        found.lower_bound,
+        found.expanded,
+        seconds=seconds,
+        plan_seconds=None if found.cost is None else found.seconds,
+        read_seconds=found.read_seconds,
+        process_seconds=used,
+        memory=found.memory,
     )

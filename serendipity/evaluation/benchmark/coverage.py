@@ -10,12 +10,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
+from pathlib import Path
 from statistics import median
 from typing import Final
 
+from serendipity.classical import fast_downward
 from serendipity.evaluation.benchmark import contenders as every
-from serendipity.evaluation.benchmark import fast_downward
-from serendipity.evaluation.benchmark.contenders import Contender, Outcome, chosen, searched
+from serendipity.evaluation.benchmark.contenders import Contender, Outcome, chosen, outside, searched
 from serendipity.evaluation.benchmark.rows import Row
 from serendipity.evaluation.measuring.record import apart
 from serendipity.evaluation.measuring.suites import Problem, Roles, roles
@@ -66,7 +67,7 @@ def _fast_downward(search: fast_downward.Search, call: Call) -> Outcome:
     if call.mode != "individual":
         shares |= dict.fromkeys(call.roles.robots, 1 - call.discount)
     try:
-        return fast_downward.run(lifted_files(call.problem.unit(), shares), search, call.time_limit)
+        return outside(lifted_files(call.problem.unit(), shares), search, call.time_limit)
     except SerendipityError as error:
         return Outcome("failed", reason=str(error))
 
@@ -82,6 +83,17 @@ CONTENDERS: Final[dict[str, Contender]] = {
     "symk": _classical(fast_downward.SYMK),
 }
 """Our search, Fast Downward with two heuristics, and SymK."""
+
+
+def contenders_with(scorpion: Path | None) -> Mapping[str, Contender]:
+    """:data:`CONTENDERS`, and Scorpion where its program is given.
+
+    Raises:
+        UsageError: there is no program.
+    """
+    if scorpion is None:
+        return CONTENDERS
+    return {**CONTENDERS, "scorpion": _classical(fast_downward.scorpion(scorpion))}
 
 
 def can_alone(problem: Problem, who: Roles, time_limit: float) -> bool:
@@ -106,6 +118,7 @@ def measure(
     discount: Number = "0.9",
     robots: int = 2,
     time_limit: float = 20.0,
+    known: Mapping[str, Contender] = CONTENDERS,
 ) -> Iterator[Row]:
     """Ask each contender each call that it knows.
 
@@ -114,10 +127,11 @@ def measure(
     Args:
         problems: of a suite.
         modes: names in ``MODES``.
-        contenders: names in ``CONTENDERS``; those that are absent must be left out before.
+        contenders: names in ``known``; those that are absent must be left out before.
         discount: of what robots do.
         robots: how many there are at most.
         time_limit: seconds for each call, and as many for reading it.
+        known: those that there are, by name.
 
     A problem that can't be read is one row for each contender, with status ``error``.
 
@@ -125,7 +139,7 @@ def measure(
         UsageError: a mode, a contender or the discount is unknown.
     """
     asked = [*chosen(modes, MODES, "modes", " for a suite of domains")]
-    who_answers = chosen(contenders, CONTENDERS, "contenders", " for a suite of domains")
+    who_answers = chosen(contenders, known, "contenders", " for a suite of domains")
     share = exact(discount, "discount")
     short = min(_SHORT, time_limit)
     for problem in problems:

@@ -11,9 +11,9 @@ from dataclasses import replace
 from typing import Final
 
 from search import PreparedTask, prepare, solve
+from serendipity.classical import fast_downward
 from serendipity.evaluation.benchmark import contenders as every
-from serendipity.evaluation.benchmark import fast_downward
-from serendipity.evaluation.benchmark.contenders import Contender, Outcome, chosen
+from serendipity.evaluation.benchmark.contenders import Contender, Outcome, chosen, outside
 from serendipity.evaluation.benchmark.rows import Row, disagreements
 from serendipity.evaluation.measuring.figures import percentile, timed
 from serendipity.evaluation.measuring.tables import grouped
@@ -48,12 +48,8 @@ def _program(encoding: str) -> Callable[[PreparedTask, Options], Outcome]:
 
 
 def _fast_downward(prepared: PreparedTask, options: Options) -> Outcome:
-    """``seconds`` is the search time that it prints, or all that it took until the limit."""
     files = composite_files(prepared.task, options.discount)
-    found = fast_downward.run(files, fast_downward.LMCUT, options.time_limit, invariants=False)
-    return replace(
-        found, seconds=found.process_seconds if found.status == "unknown" else found.search_seconds
-    )
+    return outside(files, fast_downward.LMCUT, options.time_limit, ground=True)
 
 
 CONTENDERS: Final[dict[str, Contender]] = {

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from search import PreparedTask
 from serendipity import Task, example, load_agents, plan
-from serendipity.evaluation.benchmark import fast_downward
+from serendipity.classical import fast_downward
 from serendipity.evaluation.benchmark.side_by_side import CONTENDERS
 from serendipity.model import Options
 from serendipity.pddl.write import composite_files

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from serendipity import InputError, UsageError, example, plan
+from serendipity.classical import fast_downward
 from serendipity.evaluation.benchmark import coverage as report
-from serendipity.evaluation.benchmark import fast_downward
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome
 from serendipity.evaluation.benchmark.coverage import CONTENDERS, MODES, Call, measure
 from serendipity.evaluation.benchmark.rows import Row, as_table, disagreements, read_rows

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from serendipity import SerendipityError
-from serendipity.evaluation.benchmark import fast_downward
-from serendipity.evaluation.benchmark.fast_downward import LMCUT, SYMK, Found, run
+from serendipity import SerendipityError, UsageError
+from serendipity.classical import fast_downward
+from serendipity.classical.fast_downward import LMCUT, SYMK, Found, run, run_translated, scorpion
+from serendipity.model import Deadline
 from serendipity.pddl.classical import ClassicalFiles
 
 FILES = ClassicalFiles("", "", scale=5)
@@ -35,7 +36,7 @@ def processes(monkeypatch: pytest.MonkeyPatch) -> Iterator[Outputs]:
     left: Outputs = []
 
     def process(
-        command: list[str], folder: Path, limit: float | None, stdin: object = None
+        command: list[str], folder: Path, limit: Deadline, stdin: object = None
     ) -> tuple[int | None, str]:
         return left.pop(0)
 
@@ -97,6 +98,32 @@ def test_a_process_is_ended_at_the_limit_and_says_what_it_knows(tmp_path: Path) 
         "print('started', flush=True)\n"
         "time.sleep(60)\n"
     )
-    code, text = fast_downward._process([sys.executable, "-c", script], tmp_path, 1.0)
+    code, text = fast_downward._process([sys.executable, "-c", script], tmp_path, Deadline(1.0))
     assert code is None
     assert text.split("\n")[-2:] == ["so far", ""]
+
+
+SCRIPT = """#!{python}
+import sys
+if "scp([projections(hillclimbing(max_time=100, " not in sys.argv[2] or " max_time=200, " not in sys.argv[2]:
+    sys.exit("other words")
+if sys.stdin.read() == "task":
+    print({told!r})
+    open("sas_plan", "w").write("(0 )\\n(7 )\\n; cost = 126 (general cost)\\n")
+"""
+
+
+def test_scorpion_is_asked_as_in_the_competition(tmp_path: Path) -> None:
+    path = tmp_path / "downward"
+    path.write_text(SCRIPT.format(python=sys.executable, told=FOUND))
+    with pytest.raises(UsageError, match=r"scorpion: .*downward is no program"):
+        scorpion(path)
+    path.chmod(0o755)
+    found = run_translated("task", scorpion(path), Deadline())
+    assert (found.status, found.cost, found.plan) == ("optimal", 126, ("0", "7"))
+    for limit, told in ((None, "it says nothing"), (9, "other words")):  # shares of the time limit
+        with pytest.raises(SerendipityError, match=f"scorpion: the search failed: {told}"):
+            run_translated("another", scorpion(path), Deadline(limit))
+    path.write_text("no program")
+    with pytest.raises(SerendipityError, match="downward can't be run"):
+        run_translated("task", scorpion(path), Deadline())

@@ -1,0 +1,1 @@
+"""Planners for a single agent, as processes: what others have made and somebody has installed."""
