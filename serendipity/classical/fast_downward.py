@@ -64,6 +64,8 @@ _TRANSLATE: Final = ("-m", "fast_downward.translate", "domain.pddl", "problem.pd
 _NO_INVARIANTS: Final = ("--invariant-generation-max-time", "0")
 _UNSOLVABLE: Final = {"the translator": 10, "the search": 11}
 """Exit codes that are proofs (``driver/returncodes.py`` of Fast Downward)."""
+_EXPLORED: Final = 12, re.compile(r"Completely explored state space|BOUND: 2147483647 < 2147483647 \[0/")
+"""What later versions, and SymK, say instead: a proof as well, since all heuristics here are safe."""
 
 _LEAVING: Final = 5.0
 """Seconds for saying what it knows, once it has to end."""
@@ -207,7 +209,7 @@ def _searched(folder: Path, search: Search, scale: int, deadline: Deadline) -> F
 def _status(code: int | None, who: str, text: str, search: Search) -> str:
     if code is None:
         return "unknown"
-    if code == _UNSOLVABLE[who]:
+    if code == _UNSOLVABLE[who] or (code == _EXPLORED[0] and _EXPLORED[1].search(text)):
         return "infeasible"
     if code != 0:
         raise _failed(search, who, text)

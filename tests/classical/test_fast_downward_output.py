@@ -25,6 +25,7 @@ Solution found.
 Peak memory: 10240 KB
 """
 NONE = FOUND.replace("Plan cost: 126", "Completely explored state space -- no solution!")
+BOTH = NONE.replace("Completely explored state space", "BOUND: 2147483647 < 2147483647 [0/1 plans]")
 ENDED = FOUND.partition("[t=0.004982s")[0] + "Peak memory: 20480 KB\ncaught signal 15 -- exiting\n"
 
 Outputs = list[tuple[int | None, str]]
@@ -63,7 +64,9 @@ def test_a_bound_from_both_ends_is_read(processes: Outputs) -> None:
     assert run(FILES, SYMK, 5).lower_bound == 6
 
 
-@pytest.mark.parametrize("outputs", [[(10, "unsolvable")], [(0, "Done!"), (11, NONE)]])
+@pytest.mark.parametrize(
+    "outputs", [[(10, "unsolvable")], *([(0, "Done!"), end] for end in ((11, NONE), (12, NONE), (12, BOTH)))]
+)
 def test_proofs_that_there_is_no_plan(processes: Outputs, outputs: Outputs) -> None:
     processes += outputs
     found = answered()
@@ -84,7 +87,7 @@ def test_what_it_knew_at_the_limit_is_told(processes: Outputs) -> None:
     assert found.memory == 20
 
 
-@pytest.mark.parametrize("outputs", [[(30, "bad file")], [(0, ""), (32, "bad option")], [(0, ""), (0, "hm")]])
+@pytest.mark.parametrize("outputs", [[(30, "bad file")], [(0, ""), (12, "left")], [(0, ""), (0, "hm")]])
 def test_failures_are_told(processes: Outputs, outputs: Outputs) -> None:
     processes += outputs
     with pytest.raises(SerendipityError, match="fast-downward"):
