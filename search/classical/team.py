@@ -30,7 +30,7 @@ class Team:
 
     def __init__(self, planner: ClassicalPlanner, actions: list[tuple[int, ...]]) -> None:
         self.planner = planner
-        self._actions = actions
+        self.actions = actions
 
     def better_plans(self, state: int, deadline: Deadline, on_bound: Callable[[int], None]) -> Iterator[Sets]:
         """Some plan from a packed state soon, then cheaper ones; at the end the last one is a cheapest.
@@ -83,7 +83,7 @@ class Team:
             raise limit
 
     def _sets(self, numbers: list[int]) -> Sets:
-        return [self._actions[number] for number in numbers]
+        return [self.actions[number] for number in numbers]
 
 
 def team_planner(

@@ -31,6 +31,7 @@ class Request:
         limits: of the whole call.
         deadline: of the search: the same without the time that is kept for the end.
         question: what it asks, where somebody remembers answers; or None.
+        start: a plan and a bound that its search begins with, instead of those that are remembered.
     """
 
     prepared: PreparedTask
@@ -43,6 +44,7 @@ class Request:
     predicts: bool = True
     optimum: Fraction | None = None
     original: Task | None = None
+    start: WarmStart | None = None
 
     @property
     def task(self) -> Task:
@@ -57,7 +59,7 @@ class Request:
     @property
     def warm(self) -> WarmStart | None:
         """The warm start of its search, or None."""
-        return None if self.question is None else self.question.warm
+        return self.start or (None if self.question is None else self.question.warm)
 
 
 Given = Callable[[int], HumanPlan] | None

@@ -39,6 +39,7 @@ class AnytimeOptions(PlanOptions, total=False):
 
     visible: Visible | None
     deadline: Deadline | None
+    classical: str | None
 
 
 class SessionOptions(AnytimeOptions, total=False):
@@ -67,6 +68,7 @@ def plan(
     plans: "LibraryGiven | None" = None,
     noise: "Noise | str | None" = None,
     on_improvement: Callable[[Result], None] | None = None,
+    classical: str | None = None,
     **options: Unpack[PlanOptions],
 ) -> Result:
     """The best plan in which robots help the human, with a proof that none is better.
@@ -91,6 +93,9 @@ def plan(
         noise: of ``observed``, as :func:`recognise` takes it.
         on_improvement: called with the first answer that has a plan, and with each better one, while the
             call goes on; its time counts, too.  What it raises ends the call, and comes out of it.
+        classical: a planner for a single agent that is asked beside the search, as a process: ``"symk"``, for
+            individual mode, and composite mode without a horizon.  Where that settles the call,
+            ``statistics["proved_by"]`` says so: that nothing is cheaper rests on its word.
         **options: fields of :class:`serendipity.model.Options`, ``mode="serendipity"``,
             ``discount=0.6``, ``time_limit=0.1`` (seconds) and so on.
 
@@ -108,6 +113,7 @@ def plan(
         "plans": plans,
         "noise": noise,
         "on_improvement": on_improvement,
+        "classical": classical,
         **options,
     }
     if human is not None:
@@ -155,6 +161,7 @@ def plan_anytime(
     visible: Visible | None = None,
     cancelled: threading.Event | None = None,
     deadline: Deadline | None = None,
+    classical: str | None = None,
     **options: Unpack[PlanOptions],
 ) -> Iterator[Result]:
     """Answers as they get better, or as more is known of them; the last is what :func:`plan` returns.
@@ -168,7 +175,8 @@ def plan_anytime(
     """
     given = _given(task, human_plan)
     with HELD.taken(task) as prepared:
-        yield from planned_anytime(prepared, given, cancelled, visible=visible, deadline=deadline, **options)
+        asked: AnytimeOptions = {"visible": visible, "deadline": deadline, "classical": classical, **options}
+        yield from planned_anytime(prepared, given, cancelled, **asked)
 
 
 def planned_anytime(
@@ -200,12 +208,12 @@ def _begun(
 ) -> tuple[Request, Iterator[tuple[Request, Answer]]]:
     """A call whose time has started, and its answers as they get better, each with what it is to."""
     options = {**asked}
-    visible, deadline = options.pop("visible", None), options.pop("deadline", None)
+    visible, deadline, classical = (options.pop(name, None) for name in ("visible", "deadline", "classical"))
     expect_or_none(FUNCTION, visible=visible)
     chosen = options_from(options)
     if memory is not None:
         chosen = chosen.but(head_start=max(0, chosen.head_start - memory.passed))
-    solver = _solver(chosen)
+    solver = _solver(chosen) if classical is None else _with_classical(_solver(chosen), classical, chosen)
     read = _unsure(chosen, given, said)
     call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
     require_metered(call.task, chosen)
@@ -221,6 +229,8 @@ def _begun(
 
         return call, scenarios.answers(call, unsure)
     in_time = needs_time(call.task, options=chosen, plan=call.given)
+    if in_time and classical is not None:
+        raise UsageError(f"classical: {in_time}, which it does not know")
     found = answers_in_time(call, solver) if in_time else solver(call)
     return call, ((call, answer) for answer in found)
 
@@ -253,6 +263,13 @@ def _solver(options: Options) -> Solver:
     if options.time_limit is not None:  # what only large tasks need takes longer to load than a short limit
         import_module("search.modes.assistance.distances.perimeter")
     return lambda call: assist(call.prepared, call.options, call.deadline)
+
+
+def _with_classical(solver: Solver, name: str, options: Options) -> Solver:
+    from serendipity.facade import classical
+
+    classical.check_classical(name, options)
+    return partial(classical.answers, solver=solver, name=name)
 
 
 def _results(answers: Iterator[tuple[Request, Answer]]) -> Iterator[Result]:

@@ -53,6 +53,7 @@ def to_result(task: Task, options: Options, answer: Answer, elapsed: float) -> R
             **{name: count for name, count in counted.items() if count is not None},
             "kernel": state_at_hand(),
             **({"strategies": [_tried(row) for row in answer.tried]} if answer.tried else {}),
+            **({"proved_by": answer.proved_by} if answer.proved_by else {}),
             **_rule(answer),
             **({"left": {task.facts[f]: float(price) for f, price in answer.left}} if answer.left else {}),
         },

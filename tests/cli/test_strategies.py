@@ -38,3 +38,9 @@ def test_nothing_is_told_without_v_and_another_name_is_refused(run: Runs) -> Non
     run("plan --example room2 -v")
     assert run("plan --example room2 --quiet").err == ""
     assert_one_line(run("plan --example room2 --strategies magic"), "strategies", "magic")
+
+
+def test_a_planner_of_others_is_asked_only_where_it_can_tell(run: Runs) -> None:
+    done = run("plan --example room2 --classical symk")
+    told = "classical: is for individual mode, and for composite mode without a horizon"
+    assert (done.code, done.err) == (2, f"Error: {told}\n")

@@ -31,6 +31,12 @@ def plan(
     observed: planning.Observed = None,
     beta: planning.Beta = None,
     noise: planning.Noise = None,
+    classical: Annotated[
+        str | None,
+        option(
+            "--classical symk", "Also ask this planner, as a process: alone, or together without a horizon."
+        ),
+    ] = None,
     limited: limits.Limits,
     certify: Annotated[bool, option("--verify", "Add the certificate of `verify`.")] = False,
     save_plan: Annotated[
@@ -41,11 +47,13 @@ def plan(
     """Find the best help for a person, with a proof."""
     form = to.prepare()
     output.check_output(save_plan, "--save-plan")
-    deadline = limited.begin(*_modules(options.given, goals or plans, certify=certify))
+    deadline = limited.begin(*_modules(options.given, goals or plans, classical, certify=certify))
     interference = options.given.get("interference", "paper")
     loaded = task.load(deadline, interference=interference, anybody=True)
     anybody = task.settled().for_anybody and ANYBODY not in loaded.agents
     asked = options.given | limited.given | {"deadline": deadline.sooner(_CHECK_SHARE)}
+    if classical is not None:
+        asked["classical"] = classical
     if options.human_plan is not None:
         from serendipity.cli.files.plans import timed_plan
 
@@ -133,7 +141,9 @@ def _as_json(result: Result, certificate: Certificate | None) -> str:
     return json_of(result.to_dict() | ({} if certificate is None else {"certificate": certificate.to_dict()}))
 
 
-def _modules(given: Mapping[str, Any], unsure: Path | None, *, certify: bool) -> list[str]:
+def _modules(
+    given: Mapping[str, Any], unsure: Path | None, classical: str | None, *, certify: bool
+) -> list[str]:
     """What is going to be loaded, or may be."""
     modules = ["serendipity.facade.planning", "serendipity.facade.certify", "serendipity.cli.text.answers"]
     if given.get("mode") == "assistance":
@@ -144,6 +154,8 @@ def _modules(given: Mapping[str, Any], unsure: Path | None, *, certify: bool) ->
         ]
     if unsure is not None or given.get("ties") == "watched":
         modules.append("serendipity.facade.scenarios")
+    if classical is not None:
+        modules.append("serendipity.facade.classical")
     modules += limits.PLANNING
     return [*modules, "verify.certificate.certify", *limits.CHECKING] if certify else modules
 

@@ -99,6 +99,7 @@ class Answer(NamedTuple):
         is_bound: whether it was looked for under that rule, since the best answer without it breaks it.
         disturbed: how much it disturbs the human (semantics 13); None where that was not asked.
         left: priced facts that are left otherwise than without help, each with its price.
+        proved_by: the planner of others on whose word it is proved; None for our own.
     """
 
     status: Status
@@ -129,6 +130,7 @@ class Answer(NamedTuple):
     is_bound: bool = False
     disturbed: Fraction | None = None
     left: tuple[tuple[int, Fraction], ...] = ()
+    proved_by: str | None = None
 
 
 def saved(baseline: Fraction | None, cost: Fraction | None, *, opportunity: bool) -> Fraction | None:

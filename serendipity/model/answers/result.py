@@ -232,11 +232,12 @@ def _options(options: Options) -> Iterator[str]:
 
 
 def _summary(result: Result) -> str:
+    by = f" by {result.statistics['proved_by']}" if "proved_by" in result.statistics else ""
     if result.status == "infeasible":
-        return f"infeasible (proved): {_REASONS.get(result.reason or '', result.reason or 'no plan')}"
+        return f"infeasible (proved{by}): {_REASONS.get(result.reason or '', result.reason or 'no plan')}"
     if result.status == "unknown":
         return f"{'interrupted' if result.reason == 'cancelled' else 'the limit came'} before any answer"
-    proof = "proved to be the best" if result.status == "optimal" else _gap(result)
+    proof = f"proved to be the best{by}" if result.status == "optimal" else _gap(result)
     if result.opportunity:
         return f"an opportunity, {proof}"
     if result.mode in ("serendipity", "communication"):
