@@ -4,6 +4,7 @@ import logging
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
+from time import perf_counter
 from typing import Any, Final
 
 from serendipity.evaluation.reproduction.work import Assignment, TaskRows, killed
@@ -13,11 +14,17 @@ log = logging.getLogger("serendipity.reproduce")
 
 _AGAIN: Final = "run the same command to go on"
 
+_CHUNK: Final = 1.0
+"""Seconds after which a worker hands back what it has done, and what it has not come to."""
+
+_AHEAD: Final = 2
+"""Chunks for each thread of the cluster at a time: what is not sent yet is in nobody's memory there."""
+
 Work = Callable[[Assignment], TaskRows]
 
 
 def on_dask(work: Work, assignments: Sequence[Assignment], address: str, jobs: int) -> Iterator[TaskRows]:
-    """On a Dask cluster, in the order in which they are finished.
+    """On a Dask cluster, in the order in which they are finished, in chunks of about a second.
 
     The workers need the program and the folder of tasks under the same path.
 
@@ -32,15 +39,51 @@ def on_dask(work: Work, assignments: Sequence[Assignment], address: str, jobs: i
         from distributed import KilledWorker
         from distributed import as_completed as completed
 
+        left, suspects, size = [*reversed(assignments)], list[Assignment](), 1
+        sent, done = dict[Any, tuple[list[Assignment], bool]](), completed()
+
+        def send(chunk: list[Assignment], *, alone: bool = False) -> None:
+            future = client.submit(_done_in_time, work, chunk, pure=False)
+            sent[future] = chunk, alone
+            done.add(future)
+
+        def send_more() -> None:
+            for _ in range(_AHEAD * max(1, sum(client.nthreads().values())) - len(sent)):
+                if left:
+                    chunk = [*reversed(left[-size:])]
+                    del left[-size:]
+                    send(chunk)
+            if suspects and not sent:
+                send([suspects.pop()], alone=True)
+
         try:
-            futures = dict(zip(client.map(work, assignments, pure=False), assignments, strict=True))
-            for future in completed(futures):
+            send_more()
+            for future in done:
+                chunk, alone = sent.pop(future)
                 try:
-                    yield future.result()
-                except KilledWorker:
-                    yield killed(futures[future])
+                    records = future.result()
+                except KilledWorker:  # it may be another one's fault
+                    if alone:
+                        yield killed(*chunk)
+                    else:
+                        suspects += chunk
+                else:
+                    left += reversed(chunk[len(records) :])
+                    size = len(records) * (2 if len(records) == len(chunk) else 1)
+                    yield from records
+                send_more()
         except (OSError, CancelledError):  # of which Dask's own are kinds
             raise SerendipityError(f"--dask: no scheduler any more at '{address}': {_AGAIN}") from None
+
+
+def _done_in_time(work: Work, chunk: Sequence[Assignment]) -> list[TaskRows]:
+    """The first assignments of a chunk, as many as are begun within its time."""
+    start, records = perf_counter(), list[TaskRows]()
+    for assignment in chunk:
+        records.append(work(assignment))
+        if perf_counter() - start > _CHUNK:
+            break
+    return records
 
 
 @contextmanager
@@ -79,7 +122,7 @@ def _connected(address: str, jobs: int) -> Any:
     except ImportError:
         raise UsageError("--dask: needs Dask: install serendipity-planner[dask]") from None
     if address == "local":
-        cluster = LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address=None)
+        cluster = LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address="127.0.0.1:0")
         return Client(cluster)
     try:
         return Client(address, timeout="10s")
