@@ -118,11 +118,13 @@ def _client(address: str, jobs: int) -> Iterator[Any]:
 
 def _connected(address: str, jobs: int) -> Any:
     try:
+        import dask
         from distributed import Client, LocalCluster
     except ImportError:
         raise UsageError("--dask: needs Dask: install serendipity-planner[dask]") from None
     if address == "local":
-        cluster = LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address="127.0.0.1:0")
+        with dask.config.set({"distributed.worker.profile.enabled": False}):  # 10 MiB a minute, for an hour
+            cluster = LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address="127.0.0.1:0")
         return Client(cluster)
     try:
         return Client(address, timeout="10s")

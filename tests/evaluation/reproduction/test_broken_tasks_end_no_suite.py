@@ -18,7 +18,7 @@ import pytest
 
 import serendipity
 from serendipity.evaluation.reproduction import reproduce, work
-from serendipity.evaluation.reproduction.pool import _done_in_time, on_dask
+from serendipity.evaluation.reproduction.pool import _client, _done_in_time, on_dask
 from serendipity.evaluation.reproduction.suite import TaskFolder
 from serendipity.evaluation.reproduction.work import Assignment, Call, TaskRows
 from serendipity.model import SerendipityError
@@ -95,6 +95,16 @@ def test_a_chunk_ends_after_a_second(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("serendipity.evaluation.reproduction.pool.perf_counter", lambda: next(clock))
     given = [*map(assignment, "abcd")]
     assert [rows.test for rows in _done_in_time(die, given)] == ["a", "b"]
+
+
+@pytest.mark.long
+def test_workers_of_this_machine_keep_no_profiles() -> None:
+    """Each second of a deep call makes theirs larger."""
+    pytest.importorskip("distributed", reason="needs the extra 'dask'")
+    import dask
+
+    with _client("local", 1) as client:
+        assert set(client.run(dask.config.get, "distributed.worker.profile.enabled").values()) == {False}
 
 
 @pytest.mark.long
