@@ -122,12 +122,7 @@ class Achievers:
         return need if need >= 0 else -1 - need
 
     def costs(self, needs: Sequence[int], pays: Callable[[int], bool]) -> dict[int, int]:
-        """Least cost from the initial state per need, as far as it can pay.
-
-        Args:
-            needs: their ids.
-            pays: whether anything can pay for which robots need this cost, or more.
-        """
+        """Least cost from the initial state per need, as far as anything can pay that or more."""
         return self._explore(self._by_cost, needs, self._weights, pays)
 
     def epochs(self, cost: int) -> int:

@@ -64,12 +64,7 @@ class PrivateDistances:
         self.steps_after: dict[int, int] = {}
 
     def explore(self, sources: Sequence[tuple[int, int]], limit: int) -> Corridor:
-        """From some states at once, in order of what has been spent.
-
-        Args:
-            sources: what has been spent, and where the human is then (a packed state).
-            limit: what costs as much or more is left out.
-        """
+        """From several states, each with what has been spent there, in that order, below a limit."""
         found = Corridor(self.deadline)
         bound = self.bound.distances
         queue = LevelQueue((spent, state & self.interactions.mask) for spent, state in sources)

@@ -16,12 +16,7 @@ from serendipity.model.resources.deadline import Deadline
 
 
 def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) -> list[int] | None:
-    """The cheapest plan with the smallest operators, by their numbers; None where there is no plan.
-
-    Args:
-        planner: the kernel on the problem.
-        state: the packed state to begin in.
-    """
+    """The cheapest plan with the smallest operators, by their numbers; None where there is no plan."""
     operators = planner.problem.operators
     left = planner.cheapest(state, deadline)
     if left >= INFINITE_KEY:
@@ -51,11 +46,7 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
 
 
 def in_order(operators: Sequence[Operator], plan: Sequence[int], deadline: Deadline) -> list[int]:
-    """Of all orders in which a plan's operators do the same the first.
-
-    Args:
-        plan: some of them, by their numbers, as they can be done one after another.
-    """
+    """Of all orders of a plan's operators, given by their numbers, that do the same the first."""
     waits = [0] * len(plan)
     after: list[list[int]] = [[] for _ in plan]
     sets = [_sets(operators[number]) for number in plan]

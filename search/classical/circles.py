@@ -28,11 +28,7 @@ class TooManyError(Exception):
 def circles(
     packed: PackedTask, operators: Sequence[Operator], deadline: Deadline
 ) -> Iterator[tuple[Operator, ...]]:
-    """Every circle of operators that some state may allow.
-
-    Raises:
-        TooManyError: they are too many to be looked for.
-    """
+    """Every circle of operators that some state may allow; :class:`TooManyError` where they are too many."""
     operators = _suspects(packed, operators, deadline)
     disabled = _in_turn(_disabled(packed, operators, deadline), deadline)
     steps = 0

@@ -26,10 +26,6 @@ def patterns(
 
     Fields go by their places, ascending.  One set is grown from each field of the goal; besides there are
     all single ones and pairs that can say more than their parts (Pommerening, Roeger and Helmert 2013).
-
-    Args:
-        operators: the human's own.
-        most_states: of a projection.
     """
     asked = _neighbours(fields, operators, deadline)
     goals = [i for i, (mask, _) in enumerate(fields) if mask & goal.mask]

@@ -137,9 +137,6 @@ class ClassicalPlanner:
         """What the last :meth:`cheapest` would have said, where a limit came first: it goes on from there.
 
         Meanwhile only :meth:`bound` and :meth:`first_plan` may have been asked for.
-
-        Args:
-            on_bound: as for :meth:`cheapest`.
         """
         kernel, planner = self._kernel, self._planner
         assert self._is_open, "it was interrupted"
@@ -217,10 +214,6 @@ class ClassicalPlanner:
         """A cheapest plan from a packed state, by numbers of operators, or None where none is below a limit.
 
         Which of several does not depend on what was asked before: all that was learnt is forgotten.
-
-        Args:
-            limit: as for :meth:`cheapest`.
-            on_bound: as for :meth:`cheapest`.
         """
         if self._asked is not None:
             self._start()

@@ -23,9 +23,6 @@ class Team:
     Args:
         planner: the kernel on the team's problem.
         actions: per operator of the problem its actions.
-
-    Attributes:
-        planner: the same.
     """
 
     def __init__(self, planner: ClassicalPlanner, actions: list[tuple[int, ...]]) -> None:
@@ -64,9 +61,6 @@ class Team:
         """:meth:`better_plans` from where a limit came; no other plans may have been asked for since.
 
         There is no better plan than those before where none comes.
-
-        Args:
-            on_bound: as before.
 
         Raises:
             LimitReachedError: the deadline came before the end.

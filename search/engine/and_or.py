@@ -17,11 +17,7 @@ class Rule(NamedTuple, Generic[State]):
 
 
 class AndOrGraph(Generic[State]):
-    """States that are had by one of several rules (OR), each of which needs several of them (AND).
-
-    Args:
-        deadline: polled for each rule, and later for each state.
-    """
+    """States that are had by one of several rules (OR), each of which needs several of them (AND)."""
 
     def __init__(self, rules: Sequence[Rule[State]], deadline: Deadline) -> None:
         self._rules = rules

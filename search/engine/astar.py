@@ -71,13 +71,7 @@ class AStar(Generic[State]):
                 yield state, spent[state]
 
     def reach(self, state: State, spent: int, before: State, step: object = None) -> None:
-        """Note a way to a state, if it is the cheapest so far.
-
-        Args:
-            spent: what has been spent by then.
-            before: the state before it.
-            step: what leads from there to it.
-        """
+        """Note a way to a state, if it is the cheapest so far."""
         known = self.spent.get(state)
         if known is not None and spent >= known:
             return

@@ -50,11 +50,7 @@ class Incumbent:
 
 @dataclass(slots=True)
 class Progress:
-    """The bound and the counts of a search at any moment.
-
-    Attributes:
-        bound: no complete plan has a smaller key.
-    """
+    """The counts of a search at any moment, and its bound: no complete plan has a smaller key."""
 
     bound: int = 0
     expanded: int = 0
@@ -97,12 +93,7 @@ class Space(Protocol[N, Improved]):
 
 
 class Ties(NamedTuple):
-    """For how many nodes a search goes on once the best objective is proved.
-
-    Attributes:
-        shift: keys without their lowest ``shift`` bits are objectives.
-        nodes: how many.
-    """
+    """For how many nodes a search goes on once the best objective, a key without low bits, is proved."""
 
     shift: int
     nodes: int

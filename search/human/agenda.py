@@ -7,7 +7,7 @@ ask for something else than before; all those between are the same to the human.
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from functools import reduce
-from itertools import chain, combinations, groupby
+from itertools import chain, combinations, groupby, pairwise
 from operator import or_
 from typing import Final, NamedTuple
 
@@ -84,6 +84,8 @@ class Agenda:
         self.edges = sorted({edge for run in self.runs for edge in (run.first, run.last + 1)})
         met = [run.mentioned | run.sets for run in self.runs]
         self.touched = -1 if loose else union(met)
+        self._begins: dict[int, list[int]] = {}
+        self._moments: dict[tuple[Course, int], list[int]] = {}
         self._courses: dict[Course, list[int]] = {}
         self._lengths: dict[tuple[Course, PackedGoal], list[int]] = {}
 
@@ -162,9 +164,12 @@ class Agenda:
 
     def moments(self, course: Course, fields: int) -> list[int]:
         """The epochs before which one of some fields may have changed, ascending."""
-        values = self._values(course)
-        known = (epoch for epoch in range(1, len(values)) if (values[epoch] ^ values[epoch - 1]) & fields)
-        return sorted({*known, *self.edges})
+        found = self._moments.get((course, fields))
+        if found is None:
+            pairs = enumerate(pairwise(self._values(course)), 1)
+            changes = (epoch for epoch, (before, value) in pairs if (value ^ before) & fields)
+            found = self._moments[course, fields] = sorted({*changes, *self.edges})
+        return found
 
     def lengths(self, course: Course, condition: PackedGoal) -> list[int]:
         """By epoch for how many on a condition on its own fields holds; more than matter, where for good."""
@@ -193,17 +198,17 @@ class Agenda:
         """Whether nobody is in anybody's way from an epoch on."""
         return not self.edges or epoch >= self.edges[-1]
 
-    def begins(self, ops: Sequence[Operator], sets: int, mentioned: int) -> list[int]:
-        """Epochs in which an action may have to begin, ascending: between two of them it is all the same.
-
-        Args:
-            ops: its epochs.
-            sets, mentioned: the fields that it sets, and that it sets or asks for.
-        """
-        loose, size = self._loose(ops), len(ops)
-        met = [run for run in self.runs if self._meets(run, sets, mentioned, loose)]
-        edges = {edge for run in met for edge in (run.first, run.last + 1)}
-        return sorted({edge - shift for edge in edges for shift in (0, 1, size - 1, size)})
+    def begins(self, ops: Sequence[Operator]) -> list[int]:
+        """Epochs in which an action may have to begin, ascending: between two of them it is all the same."""
+        found = self._begins.get(ops[0].action)
+        if found is None:
+            loose, size = self._loose(ops), len(ops)
+            sets, mentioned = self._packed.changed_by(ops), union(map(self._packed.mentioned, ops))
+            met = [run for run in self.runs if self._meets(run, sets, mentioned, loose)]
+            edges = {edge for run in met for edge in (run.first, run.last + 1)}
+            found = sorted({edge - shift for edge in edges for shift in (0, 1, size - 1, size)})
+            self._begins[ops[0].action] = found
+        return found
 
     def stuck(self, state: int, epoch: int) -> bool:
         """Whether others can't go on with an epoch."""

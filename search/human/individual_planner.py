@@ -219,13 +219,7 @@ class IndividualPlanner:
         return 0 if known is None and self._goal.holds(state) else known
 
     def _remember(self, state: int, rest: int, search: AStar[int]) -> int:
-        """Note the keys of all states along a cheapest way, from its end on; that of its start.
-
-        Args:
-            state: where it ends.
-            rest: the human's optimal key there.
-            search: which has come there.
-        """
+        """Note the keys of all states along a cheapest way, from its end on; that of its start."""
         self._known[state] = rest
         for before, weight in search.way_back(state):
             rest += weight

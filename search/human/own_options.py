@@ -10,11 +10,7 @@ from search.packed.successor_generator import Lookup
 
 
 class BesideScript(Lookup):
-    """The human's options, each with what bystanders do in its epoch, and with what the clock changes.
-
-    Args:
-        weight: of one of the human's own ops.
-    """
+    """The human's options, each with what bystanders do in its epoch, and with what the clock changes."""
 
     def __init__(self, packed: PackedTask, weight: Callable[[Operator], int], *, strict: bool) -> None:
         super().__init__(packed.own_index, weight)

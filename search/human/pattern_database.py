@@ -56,12 +56,7 @@ NOTHING_KNOWN: Final = PatternDatabase(0, {0: 0})
 
 
 class NearestGoal(NamedTuple):
-    """The bound of :func:`alone_projection`, or where that knows nothing another one.
-
-    Attributes:
-        private: by private variables.
-        alone: by all that the human changes.
-    """
+    """The bound of :func:`alone_projection`, or where that knows nothing one by private variables."""
 
     private: PatternDatabase
     alone: PatternDatabase
@@ -98,10 +93,6 @@ class Projected:
 
 def own_projection(packed: PackedTask, graph: Projected, deadline: Deadline) -> PatternDatabase:
     """Costs to the human's goal in their private variables, or in as many as stay tractable.
-
-    Args:
-        graph: the human's graph.
-        deadline: polled while the table is built.
 
     Returns:
         Distances in the unit of :func:`search.packed.cost_vector.own_weights`.

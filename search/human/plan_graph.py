@@ -55,11 +55,7 @@ class PlanGraph:
                 path.pop()
 
     def distinct(self, name: Callable[[int], str]) -> Iterator[tuple[int, ...]]:
-        """Those that differ in names, each as it comes first.
-
-        Args:
-            name: of an action; nothing where it is no action of its own.
-        """
+        """Those that differ in the names of actions, each as it comes first; some actions have no name."""
         seen: set[tuple[int, tuple[str, ...]]] = set()
         told: set[tuple[str, ...]] = set()
         pending: list[tuple[int, tuple[int, ...], tuple[str, ...]]] = [(self.start, (), ())]
@@ -97,11 +93,7 @@ class PlanGraph:
         return None
 
     def fewest(self, size: Callable[[int], int]) -> "PlanGraph":
-        """The same with those plans alone that have the fewest actions.
-
-        Args:
-            size: of an action: 0 where it is no action of its own.
-        """
+        """Those plans alone that have the fewest actions; some have size 0, being no actions of their own."""
         least: dict[int, int] = {}
         edges: Edges = {}
         pending = [self.start]
@@ -124,11 +116,7 @@ class PlanGraph:
         return sum(map(size, self.canonical()))
 
     def drawn(self, choose: Callable[[Sequence[tuple[int, int]]], tuple[int, int]]) -> tuple[int, ...]:
-        """One of them, put together step by step.
-
-        Args:
-            choose: picks one of several (action, successor).
-        """
+        """One of them, put together by a choice of one of several (action, successor) at each step."""
         plan: list[int] = []
         state = self.start
         while onward := self.edges.get(state):

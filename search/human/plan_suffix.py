@@ -43,9 +43,6 @@ class _Way(NamedTuple):
 class BegunActions:
     """``pi_H`` as actions, each with the ones of its epochs.
 
-    Args:
-        plan: ``pi_H`` in single epochs.
-
     Attributes:
         actions: what is begun.
         starts: the epoch in which each begins.
@@ -156,16 +153,13 @@ class PlanSuffix:
 
     def _cheapest(self, at: _Rest, ways: list[_Way]) -> tuple[int, _Way | None]:
         best: tuple[int, _Way | None] = INFINITE_KEY, None
-        if at.begun == len(self._first) and self._lasts(at.state, at.left):
+        if at.begun == len(self._first) and self._due.lasting(at.state, at.left, self._goals):
             best = 0, None
         for way in ways:
             key = way.weight + self._known[way.rest][0]
             if key < best[0]:
                 best = key, way
         return best
-
-    def _lasts(self, state: int, left: int) -> bool:
-        return self._due.lasting(state, left, lambda end: all(goal.holds(end) for goal in self._goals))
 
     def _ways(self, at: _Rest) -> Iterator[_Way]:
         """Leaving an action out, doing it, if that is possible, and waiting, while the script lasts."""

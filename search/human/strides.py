@@ -163,7 +163,7 @@ class StridingPlanner(IndividualPlanner):
         now, state = first + label.epochs, label.state
         if not self._goal.mask & (agenda.fields | agenda.shared):
             return None
-        moments = self._moments_of(agenda, course)
+        moments = agenda.moments(course, self._goal.mask)
         for moment in moments[bisect_right(moments, now) :]:
             after = None if moment > end else agenda.passed(state, course, now, moment)
             if after is None:
@@ -177,9 +177,7 @@ class StridingPlanner(IndividualPlanner):
     def _beginnings(self, stride: Stride, beside: _Beside, now: int) -> Iterator[int]:
         """Epochs in which an action may begin, ascending: now, and when others make a difference to it."""
         agenda, course, *_ = beside
-        edges: Sequence[int] = ()
-        if not agenda.is_open(now):
-            edges = self._edges_of(stride, agenda)
+        edges: Sequence[int] = () if agenda.is_open(now) else agenda.begins(stride.ops)
         soonest = self._soonest(stride, agenda, course) if stride.script else None
         before = -1
         for epoch in (now, *edges[bisect_right(edges, now) :]):
@@ -189,29 +187,6 @@ class StridingPlanner(IndividualPlanner):
             if max(epoch, found) != before:
                 before = max(epoch, found)
                 yield before
-
-    def _edges_of(self, stride: Stride, agenda: Agenda) -> list[int]:
-        key = stride.ops[0].action, agenda
-        if key not in self._known_edges:
-            sets, mentioned = (
-                self._packed.changed_by(stride.ops),
-                union(map(self._packed.mentioned, stride.ops)),
-            )
-            self._known_edges[key] = agenda.begins(stride.ops, sets, mentioned)
-        return self._known_edges[key]
-
-    def _moments_of(self, agenda: Agenda, course: Course) -> list[int]:
-        if (agenda, course) not in self._known_moments:
-            self._known_moments[agenda, course] = agenda.moments(course, self._goal.mask)
-        return self._known_moments[agenda, course]
-
-    @cached_property
-    def _known_moments(self) -> dict[tuple[Agenda, Course], list[int]]:
-        return {}
-
-    @cached_property
-    def _known_edges(self) -> dict[tuple[int, Agenda], list[int]]:
-        return {}
 
     @cached_property
     def _begins(self) -> dict[tuple[int, Agenda, Course], list[int | None]]:
@@ -335,7 +310,7 @@ class StridingPlanner(IndividualPlanner):
         if agenda.last:
             if known.epochs > other.epochs:
                 return False
-            if agenda.edges and _differ(agenda.edges, first + known.epochs, first + other.epochs):
+            if _differ(agenda.edges, first + known.epochs, first + other.epochs):
                 return False
             # After the last epoch nothing depends on which it is, so that nobody waits for one.
             waited = min(other.epochs, agenda.last - first) - known.epochs

@@ -63,11 +63,6 @@ class Lasting:
     """An optimal plan of the human's own in time: what happens anyway may undo its end before the last epoch.
 
     Where waiting costs, the human may have begun to rest for good: then only resting may be what is optimal.
-
-    Attributes:
-        replan: the rule without time.
-        goals: what holds in the end.
-        due: what happens anyway.
     """
 
     replan: Replan
@@ -93,8 +88,7 @@ class Lasting:
         planner = both or alone
 
         def lasts(end: int, spent: int) -> bool:
-            left = epochs - spent
-            return self.due.lasting(end, left, lambda last: all(goal.holds(last) for goal in self.goals))
+            return self.due.lasting(end, epochs - spent, self.goals)
 
         if awake == state and both is None:  # of the plans that last the canonical one is the first
             found = planner.canonical(state)

@@ -29,9 +29,6 @@ class OwnPlanner:
         chains: these from the first epoch to the last, in the order of its operators.
         shift: bits below the number of epochs in what it adds up, for the number of actions, which decides
             between plans that are equal else.
-
-    Attributes:
-        planner: the same.
     """
 
     def __init__(

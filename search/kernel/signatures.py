@@ -40,11 +40,7 @@ SIGNATURES: Final = {
 
 
 def declare(library: CDLL) -> None:
-    """Say of each function what it takes and returns.
-
-    Raises:
-        AttributeError: the library has no such function.
-    """
+    """Say of each function what it takes and returns; ``AttributeError`` where the library lacks one."""
     for name, (result, arguments) in SIGNATURES.items():
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments

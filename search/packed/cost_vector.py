@@ -40,11 +40,7 @@ NEVER: Final = 1 << 40
 
 
 def require_room(bits: int) -> None:
-    """Return if numbers of so many bits are below :data:`INFINITE_KEY`, sums of many of them, too.
-
-    Raises:
-        UsageError: they are not.
-    """
+    """Refuse numbers of so many bits if they, or sums of many of them, may reach :data:`INFINITE_KEY`."""
     if bits + 64 > _MOST_BITS:
         raise UsageError(
             f"costs, discount and weights: expected a common denominator that keeps sums within {_MOST_BITS} "

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from search.packed.joint_actions import NOTHING, JointAction, as_option, together
 from search.packed.operators import Operator, applicable, union
-from search.packed.packed_task import PackedTask
+from search.packed.packed_task import PackedGoal, PackedTask
 
 _ByName = dict[str, list[JointAction]]
 """What is due, by the names of actions: one of each name."""
@@ -38,9 +38,6 @@ class _Options:
 
 class Due:
     """What is due in a packed state.
-
-    Args:
-        weight: key increment of an op.
 
     Attributes:
         deciding: the fields that say what is due to others, and to the clock.
@@ -148,8 +145,8 @@ class Due:
             done.append(going_on[0])
         return state, done
 
-    def lasting(self, state: int, epochs: int, holds: Callable[[int], bool]) -> bool:
-        """Whether something holds after some epochs of waiting from a state."""
+    def lasting(self, state: int, epochs: int, goals: Iterable[PackedGoal]) -> bool:
+        """Whether goals hold after some epochs of waiting from a state."""
         for _ in range(epochs):
             if self.is_calm(state):
                 break
@@ -157,7 +154,7 @@ class Due:
             if after is None:
                 return False
             state = after
-        return holds(state)
+        return all(goal.holds(state) for goal in goals)
 
     def last(self, state: int) -> Operator | None:
         """What the clock changes after all that is done; None once it has stopped."""

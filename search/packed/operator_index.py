@@ -78,12 +78,7 @@ class LiteralIndex(Generic[Item]):
 
 
 def most_asked(fields: Sequence[int], asked: Iterable[tuple[int, int]]) -> int:
-    """The variable that most operators ask for, the first of several; 0 if there is none to choose.
-
-    Args:
-        fields: the variables to choose from.
-        asked: masks of what operators ask for, each with how many of them do.
-    """
+    """Of some variables the first that most operators ask for; 0 if there is none to choose."""
     by_lowest_bit = {field & -field: field for field in fields}
     by_mask: Counter[int] = Counter()
     for mask, count in asked:
@@ -112,12 +107,6 @@ def by_variable(field: int, signatures: Iterable[Signature]) -> OperatorIndex[Op
 def by_most_asked(
     signatures: Sequence[Signature], fields: Sequence[int], deadline: Deadline
 ) -> OperatorIndex[Operator]:
-    """Operators by the value of the variable that most of them ask for.
-
-    Args:
-        signatures: the operators.
-        fields: masks of all variables.
-        deadline: polled while they are sorted in.
-    """
+    """Operators by the value of the variable that most of them ask for."""
     asked = ((signature.need_mask, len(signature.ops)) for signature in signatures)
     return by_variable(most_asked(fields, asked), deadline.each(signatures, batch=1))

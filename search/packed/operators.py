@@ -59,11 +59,7 @@ class Signature(NamedTuple):
 
 
 def forms_of(ops: Iterable[Operator], all_ones: int, deadline: Deadline) -> tuple[Signature, ...]:
-    """Ops by their forms.
-
-    Args:
-        all_ones: all fields.
-    """
+    """Ops by their forms."""
     members: dict[tuple[int, int, int, int, int], list[Operator]] = {}
     for op in ops:
         deadline.tick()
@@ -94,12 +90,7 @@ def union(masks: Iterable[int]) -> int:
 
 
 def split(mask: int, by_lowest_bit: dict[int, int]) -> Iterator[int]:
-    """The fields in a mask.
-
-    Args:
-        mask: a union of fields.
-        by_lowest_bit: each field by its lowest bit.
-    """
+    """The fields in a mask."""
     while mask:
         field = by_lowest_bit[mask & -mask]
         yield field

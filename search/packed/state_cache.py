@@ -6,11 +6,7 @@ T = TypeVar("T")
 
 
 class StateCache(dict[int, T]):
-    """By packed state; it is emptied when it holds too much.
-
-    Args:
-        most: entries of all that it holds.
-    """
+    """By packed state; it is emptied when all that it holds has more than ``most`` entries."""
 
     def __init__(self, most: int) -> None:
         super().__init__()

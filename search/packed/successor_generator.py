@@ -189,13 +189,7 @@ class Successors:
         return self.with_robots(first, state)
 
     def rested(self, idle: Idle, option: JointAction, state: int) -> Idle:
-        """For how long robots are idle after an epoch.
-
-        Args:
-            idle: before it.
-            option: what is done in it.
-            state: the packed state after it.
-        """
+        """For how long robots are idle after an epoch."""
         return ()
 
     def groups(self, state: int) -> list[list[JointAction]]:

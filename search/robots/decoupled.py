@@ -65,12 +65,7 @@ class Way(NamedTuple):
 
 
 class Deeds(NamedTuple):
-    """Deeds that are looked up together.
-
-    Attributes:
-        by_literal: ops of robots with their center actions.
-        mask: the fields that they ask for, places among them.
-    """
+    """Ops of robots with their center actions, by literal, and the fields, places too, that they ask for."""
 
     by_literal: LiteralIndex[tuple[CenterAction, Operator]]
     mask: int
@@ -82,9 +77,6 @@ Known = StateCache[list[JointAction]]
 
 class Decoupled:
     """The walks of robots that can be folded.
-
-    Args:
-        places: where robots are.
 
     Attributes:
         bits: per slot a robot in bit sets of agents.

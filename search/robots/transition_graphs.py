@@ -82,11 +82,7 @@ class TransitionGraph:
 
 
 class TransitionGraphs:
-    """:class:`TransitionGraph` by field, made when first asked for.
-
-    Args:
-        places: where robots are.
-    """
+    """:class:`TransitionGraph` by field, made when first asked for; ``places`` are where robots are."""
 
     def __init__(self, packed: PackedTask, places: PositionVariables) -> None:
         self.places = places

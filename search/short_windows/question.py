@@ -13,13 +13,7 @@ from serendipity.model.task.task import HumanPlan
 
 @dataclass(frozen=True, slots=True)
 class ShortWindowQuestion:
-    """Plans with a window of one epoch, after which the human replans, that beat the incumbent.
-
-    Attributes:
-        context: of the call.
-        plan: ``pi_H``.
-        best: the call's incumbent, which is made better.
-    """
+    """Plans with a window of one epoch, after which the human replans, that beat the incumbent."""
 
     context: SearchContext
     plan: HumanPlan

@@ -64,9 +64,6 @@ class FixedWindow:
 
     Only the window's end is left open to waiting: a node inside it stands for everybody
     waiting until the end, too, where nothing else happens by then.
-
-    Args:
-        weighed: what all windows share.
     """
 
     def __init__(self, weighed: Weighed, window: Window) -> None:

@@ -69,11 +69,7 @@ class Suggestions:
                 start += 1
 
     def _beside(self, ops: Sequence[Operator]) -> Iterator[Incumbent]:
-        """What robots do of some actions, while the human follows ``pi_H``; a window of one epoch.
-
-        Args:
-            ops: in their order; the human's are left out.
-        """
+        """What robots do of some actions while the human follows ``pi_H``; a window of one epoch."""
         human, node = self._context.packed.human_bit, self._root()
         left = [op for op in ops if not op.agents & human]
         for epoch in range(1, min(len(self._plan), self._horizon) + 1):

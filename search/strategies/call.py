@@ -26,12 +26,7 @@ if TYPE_CHECKING:
 
 
 class Allowance(NamedTuple):
-    """The share of a call that a strategy may take.
-
-    Attributes:
-        deadline: of this part.
-        limit: how many of what the strategy counts.
-    """
+    """The share of a call that a strategy may take: its deadline, and how many of what it counts."""
 
     deadline: Deadline
     limit: int
@@ -143,11 +138,7 @@ class Call:
             self.idle, self.best = replace(self.baseline), replace(self.baseline)
 
     def compare(self, plan: HumanPlan | None) -> None:
-        """Say what robots save, where the answer did not have to wait for ``pi_H``.
-
-        Args:
-            plan: an optimal plan of the human's; None where they have none.
-        """
+        """Say what robots save, where the answer did not wait for ``pi_H``; None: the human has no plan."""
         self.plan = plan if self.given is None else self.given
         if plan is not None and self.plan is not None:
             self.idle = Incumbent(self._key_of(plan))
@@ -244,12 +235,7 @@ class Call:
         return (context.bound(init) if team is no_team_bound else team(init)) + window
 
     def space(self, deadline: Deadline, limit: int, *, idle: bool = False) -> Space[Node, Incumbent]:
-        """All plans of the call that may be better than an incumbent.
-
-        Args:
-            limit: key that they have to beat.
-            idle: robots do nothing.
-        """
+        """All plans of the call with a key below a limit; where ``idle``, robots do nothing."""
         context, plan, epochs = self.under(deadline), self.plan, self.epochs
         if not context.options.windowed:
             return free_space(context, epochs, self.most_cost, limit, idle=idle)

@@ -30,11 +30,7 @@ def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None
 def optimal_plans_in_time(
     prepared: PreparedTask, deadline: Deadline, options: Options
 ) -> Iterator[HumanPlan]:
-    """The human's optimal plans, in single epochs, that differ in the names of what they begin.
-
-    Args:
-        prepared: a task in single epochs.
-    """
+    """The human's optimal plans, in single epochs, that differ in the names of what they begin."""
     context = SearchContext(prepared, options, deadline)
     graph, packed = context.optimal_plans(), context.packed
 
@@ -151,11 +147,7 @@ def _fits(options: Options, plan: HumanPlan) -> bool:
 
 
 def first_answer(prepared: PreparedTask, options: Options, deadline: Deadline) -> FirstAnswer:
-    """The first answer where ``pi_H`` is to be predicted.
-
-    Raises:
-        LimitReachedError: the deadline came before any plan.
-    """
+    """The first answer where ``pi_H`` is to be predicted; :class:`LimitReachedError` where no plan came."""
     return FirstAnswer(SearchContext(prepared, options, deadline), None)
 
 

@@ -198,11 +198,7 @@ def begin(call: Call, *, predicts: bool = True) -> None:
 
 
 def _taken(call: Call, turn: Turn) -> Iterator[None]:
-    """Take a turn in its share of the time; yield whenever more is known.
-
-    Raises:
-        LimitReachedError: the deadline of the call came.
-    """
+    """Take a turn in its share of the time; yield whenever more is known, until the call's deadline."""
     deadline = call.context.deadline
     part = Allowance(deadline if turn.share == 1 else deadline.part(turn.share), turn.limit)
     begun, bound, known, better = deadline.elapsed(), call.progress.bound, call.best.key, 0
@@ -223,11 +219,7 @@ def _taken(call: Call, turn: Turn) -> Iterator[None]:
 
 
 def chosen(names: Sequence[str], turns: Sequence[Turn] = TURNS) -> list[Turn]:
-    """The turns that names of strategies or turns choose: those named, or all but those with a minus sign.
-
-    Raises:
-        UsageError: there is no strategy and no turn of a name.
-    """
+    """The turns that names choose: those named, or all but those with a minus sign.  Others are refused."""
     known = {turn.strategy for turn in turns} | {turn.name for turn in turns}
     for name in names:
         if name.removeprefix("-") not in known:

@@ -13,11 +13,7 @@ from serendipity.model.task.task import HumanPlan
 
 
 class Writer:
-    """Names for one game.
-
-    Args:
-        ties: how the prime's optimal actions count.
-    """
+    """Names for one game, in which the prime's optimal actions count as ``ties`` say."""
 
     def __init__(self, game: Game, ties: str) -> None:
         self.task = game.task

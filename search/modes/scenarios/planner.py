@@ -103,11 +103,7 @@ class _ScenarioCall:
         self.is_exact = True
 
     def improved(self) -> Iterator[None]:
-        """Look for better policies; yield whenever there may be one.
-
-        Raises:
-            LimitReachedError: a limit came first.
-        """
+        """Look for better policies until a limit comes; yield whenever there may be one."""
         scenarios, deadline = self._scenarios(), self._deadline
         context = scenarios[0].context
         measure = measure_of(self._options.risk, [c.weight for c in self._candidates])

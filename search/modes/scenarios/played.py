@@ -10,12 +10,7 @@ from serendipity.model.task.plans import Step, Window
 
 
 class Played(NamedTuple):
-    """What happens in one scenario.
-
-    Attributes:
-        steps: what everybody does.
-        window: in which the human's plan is interrupted, or None.
-    """
+    """What everybody does in one scenario, and the window that interrupts the human's plan there, or None."""
 
     steps: tuple[Step, ...]
     window: Window | None

@@ -96,11 +96,7 @@ class PolicySearch:
         return self.root.upper
 
     def run(self) -> Iterator[None]:
-        """Bring the bounds of the root together; yield whenever they have changed much.
-
-        Raises:
-            LimitReachedError: the deadline ran out; the bounds hold.
-        """
+        """Bring the bounds of the root together, to a limit; yield whenever they have changed much."""
         self._look(self.root)
         yield
         for scenario in (None, *(line.number for line in self._lines)):

@@ -79,10 +79,6 @@ class Scenario:
 class Certain:
     """Remainders of one scenario, by where they begin.
 
-    Args:
-        scenario: the scenario.
-        worths: worths of keys.
-
     Attributes:
         steps: the packed actions of the human's plan, and what they do.
         suffix: rule 3.
@@ -111,11 +107,7 @@ class Certain:
         return self._known.get(_beginning(at, epoch))
 
     def remainder(self, at: Member, epoch: int, deadline: Deadline) -> Remainder:
-        """The remainder after an epoch, its suffix not begun.
-
-        Args:
-            deadline: what is known by then is returned.
-        """
+        """The remainder after an epoch, its suffix not begun, or what is known of it at the deadline."""
         found = self.known(at, epoch)
         if found is None or found.least < found.worth:
             beginning = _beginning(at, epoch)
@@ -182,8 +174,8 @@ class Certain:
             if after is None:
                 return False
             state = after
-        left, goals = self._scenario.horizon - max(epoch, len(self.steps)), self._scenario.context.goals
-        return self._due.lasting(state, left, lambda end: all(goal.holds(end) for goal in goals))
+        left = self._scenario.horizon - max(epoch, len(self.steps))
+        return self._due.lasting(state, left, self._scenario.context.goals)
 
     def alone(self, state: int, epoch: int) -> int:
         """What the rest of their plan is worth if they are left alone, and robots end what they are at."""

@@ -63,9 +63,6 @@ class _Sequence:
 class SequenceSearch:
     """The search for one call.
 
-    Args:
-        question: what it is asked.
-
     Attributes:
         lower: no sequence is worth less.
         upper: of the best one known, or of leaving everybody alone.
@@ -81,11 +78,7 @@ class SequenceSearch:
         self.expanded = self.generated = 0
 
     def guided(self) -> Iterator[None]:
-        """Try what is best for each scenario, and idle robots; yield after each.
-
-        Raises:
-            LimitReachedError: the deadline ran out; the bounds hold.
-        """
+        """Try what is best for each scenario, and idle robots; yield after each.  Bounds hold at a limit."""
         for i, line in enumerate(self._lines):
             deadline = self._deadline.part(_SHARE / (len(self._lines) - i + 1))
             self._floors[i], _ = line.certainly(line.first(), 0, deadline)

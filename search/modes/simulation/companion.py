@@ -51,11 +51,6 @@ class Course:
 class Companion:
     """Robots beside one human with one goal, who may stand anywhere.
 
-    Args:
-        prepared: the task, which has no goal of the robots' own.
-        options: in force; ``human_model`` is not ``omniscient``.
-        actions: ids of actions that contribute nothing to the goal, and are played all the same.
-
     Attributes:
         human: the human.
     """

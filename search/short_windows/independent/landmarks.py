@@ -39,11 +39,7 @@ class Landmark(NamedTuple):
 
 
 class Landmarks:
-    """The human's own task without deletes.
-
-    Args:
-        amount: of one of the human's own operators, above 0.
-    """
+    """The human's own task without deletes; the amount of each of their operators is above 0."""
 
     def __init__(self, packed: PackedTask, amount: Callable[..., int], deadline: Deadline) -> None:
         self._deadline = deadline
@@ -82,24 +78,14 @@ class Landmarks:
         return found
 
     def of(self, state: int, given: Collection[Value]) -> list[Landmark]:
-        """Landmarks of a state: their costs add up.
-
-        Args:
-            given: the values that other states may have instead of its own.
-        """
+        """Landmarks of a state, whose costs add up; others may have the given values instead of its own."""
         true = [number for (field, value), number in self._number.items() if state & field == value]
         gifts = {number for value in given if (number := self._number.get(value)) is not None}
         return _Cuts(self, true, gifts.difference(true)).found()
 
 
 class _Cuts:
-    """The landmarks of one state, one after another.
-
-    Args:
-        task: the human's own.
-        true: facts of the state.
-        gifts: facts that robots could provide.
-    """
+    """The landmarks of one state, one after another; gifts are facts that robots could provide."""
 
     def __init__(self, task: Landmarks, true: Collection[int], gifts: Collection[int]) -> None:
         self._needs, self._adds, self._values = task._needs, task._adds, task._values

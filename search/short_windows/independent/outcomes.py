@@ -33,12 +33,7 @@ _Some = tuple[Rows, Amounts, Amounts, Parts]
 
 
 class Outcomes(NamedTuple):
-    """Differences, each once at its least cost.
-
-    Attributes:
-        rows: per outcome the bits that differ.
-        amounts: what robots pay for it, at least.
-    """
+    """Differences in bits, each once at the least cost that robots pay for it."""
 
     rows: Rows
     amounts: Amounts
@@ -86,14 +81,6 @@ def outcomes(
 
 class Together:
     """Outcomes of all robots together.
-
-    Args:
-        apart: what each of them can leave behind.
-        nets: per robot and outcome what it costs, less the most that it saves the human.
-        fields: those that they set and that matter to the human.
-        most: where the sum of nets is as much, outcomes are left out.
-        most_paid: the same for the sum of what they cost.
-        deadline: polled; asked for memory.
 
     Attributes:
         found: what they leave behind together.
@@ -198,12 +185,7 @@ def values(rows: Rows, fields: Collection[int]) -> set[Value]:
 
 
 class Remaining:
-    """Outcomes, until it is known what they are worth.
-
-    Args:
-        found: what robots leave behind together.
-        base: the packed state without any robot.
-    """
+    """Outcomes, until it is known what they are worth."""
 
     def __init__(self, found: Outcomes, base: int) -> None:
         self._rows = found.rows ^ column(base, found.rows.shape[0])

@@ -72,12 +72,7 @@ def provisions(
 
 
 def by_others(found: dict[int, Provision], robot: int) -> Provision:
-    """The same for what robots but one can set.
-
-    Args:
-        found: by robot what it can set.
-        robot: the one that is left out.
-    """
+    """The same, by robot, for what all robots but one can set."""
     soonest: Provision = {}
     for other, provision in found.items():
         if other != robot:

@@ -78,11 +78,7 @@ def _relies(packed: PackedTask, robot: int, others: Provision) -> bool:
 
 
 class _Pass:
-    """Windows of one epoch, one after another.
-
-    Args:
-        others: per robot what it takes from others for nothing.
-    """
+    """Windows of one epoch, one after another, given per robot what it takes from others for nothing."""
 
     def __init__(self, question: ShortWindowQuestion, others: Mapping[int, Provision]) -> None:
         context = question.context

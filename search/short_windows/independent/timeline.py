@@ -73,13 +73,6 @@ class _Act(NamedTuple):
 class RobotLayers:
     """A robot's states, epoch by epoch.
 
-    Args:
-        context: of the call; its deadline is asked for memory.
-        robot: bit of the robot.
-        steps: the human's plan, an action an epoch.
-        others: what other robots can set, and after how many epochs.
-        amount: of an operator of the robot's.
-
     Attributes:
         changes: the fields that the robot sets.
     """
@@ -148,11 +141,7 @@ class RobotLayers:
         return self._local == self._every[1]
 
     def ends(self) -> Layer:
-        """States after one more epoch in which the human waits.
-
-        Raises:
-            LimitReachedError: there are too many, or the deadline came.
-        """
+        """States after one more epoch in which the human waits."""
         if self._free is None:
             self._free = self._in_room(lambda: self._moved(self._last, None))
         return self._free

@@ -12,11 +12,7 @@ from serendipity.model.resources.deadline import Deadline
 
 
 def joint_lower_bound(game: Game, deadline: Deadline) -> int:
-    """A value that no policy undercuts from the initial state.
-
-    Raises:
-        LimitReachedError: the deadline ran out before it was worked out.
-    """
+    """A value that no policy undercuts from the initial state; :class:`LimitReachedError` at the deadline."""
     task = game.task
     shifts: dict[tuple[int, ...], int] = {(task.human,): game.unit_bits, (task.robots[0],): 0}
     rules, values = [], []

@@ -32,12 +32,7 @@ class _RunNode(NamedTuple):
 
 @dataclass(slots=True)
 class _Best:
-    """The cheapest complete run: it ends in ``node``, or the supporter idles from there on.
-
-    Attributes:
-        key: its value.
-        node: where it ends, None while there is no run.
-    """
+    """The cheapest complete run: it ends in ``node``, or the supporter idles from there on."""
 
     key: int
     node: _RunNode | None = None

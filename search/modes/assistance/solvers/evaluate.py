@@ -10,12 +10,7 @@ from serendipity.model.resources.deadline import Deadline
 
 
 def components(nodes: Iterable[int], onward: Mapping[int, Collection[int]]) -> Iterator[list[int]]:
-    """Strongly connected components of a graph (Tarjan 1972), those without a way out first.
-
-    Args:
-        nodes: where to start; every successor is a node.
-        onward: successors of each node.
-    """
+    """Strongly connected components of a graph (Tarjan 1972), those without a way out first."""
     order: dict[int, int] = {}
     lowest: dict[int, int] = {}
     open_nodes: list[int] = []

@@ -41,11 +41,7 @@ class LaoStar:
         self.expanded = 0
 
     def run(self) -> Iterator[None]:
-        """Search; yields whenever the best policy known gets better.
-
-        Raises:
-            LimitReachedError: the deadline ran out; the solution so far stands.
-        """
+        """Search; yields whenever the best policy known gets better.  At a limit that one stands."""
         graph, game = self._graph, self._game
         if graph.final(game.init):
             self._upper = self._rule.lift(0)
