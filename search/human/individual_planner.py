@@ -61,13 +61,7 @@ class Memory:
 
 
 class FoundPlan(NamedTuple):
-    """A plan of the human alone.
-
-    Attributes:
-        actions: its actions.
-        expanded: states that the searches for it expanded.
-        generated: steps that they looked at.
-    """
+    """A plan of the human alone, the states that searches for it expanded, and the steps they looked at."""
 
     actions: tuple[int, ...]
     expanded: int

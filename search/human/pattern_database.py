@@ -278,12 +278,7 @@ def _explore(
 def _transitions(
     fields: Sequence[int], forms: Iterable[tuple[Signature, int, bool]], deadline: Deadline
 ) -> OperatorIndex[Transition]:
-    """Ops in a projection onto some fields; of those that look alike there the cheapest.
-
-    Args:
-        fields: masks of the fields.
-        forms: the ops, the cheapest last: their weight, and whether they are interactions.
-    """
+    """Ops in a projection, from their forms, the cheapest last; of those that look alike the cheapest."""
     mask = sum(fields)
     merged: dict[tuple[int, int, bool], dict[tuple[int, int, Literals], int]] = {}
     for form, weight, interaction in forms:

@@ -14,14 +14,7 @@ Edges = dict[int, list[tuple[int, int]]]
 
 @dataclass(eq=False)
 class PlanGraph:
-    """The optimal plans from a state as a graph: they share prefixes and suffixes.
-
-    Attributes:
-        start: the packed state that they start from.
-        edges: the steps that lie on an optimal plan.
-        expanded: states that the search for them expanded.
-        generated: steps that it looked at.
-    """
+    """The optimal plans from a state as a graph, and what the search for it expanded, and generated."""
 
     start: int
     edges: Edges
@@ -96,19 +89,11 @@ class PlanGraph:
         """Those plans alone that have the fewest actions; some have size 0, being no actions of their own."""
         least: dict[int, int] = {}
         edges: Edges = {}
-        pending = [self.start]
-        while pending:
-            state = pending[-1]
-            onward = self.edges.get(state, ())
-            missing = [after for _, after in onward if after not in least]
-            if missing:
-                pending += missing
-                continue
+        for state, onward in self._from_the_end():
             least[state] = min((size(action) + least[after] for action, after in onward), default=0)
             kept = [step for step in onward if size(step[0]) + least[step[1]] == least[state]]
             if kept:
                 edges[state] = kept
-            pending.pop()
         return PlanGraph(self.start, edges, self.expanded, self.generated)
 
     def size(self, size: Callable[[int], int]) -> int:
@@ -136,17 +121,24 @@ class PlanGraph:
     def count(self) -> int:
         """How many there are, without listing them."""
         counts: dict[int, int] = {}
+        for state, onward in self._from_the_end():
+            counts[state] = sum(counts[after] for _, after in onward) if onward else 1
+        return counts[self.start]
+
+    def _from_the_end(self) -> Iterator[tuple[int, Sequence[tuple[int, int]]]]:
+        """Every state with its steps, each after all that these lead to."""
+        seen: set[int] = set()
         pending = [self.start]
         while pending:
-            state = pending[-1]
-            after = [successor for _, successor in self.edges.get(state, ())]
-            missing = [successor for successor in after if successor not in counts]
+            onward = self.edges.get(pending[-1], ())
+            missing = [after for _, after in onward if after not in seen]
             if missing:
-                pending.extend(missing)
-            else:
-                counts[state] = sum(counts[successor] for successor in after) if after else 1
-                pending.pop()
-        return counts[self.start]
+                pending += missing
+                continue
+            state = pending.pop()
+            if state not in seen:
+                seen.add(state)
+                yield state, onward
 
 
 def edges_into(

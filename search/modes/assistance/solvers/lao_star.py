@@ -23,13 +23,7 @@ _MOST_IDLE_PASSES = 20
 
 
 class LaoStar:
-    """The search.
-
-    Args:
-        bound: consistent lower bound.
-        rule: how the prime's optimal actions count.
-        no_block: no move may take the prime's last plan away.
-    """
+    """The search; its arguments are those of :class:`.Graph`."""
 
     def __init__(self, game: Game, bound: ValueBound, rule: ChoiceRule, *, no_block: bool) -> None:
         self._game = game
