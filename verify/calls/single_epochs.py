@@ -152,12 +152,15 @@ class SingleEpochs:
 
     def _mistold(self) -> Violation | None:
         """What the result says of times and of bystanders, and is not so."""
-        every: tuple[Result | GoalAnswer, ...] = (self._result, *(self._result.goals or ()))
+        answer = self._result
+        every: list[Result | GoalAnswer | TiedAnswer] = [answer, *(answer.goals or ()), *(answer.ties or ())]
         for said in every:
             plan = self._plan_of(said)
             times = None if plan is None else times_of(self._original, plan)
             if None not in (times, said.human_plan_times) and said.human_plan_times != times:
                 return Violation("times", "replay", "10.2", "the times of pi_H are not those of its actions")
+            if plan and self._original.starts_of(plan)[0] <= self._result.options.head_start:
+                return Violation("times", "replay", "10.2", "pi_H begins before its head start is over")
         if self._result.bystanders != bystanders_of(self._original):
             return Violation("bystanders", "replay", "10.3", "bystanders do not what the task's script says")
         return None

@@ -129,8 +129,10 @@ class Examiner:
         call, result = self.call, self.result
         if call.baseline is None:
             return self._nothing_to_compare()
-        if self._usual() or result.plan is None:
+        if result.plan is None:
             return None
+        if self._usual():  # a window in a head start that costs may say less, and is no other plan alone
+            return self._wrong_savings(call.baseline, call.baseline) if result.saving_alone else None
         idle, cost = idle_cost(call), self._score()[1]
         assert idle is not None
         fault = self._wrong_savings(call.baseline, idle)

@@ -13,10 +13,12 @@ from serendipity.model.keywords import Ties
 from serendipity.model.numbers import figure
 from serendipity.testing.builders import task as build
 from serendipity.testing.call import Call
+from serendipity.testing.crosscheck.doctored import without_plan
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies.time import calls_in_time
 from tests.facade import test_results_tell_times as times
 from verify.certificate.certify import certify
+from verify.limits import limited
 
 
 def answered(call: Call) -> Result:
@@ -114,3 +116,27 @@ def doing_nothing(task: Task, result: Result) -> Result:
         plan=steps,
         agent_costs={**others, task.agents[task.human]: cost},
     )
+
+
+def closing() -> Task:
+    """Whoever is done in the first epoch has to do it again: it costs the human an epoch of waiting."""
+    built = build(goal="done", actions={"do h": " -> done @ 1", "aid r": " -> done @ 1"})
+    return built.with_script(serendipity.Script(facts=[(1, "!done")]))
+
+
+def test_who_waits_for_nothing_is_told_apart_in_whatever_automaton() -> None:
+    right = serendipity.plan(closing(), waiting_cost=1)
+    assert (right.cost, right.human_cost) == (1, 2)
+    wrong = without_plan(right, "unknown", "time-limit", 2.0)
+    with limited(automaton_states=1, states_a_value=0):
+        assert serendipity.verify(closing(), wrong).verdict == "refuted"
+
+
+def test_what_a_head_start_costs_is_no_saving_alone() -> None:
+    right = serendipity.plan(closing(), waiting_cost=1, head_start=3)
+    for wrong in (
+        replace(right, saving_alone=1.0),
+        replace(right, options=right.options.but(head_start=4)),
+    ):
+        assert serendipity.verify(closing(), wrong).verdict == "refuted"
+    assert serendipity.verify(closing(), right).verdict == "proved"

@@ -178,7 +178,9 @@ class Play:
         his, learned = self._own_step(look) if joint is None else (joint, None)
         going_on = met(self.task, now.state, () if his is None else (his,))
         executed: list[int] = []
-        skipped = [i for i in offers if self.with_him(i) and i != joint]
+        skipped = [i for i in offers if self.with_him(i)]
+        if joint is not None:
+            skipped.remove(joint)  # said twice it happens once
         for i in going_on:
             (executed if self._fits(i, executed, now.state) else skipped).append(i)
         alone = self._after(now.state, executed)

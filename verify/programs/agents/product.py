@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from serendipity.model import Deadline, Task
+from verify.base.execution import awake
 from verify.base.relevance import Relevant
 from verify.limits import limits
 
@@ -73,7 +74,7 @@ def automata(
     owner = private_facts(task, part, deadline) if owner is None else owner
     result = []
     largest = max((len(variable.facts) for variable in task.variables), default=0)
-    most = max(limits().automaton_states, limits().states_a_value * largest)
+    most = max(limits().automaton_states, limits().states_a_value * largest, 2)
     for agent in range(len(task.agents)):
         mine = frozenset(f for f, a in deadline.each(owner.items()) if a == agent)
         result.append(_Explorer(task, part, agent, most, deadline).largest(mine, units))
@@ -165,7 +166,8 @@ class _Explorer:
         pieces = [unit for unit in self._deadline.each(units) if unit <= mine]
         grouped = frozenset().union(*pieces)
         pieces += [frozenset((f,)) for f in sorted(mine - grouped)]
-        best = self.explore(frozenset())
+        # Who waits for nothing any more is told apart, whatever else is left out: their waiting is free.
+        best = self.explore(mine & awake(self._task)) or self.explore(frozenset())
         assert best is not None
         for piece in sorted(pieces, key=lambda piece: (-len(piece), min(piece))):
             larger = self.explore(best.facts | piece)
