@@ -14,6 +14,7 @@ from typing import Final, NamedTuple
 from search.packed.due import Due
 from search.packed.operators import Operator, changed, set_by, union
 from search.packed.packed_task import PackedGoal, PackedTask
+from serendipity.model.resources.deadline import Deadline
 
 Course = tuple[int, int]
 """How an agenda's own fields go on: their values, and which change is next."""
@@ -59,7 +60,7 @@ class Agenda:
         touched: the fields that these ask for, or that are changed in them.
     """
 
-    def __init__(self, packed: PackedTask, due: Due, state: int, *, strict: bool) -> None:
+    def __init__(self, packed: PackedTask, due: Due, state: int, deadline: Deadline, *, strict: bool) -> None:
         self._packed, self._strict = packed, strict
         self._lasting = packed.all_ones & ~due.deciding
         self._asks: dict[int, PackedGoal] = {}
@@ -67,6 +68,7 @@ class Agenda:
         every: list[Run] = []
         self._clashes: list[int] = []
         while (found := due.at(self.progress[-1])) is not None:
+            deadline.tick()
             if self._clash(found[0], self.progress[-1]):
                 self._clashes.append(len(every))
             every.append(self._run(len(every), *found))

@@ -85,7 +85,8 @@ class StridingPlanner(IndividualPlanner):
     def _beside(self, state: int) -> _Beside:
         at = state & self._due.deciding
         if at not in self._agendas:
-            agenda = Agenda(self._packed, self._due, state, strict=self._memory.strict)
+            strict = self._memory.strict
+            agenda = Agenda(self._packed, self._due, state, self._deadline, strict=strict)
             for epoch, progress in enumerate(agenda.progress):
                 self._agendas.setdefault(progress, (agenda, epoch))
         agenda, first = self._agendas[at]

@@ -6,7 +6,7 @@ from random import Random
 from typing import Final
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import serendipity
@@ -53,6 +53,7 @@ MODES: Final = ("serendipity", "composite", "individual")
 
 
 @pytest.mark.long
+@settings(max_examples=settings().max_examples // 4)
 @given(
     st.one_of(calls_in_time(modes=MODES), calls_in_time(modes=MODES, of=timed_tasks())),
     st.randoms(use_true_random=False),
@@ -69,7 +70,7 @@ def test_in_each_epoch_it_answers_what_brute_force_does(call: Call, dice: Random
         moment, entries, left = session.task, session.human_plan, max(0, options.head_start - passed)
         again = fresh(session, **{**asked, "head_start": left})
         assert [getattr(answer, name) for name in _FIGURES] == [getattr(again, name) for name in _FIGURES]
-        assert session.plan().objective == answer.objective
+        assert answer.saving_alone or session.plan().objective == answer.objective
         if entries is not None:
             plan = moment.plan_from_names(entries, left)
             found = best(moment, options.but(head_start=left), plan)

@@ -5,7 +5,7 @@ from fractions import Fraction
 from random import Random
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import serendipity
@@ -76,6 +76,7 @@ def test_who_goes_to_a_closed_shop_waits_until_it_opens() -> None:
 
 
 @pytest.mark.long
+@settings(max_examples=settings().max_examples // 5)
 @given(tasks_in_time(), st.randoms(use_true_random=False))
 def test_costs_and_answers_equal_brute_force(task: Task, dice: Random) -> None:
     task = replace(task, robot_goal=Condition(), known_variables=task.variables)

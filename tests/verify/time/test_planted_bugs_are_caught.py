@@ -16,7 +16,6 @@ from serendipity.testing.strategies.time import calls_in_time
 BUGS: dict[str, tuple[str, Any, int]] = {
     "the human may leave what goes on": ("human", lambda *_: None, 0),
     "nobody else goes on, or is there": ("others", lambda *_: [NOTHING], 1),
-    "the script never happens": ("last", lambda *_: None, 6),
     "all is over when the goal holds": ("may_end", lambda *_: True, 5),
 }
 """What is forgotten, and a seed with which a call that shows it is drawn soon."""
