@@ -116,7 +116,7 @@ DOCTORED: dict[str, tuple[tuple[Edit, ...], str, str]] = {
     "a later horizon": ((edit("horizon", 7),), "replay", "the horizon is 6"),
     "a bystander": ((edit("bystanders", {"h": []}),), "replay", "bystanders"),
     "waiting that costs": ((edit("options.waiting_cost", 1.0),), "replay", "waiting_cost"),
-    "a head start": ((edit("options.head_start", 1),), "replay", "head_start"),
+    "a head start": ((edit("options.head_start", 1),), "replay", "head start"),
 }
 
 
