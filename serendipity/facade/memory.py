@@ -77,14 +77,7 @@ class SessionMemory:
         about: Hashable,
         human_plan: tuple[PlanEntry, ...] | None,
     ) -> "RememberedQuestion":
-        """A question, and what is known of it.
-
-        Args:
-            options: as they are asked for.
-            visible: what the human sees.
-            about: candidate goals and what was observed, where goals are not known.
-            human_plan: what the human is going to do, where that is known.
-        """
+        """A question, and what is known of it, see :class:`RememberedQuestion`."""
         known = self._known.get((*_OPTIONS(options), about))
         if known is not None and known.visible is not visible:
             known = None

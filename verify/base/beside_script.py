@@ -5,7 +5,7 @@ from typing import Final
 
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
-from verify.base.due import onward, waited
+from verify.base.due import going_on, onward, waited
 from verify.base.execution import State, applicable, due, idling, is_calm
 from verify.base.individual import IndividualOptimum
 from verify.base.shortest_paths import PathSearch
@@ -87,18 +87,6 @@ class AloneBesideScript(IndividualOptimum):
         return found is not None and found <= most
 
 
-def _busy(task: Task, options: Options) -> int:
-    """Epochs of the head start in which the human goes on with what they are at."""
-    state: State | None = task.init
-    epochs = 0
-    while state is not None and epochs < options.head_start:
-        if all(task.human not in task.actions[i].participants for i, *_ in due(task, state)):
-            break
-        state = onward(task, state, (), strict=options.strict)
-        epochs += 1
-    return epochs
-
-
 def alone_of(
     task: Task, deadline: Deadline | None = None, options: Options | None = None
 ) -> IndividualOptimum:
@@ -112,6 +100,7 @@ def alone_of(
         found: IndividualOptimum = AloneBesideScript(task, deadline, asked)
     else:
         found = IndividualOptimum(task, deadline)
-    busy = _busy(task, asked) if asked.waiting_cost else 0
-    found.head_start_cost = asked.waiting_cost * (asked.head_start - busy)
+    if asked.waiting_cost:
+        busy = len(going_on(task, asked.head_start, strict=asked.strict))
+        found.head_start_cost = asked.waiting_cost * (asked.head_start - busy)
     return found

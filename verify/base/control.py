@@ -6,6 +6,7 @@ the plan an epoch lies: ``prefix``, ``window`` or ``suffix`` (semantics 3.1), or
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache, partial
 from itertools import islice
 
 from verify.base.due import turns
@@ -48,6 +49,7 @@ class HumanControl:
         self.question = question
         self.plan = question.human_plan
         self.expected = expected
+        self._turns = cache(partial(turns, question.task, self.plan))
         options = question.options
         self.literal = options.preservation == "state"
         longest = options.max_window
@@ -92,7 +94,7 @@ class HumanControl:
             return []
         if not self.literal:
             return [frozenset()]
-        last = turns(self.question.task, self.plan, 1)[-1]
+        last = self._turns(1)[-1]
         if control[0] == INSIDE or control[1] < 0:
             return [self.expected[last]]
         return [frozenset()] if control[1] >= last else []
@@ -120,7 +122,7 @@ class HumanControl:
         """Eq. (8): from xi2 on the human is alone."""
         if self.literal:
             yield Leg((SUFFIX, -xi1, 0), self.begun, wait=False)
-            for j in turns(self.question.task, self.plan, xi1):
+            for j in self._turns(xi1):
                 for leg in self._suffix_goes_on((SUFFIX, j, 0)):
                     yield Leg(leg.after, leg.actions, leg.wait, needs=self.expected[j])
         else:

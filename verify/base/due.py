@@ -25,11 +25,26 @@ def waited(task: Task, state: State, epochs: int, *, strict: bool, plan: Sequenc
     return here
 
 
-def after_waiting(task: Task, plan: HumanPlan, epochs: int) -> HumanPlan:
-    """A human plan with some epochs of waiting before it; who then does nothing has not waited for that."""
-    acts = not idling(task).issuperset(plan)
+def going_on(task: Task, epochs: int, *, strict: bool) -> HumanPlan:
+    """What the human is at in the beginning, epoch by epoch, for some epochs at most."""
+    state: State | None = task.init
+    found: HumanPlan = ()
+    while state is not None and len(found) < epochs:
+        his = [i for i in met(task, state, ()) if task.human in task.actions[i].participants]
+        if not his:
+            break
+        found, state = (*found, his[0]), onward(task, state, (), strict=strict)
+    return found
+
+
+def after_waiting(task: Task, plan: HumanPlan, epochs: int, *, strict: bool) -> HumanPlan:
+    """A human plan from some epochs on, with waiting before it, once they are free.
+
+    Who does nothing then has not waited for that.
+    """
+    acts, busy = not idling(task).issuperset(plan), going_on(task, epochs, strict=strict)
     waiting = (not acts and task.named.get(RESTING)) or task.named.get(WAITING, ())
-    return waiting[:1] * epochs + plan
+    return busy + waiting[:1] * (epochs - len(busy)) + plan
 
 
 def turns(task: Task, plan: Sequence[int], xi1: int) -> list[int]:

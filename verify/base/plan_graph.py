@@ -22,12 +22,15 @@ class OptimalPlanGraph:
         most: how many there may be.
 
     Attributes:
+        waits: whether plans may wait: then they are known one by one, and there are no moves.
         moves: by epoch (from 0) and state, what optimal plans do next, by name.
         count: the number of plans; 0 where the human can't reach their goal.
 
     Raises:
         UsageError: there are more than ``most``.
     """
+
+    waits = False
 
     def __init__(self, task: Task, plans: OptimalPlans, most: int) -> None:
         self._task = task
@@ -87,10 +90,12 @@ class OptimalPlanGraph:
 class OptimalPlanList(OptimalPlanGraph):
     """The same plan by plan, where they may wait: beside a script, or before they are up (semantics 10.3)."""
 
-    def __init__(self, task: Task, plans: OptimalPlans, most: int, head_start: int) -> None:
-        start = plans.alone.start
+    waits = True
+
+    def __init__(self, task: Task, plans: OptimalPlans, options: Options) -> None:
+        start, most = plans.alone.start, options.max_ties
         found = () if start is None else islice(plans.earliest(start), most + 1)
-        late = (after_waiting(task, plan, head_start) for plan in found)
+        late = (after_waiting(task, plan, options.head_start, strict=options.strict) for plan in found)
         self._named = {tuple(task.actions[i].name for i in plan): plan for plan in late}
         self.count = len(self._named)
         if self.count > most:
@@ -108,5 +113,5 @@ class OptimalPlanList(OptimalPlanGraph):
 def plan_graph(task: Task, plans: OptimalPlans, options: Options) -> OptimalPlanGraph:
     """The human's optimal plans, as a graph if all of them begin at once and never wait."""
     if task.of_bystanders or options.head_start:
-        return OptimalPlanList(task, plans, options.max_ties, options.head_start)
+        return OptimalPlanList(task, plans, options)
     return OptimalPlanGraph(task, plans, options.max_ties)

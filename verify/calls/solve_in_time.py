@@ -7,6 +7,7 @@ from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.plans_in_time import times_of
 from serendipity.model.task.unit_steps import UnitSteps, unit_steps
 from verify.base.beside_script import alone_of
+from verify.base.due import after_waiting
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.answer import answer
 from verify.calls.call import ExaminedCall
@@ -34,7 +35,8 @@ def solved_in_time(task: Task, options: Options, given: HumanPlan | None, effort
     if given is None or options.mode == "individual":
         start = plans.alone.start
         found = None if start is None else next(plans.plans(start), None)
-        plan = None if found is None else units.after_waiting(found, options.head_start)
+        epochs, strict = options.head_start, options.strict
+        plan = None if found is None else after_waiting(units.task, found, epochs, strict=strict)
     else:
         plan = late
     if plan is not None and options.horizon is not None:

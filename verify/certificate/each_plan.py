@@ -105,9 +105,7 @@ class EachPlan:
         """Whether the plans are prefixes of windows that are replanned: all can be looked at together."""
         call = self._first
         options = call.options
-        if self.asked < limits().several_plans or options.human_model != "omniscient":
-            return False
-        if self._task.of_bystanders or options.head_start:
+        if self.asked < limits().several_plans or self.graph.waits or options.human_model != "omniscient":
             return False
         return self._effort.encoding == "automata" and options.windowed and ANY_PLAN.applies(call.question)
 

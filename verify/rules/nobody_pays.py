@@ -92,8 +92,8 @@ def under_the_rule(
     def bound(kept: Iterable[int] = ()) -> Task:
         return bound_task(task, result.options, rule, kept, plan, original, deadline)
 
-    binds = result.statistics.get("rule_binds") or left(rule.prices, _last_state(task, result))
-    if rule.prices and binds:
+    binds = result.statistics.get("rule_binds")
+    if rule.prices and (binds or left(rule.prices, _last_state(task, result))):
         return _priced_claims(task, result, rule, bound, examine, solve)
     return tuple(examine(bound() if binds else task, result))
 

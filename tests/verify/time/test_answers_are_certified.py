@@ -140,3 +140,12 @@ def test_what_a_head_start_costs_is_no_saving_alone() -> None:
     ):
         assert serendipity.verify(closing(), wrong).verdict == "refuted"
     assert serendipity.verify(closing(), right).verdict == "proved"
+
+
+def test_ties_behind_a_head_start_are_proved_for_who_is_at_something() -> None:
+    session = serendipity.Session(
+        build(goal="done", actions={"do h": " -> begun @ 1 [3]", "end h": "begun -> done"})
+    )
+    session.execute(["do h"])
+    found = serendipity.plan(session.task, ties="robust", head_start=3)
+    assert serendipity.verify(session.task, found).verdict == "proved"

@@ -37,9 +37,11 @@ class ReplanningPerson:
 
     def cost_of(self, plan: Sequence[int], state: State) -> Fraction | None:
         """``c``: what a plan costs if it works from a state, robots idle; None for infinity."""
-        here: State | None = state
+        total = Fraction(0)
         for i in plan:
-            here = None if here is None else onward(self._task, here, (i,), strict=self._strict)
-        if here is None or not self._task.goal.holds(here):
-            return None
-        return sum((self._task.actions[i].cost for i in plan), Fraction(0))
+            after = onward(self._task, state, (i,), strict=self._strict)
+            if after is None:
+                return None
+            state = after
+            total += self._task.actions[i].cost
+        return total if self._task.goal.holds(state) else None
