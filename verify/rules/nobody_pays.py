@@ -81,11 +81,7 @@ def under_the_rule(
     except PlanError:
         return tuple(examine(task, result))  # which says so
     rule = rule_of(task, result.options, plan, result.horizon, original)
-    fault = (
-        broken(task, result, rule, deadline)
-        or disturbs(task, result, original, deadline)
-        or unnoticed(task, result, plan, original, deadline)
-    )
+    fault = _fault(task, result, rule, plan, original, deadline)
     if fault is not None:
         return (Claim("replay", "refuted", fault),)
 
@@ -96,6 +92,17 @@ def under_the_rule(
     if rule.prices and (binds or left(rule.prices, _last_state(task, result))):
         return _priced_claims(task, result, rule, bound, examine, solve)
     return tuple(examine(bound() if binds else task, result))
+
+
+def _fault(
+    task: Task, result: Result, rule: Rule, plan: HumanPlan | None, original: Task, deadline: Deadline
+) -> str | None:
+    """What a plan beside one of the human's breaks of the rules, in words."""
+    return (
+        broken(task, result, rule, deadline)
+        or disturbs(task, result, original, deadline)
+        or unnoticed(task, result, plan, original, deadline)
+    )
 
 
 def _claims_over_ties(
@@ -109,10 +116,20 @@ def _claims_over_ties(
     """The claims over ties: what the best answer costs beside each plan, under the rule for that plan."""
     asked = result.options.but(ties="fixed")
 
-    def bound(plan: HumanPlan) -> Task | None:
+    def bound(plan: HumanPlan) -> tuple[Rule, Task]:
         last = len(plan) if asked.horizon is None else int(asked.horizon)
         rule = rule_of(task, asked, plan, last, original)
-        return None if rule.prices else bound_task(task, asked, rule, (), plan, original, deadline)
+        return rule, bound_task(task, asked, rule, (), plan, original, deadline)
+
+    def solved(plan: HumanPlan) -> Result | None:
+        """The best answer without the rule, if it keeps it, or else under it (semantics 12)."""
+        rule, under = bound(plan)
+        if solve is None or rule.prices:
+            return None
+        free = solve(task, asked, named(plan))
+        if free is None or _fault(task, free, rule, plan, original, deadline) is None:
+            return free
+        return solve(under, asked, named(plan))
 
     def named(plan: HumanPlan) -> tuple[str, ...]:
         return tuple(task.actions[i].name for i in plan)
@@ -122,8 +139,7 @@ def _claims_over_ties(
     if solve is not None and result.status in ("optimal", "infeasible"):
         plans = plan_graph(task, OptimalPlans(task, alone_of(task, deadline, asked)), asked).plans()
     for plan in plans:
-        under = bound(plan)
-        found = None if solve is None or under is None else solve(under, asked, named(plan))
+        found = solved(plan)
         if found is not None and found.status == result.status == "infeasible":
             return (Claim("infeasible", "proved", wording.RULE_BESIDE_EACH),)
         if found is None or found.status != "optimal" or found.cost is None:
@@ -140,11 +156,11 @@ def _claims_over_ties(
     verdict: Verdict = "proved" if right else "refuted"
     claims: dict[str, Claim] = {}
     if result.plan is not None and result.human_plan is not None:
-        under = bound(replay_human(task, result.human_plan, deadline))
+        _, under = bound(replay_human(task, result.human_plan, deadline))
         said = replace(
             result, options=asked, status="feasible", lower_bound=0.0, ties=None, optimal_plans=None
         )
-        claims = {claim.claim: claim for claim in examine(under or task, said) if claim.claim not in UNPRICED}
+        claims = {claim.claim: claim for claim in examine(under, said) if claim.claim not in UNPRICED}
     own = (Claim(name, verdict, wording.RULE_BESIDE_EACH) for name in needed(result) if name not in claims)
     return (*claims.values(), *own)
 

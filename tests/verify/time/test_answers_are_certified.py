@@ -8,7 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity.model import Result, Task, Timing, UsageError
+from serendipity.model import Condition, Result, Task, Timing, UsageError
 from serendipity.model.keywords import Ties
 from serendipity.model.numbers import figure
 from serendipity.testing.builders import task as build
@@ -149,3 +149,20 @@ def test_ties_behind_a_head_start_are_proved_for_who_is_at_something() -> None:
     session.execute(["do h"])
     found = serendipity.plan(session.task, ties="robust", head_start=3)
     assert serendipity.verify(session.task, found).verdict == "proved"
+
+
+def test_ties_under_the_rule_are_proved_where_the_best_plan_keeps_it_without_robots() -> None:
+    """Before the head start is over a window lets the human begin while the door is open."""
+    ways = {
+        "early h": "!shut -> done @ 1 [2]",
+        "late h": "shut warm -> done @ 2 [2]",
+        "heat h": " -> warm !done @ 8",
+        "close c": " -> shut !warm @ 1",
+        "turn r": " -> on",
+    }
+    beside = serendipity.Script(people={"c": [(1, "close c")]})
+    task = build(agents="h r c", init="", goal="done", actions=ways).with_script(beside)
+    task = task.with_goal(task.goal, Condition((), (task.facts.index("on"),)))
+    found = serendipity.plan(task, ties="optimistic", head_start=2, window_weight=0)
+    assert (found.cost, found.opportunity) == (1, True)
+    assert serendipity.verify(task, found).verdict == "proved"
