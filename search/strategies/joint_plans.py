@@ -20,6 +20,9 @@ if TYPE_CHECKING:  # loaded by the calls that it serves
 _SUGGESTIONS: Final = 0.05
 """The share of the time that is left for what one composite plan suggests in a mode with other rules."""
 
+_OWN_LIMIT: Final = "strategies"
+"""The reason of a limit that is the strategy's own: others go on."""
+
 
 def team_optimum(call: Call, part: Allowance) -> Iterator[None]:
     """The best composite plan of any length, which is the answer."""
@@ -59,9 +62,19 @@ def _team(call: Call) -> "Team":
 
 
 def joint_optimum(call: Call, part: Allowance) -> Iterator[None]:
-    """The joint optimum without a horizon, as far as time goes: a bound, and what it suggests."""
-    plans = _team(call).better_plans(call.context.packed.init, part.deadline, partial(_raise, call))
-    yield from _take_all(call, plans)
+    """The joint optimum without a horizon, as far as it goes: a bound, and what it suggests."""
+    team, init = _team(call), call.context.packed.init
+
+    def raise_bound(amount: int) -> None:
+        _raise(call, amount)
+        if part.limit and team.planner.counts()[2] > part.limit:
+            raise LimitReachedError(_OWN_LIMIT)
+
+    try:
+        yield from _take_all(call, team.better_plans(init, part.deadline, raise_bound))
+    except LimitReachedError as limit:
+        if limit.reason != _OWN_LIMIT:
+            raise
 
 
 def open_joint_optimum(call: Call, part: Allowance) -> Iterator[None]:

@@ -94,7 +94,7 @@ TURNS: Final = (
     Turn("all-plans", "few-nodes", calls.short_windows_suffice, few_nodes, share=0.1, limit=100),
     Turn("timetable", "timetable-soon", calls.robots_only_leave_behind, beside_timetable, 0.1, 300_000),
     Turn("timetable", "timetable-on", calls.timetable_is_hopeful, beside_timetable, 0.35, 3_000_000),
-    Turn("joint-optimum", "joint-bound", calls.joint_optimum_only_bounds, joint_optimum, share=0.05),
+    Turn("joint-optimum", "joint-bound", calls.joint_optimum_only_bounds, joint_optimum, 0.05, 100_000),
     Turn("robots-apart", "robots-apart", calls.robots_only_leave_behind, robots_apart, share=0.5),
     Turn("timetable", "timetable-last", calls.robots_only_leave_behind, beside_timetable, 0.9, 10_000_000),
     Turn("greedy", "greedy", calls.joint_plans_on_the_way, greedily_within_horizon, 0.2, limit=5),

@@ -5,7 +5,7 @@ consume another.  The idea is the mutex groups of SAS+ (Baeckstroem and Nebel 19
 ground actions.
 """
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Final
 
 from serendipity.model.resources.deadline import Deadline
@@ -17,9 +17,15 @@ Group = tuple[int, ...]
 _MAX_ATTEMPTS: Final = 64
 
 
-def grown_groups(balance: Balance, deadline: Deadline, apart: Iterable[Group] = ()) -> list[Group]:
-    """Groups that share no fact, neither with each other nor with known ones (``apart``)."""
-    return _Grower(balance, deadline, apart).groups()
+def grown_groups(
+    balance: Balance, deadline: Deadline, apart: Iterable[Group] = (), first: Collection[int] = ()
+) -> list[Group]:
+    """Groups that share no fact, neither with each other nor with known ones (``apart``).
+
+    Args:
+        first: facts that groups are grown from before all others.
+    """
+    return _Grower(balance, deadline, apart).groups(first)
 
 
 class _Grower:
@@ -38,9 +44,10 @@ class _Grower:
         for group in deadline.each(apart):
             self._set_apart(group)
 
-    def groups(self) -> list[Group]:
+    def groups(self, first: Collection[int]) -> list[Group]:
         found = []
-        for seed in self.deadline.each(sorted(self.balance.init - self.grouped)):
+        seeds = sorted(self.balance.init - self.grouped, key=lambda fact: (fact not in first, fact))
+        for seed in self.deadline.each(seeds):
             if self.balance.consumers[seed]:
                 group = tuple(sorted(self._grow(seed)))
                 if len(group) > 1:

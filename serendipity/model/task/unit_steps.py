@@ -163,6 +163,7 @@ class _Steps:
         self._others: list[GroundAction] = []  # that nobody chooses
         self._clock: list[int] = []
         self._busy: list[GroundAction] = []
+        self._at_work: list[int] = []
         self._start: list[int] = []  # facts that hold at first
         busy = {
             agent for action in task.actions if action.timing is not None for agent in action.participants
@@ -241,16 +242,29 @@ class _Steps:
         for deed in script.deeds:
             for action in chain.from_iterable(map(self._by_person, deed.variants)):
                 free = [self._free[agent] for agent in action.participants if agent in self._free]
-                name = f"{UNDER_WAY} {action.name}" if free else action.name
-                epochs = self._epochs(replace(action, name=name, cost=_FREE), [clock[deed.epoch - 1]], [])
+                begun = self._under_way(action) if free else action
+                epochs = self._epochs(replace(begun, cost=_FREE), [clock[deed.epoch - 1]], [])
                 if free:
-                    last = epochs[-1]
-                    self._start = [fact for fact in self._start if fact not in free]
-                    epochs[-1] = replace(last, add=tuple(sorted((*last.add, *free))))
-                    self._due = [(fact, epochs[-1] if one is last else one) for fact, one in self._due]
+                    self._free_after(epochs, free)
                 self._busy = epochs if task.human in action.participants else self._busy
                 self._due.append((clock[deed.epoch - 1], epochs[0]))
                 self._others += epochs
+
+    def _under_way(self, action: GroundAction) -> GroundAction:
+        """What somebody is in the middle of; it asks for what it ends and nobody else can end before."""
+        init, kept = self._task.init, self._kept
+        lasts = (f for f in action.delete if f in init and not kept[f].isdisjoint(action.participants))
+        return replace(action, name=f"{UNDER_WAY} {action.name}", pre=tuple(sorted({*action.pre, *lasts})))
+
+    def _free_after(self, epochs: list[GroundAction], free: list[int]) -> None:
+        """Let somebody be at work from the start, and free after the last of some epochs: one variable."""
+        at_work = self._fact(f"{epochs[0].name} 1")
+        self._at_work.append(at_work)
+        self._start = [*(fact for fact in self._start if fact not in free), at_work]
+        first, ending = epochs[0], epochs[-1]
+        epochs[0] = replace(first, pre=(*first.pre, at_work), delete=(*first.delete, at_work))
+        epochs[-1] = replace(epochs[-1], add=tuple(sorted((*epochs[-1].add, *free))))
+        self._due = [(fact, epochs[-1] if one is ending else one) for fact, one in self._due]
 
     def _by_person(self, action: GroundAction) -> list[GroundAction]:
         """What somebody does; where the human does it with others, their part, and that others are busy."""
@@ -293,7 +307,9 @@ class _Steps:
             at_rest=tuple(sorted(set(self._free.values()) - set(theirs))),
             due=tuple((fact, numbers[id(action)]) for fact, action in self._due),
             script=Timeline(people=frozenset(people)),
-            known_variables=self._variables(find_variables(facts, init, tuple(every), deadline)),
+            known_variables=self._variables(
+                find_variables(facts, init, tuple(every), deadline, self._at_work)
+            ),
         )
         chains = tuple(tuple(numbers[id(action)] for action in one) for one in self._chains)
         busy = tuple(numbers[id(action)] for action in self._busy)

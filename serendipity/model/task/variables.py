@@ -6,7 +6,7 @@ A group is a set of facts of which exactly one is true in every reachable state
 for by the form of the facts' names as well (:mod:`.invariants`).
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from typing import Final
@@ -45,15 +45,19 @@ def find_variables(
     init: frozenset[int],
     actions: Sequence[GroundAction],
     deadline: Deadline | None = None,
+    first: Collection[int] = (),
 ) -> tuple[Variable, ...]:
     """Partition facts into variables, ascending in their first fact.
 
     Sound for every input: a group that is not exactly-one under each action is not
     reported, whatever the names.  Not complete: some groups that exist may be missed.
+
+    Args:
+        first: facts, true initially, whose groups matter more than those of others.
     """
     deadline = deadline or Deadline()
     balance = Balance(len(facts), init, actions, deadline)
-    groups = grown_groups(balance, deadline)
+    groups = grown_groups(balance, deadline, (), first)
     if _much_is_boolean(balance, groups):
         groups = max(groups, _by_form_first(facts, balance, deadline), key=_spared)  # the former in a tie
     grouped = set(chain.from_iterable(groups))

@@ -8,9 +8,11 @@ from typing import Any
 import pytest
 
 import serendipity
+from search.call.prepared_task import PreparedTask
 from search.kernel.library import library
-from search.strategies.portfolio import STRATEGIES, TURNS, chosen
+from search.strategies.portfolio import STRATEGIES, TURNS, chosen, solve
 from serendipity import Result, Task, UsageError
+from serendipity.model import Options
 from serendipity.testing.builders import usar
 from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
 
@@ -118,6 +120,20 @@ def test_each_says_what_it_does() -> None:
 def test_none_is_left_without_saying_so() -> None:
     answer = serendipity.plan(TASKS[0], strategies="all")
     assert (answer.status, answer.reason) == ("unknown", "strategies")
+
+
+@pytest.mark.skipif(library() is None, reason="the joint optimum needs the kernel")
+def test_what_only_bounds_ends_without_a_time_limit() -> None:
+    """It went on while others would have proved the answer, for minutes beside a robot at work."""
+    task = FAMILIES["switches"](Random("limit"), 4, AGENTS[:3])
+    assert all(turn.limit for turn in TURNS if turn.name == "joint-bound")
+    soon = [turn._replace(limit=1) if turn.name == "joint-bound" else turn for turn in TURNS]
+    options = Options(mode="communication", communication_weight=1, discount="0.9")
+    *_, answer = solve(PreparedTask(task), options, turns=soon)
+    *_, unlimited = solve(PreparedTask(task), options)
+    tried = {one.name: one for one in answer.tried}
+    assert "all" in tried and not tried["joint-bound"].settled
+    assert (answer.status, answer.objective) == ("optimal", unlimited.objective)
 
 
 def test_names_that_are_none() -> None:

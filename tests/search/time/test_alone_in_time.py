@@ -91,7 +91,14 @@ def test_a_day_beside_a_robot_at_work(seed: int, begun: str) -> None:
     now = epoch_later(home, [home.actions[home.named[begun][0]]])
     alone = serendipity.plan(now, mode="individual")
     assert (alone.status, alone.statistics["expanded"] < 1_000) == ("optimal", True)
-    assert serendipity.plan(now, discount="0.9", time_limit=60).status == "optimal"
+    assert serendipity.plan(now, discount="0.9").status == "optimal"
+
+
+def test_who_is_at_work_at_first_is_at_one_thing() -> None:
+    """It was a fact for each epoch of each of their actions, and a day beside a robot at work had no end."""
+    home = day(1)
+    now = epoch_later(home, [home.actions[home.named["walk robot kitchen hall"][0]]])
+    assert len(unit_steps(now).task.variables) == len(unit_steps(home).task.variables)
 
 
 @pytest.mark.parametrize("robots", [1, 2])
