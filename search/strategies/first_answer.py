@@ -16,7 +16,9 @@ from serendipity.model.errors import LIMITS
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
+from serendipity.model.task.script import UNDER_WAY
 from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.unit_steps import RESTING
 
 _FIRST_BOUND: Final = 0.1
 """The share of the time that is left for what the team pays at least, beside a human who replans."""
@@ -210,6 +212,11 @@ def optimal_plan_alone(task: Task, given: HumanPlan | None, optimal: FoundPlan |
     if optimal is None:
         return Answer("infeasible", reason="no-human-plan")
     cost = task.cost_of(optimal.actions)
-    if given is not None and task.cost_of(given) == cost:
+    if given is not None and task.cost_of(given) == cost and not _only_rests(task, optimal.actions):
         optimal = optimal._replace(actions=given)
     return plan_alone(task, optimal, cost, given=given, proved=True)
+
+
+def _only_rests(task: Task, plan: HumanPlan) -> bool:
+    """Whether the human begins nothing where waiting costs: who begins something pays for a head start."""
+    return bool(plan) and all(task.actions[i].name.startswith((RESTING, UNDER_WAY)) for i in plan)

@@ -215,15 +215,17 @@ def _require_known(call: Request) -> None:
 def _later(units: UnitSteps, answer: Answer, epochs: int) -> Answer:
     """What is done alone after some epochs of waiting, with these."""
     plan, steps, horizon = answer.human_plan, answer.steps, answer.horizon
-    if epochs and steps and answer.cost is not None:
-        done = tuple(step.action for step in steps)
-        waited = units.task.cost_of(units.after_waiting(done, epochs)) - units.task.cost_of(done)
+    if epochs and steps is not None and answer.cost is not None:
+        waited = units.price_before(tuple(step.action for step in steps), epochs)
         answer = answer._replace(
             cost=answer.cost + waited,
             objective=(answer.objective or Fraction(0)) + waited,
             lower_bound=(answer.lower_bound or Fraction(0)) + waited,
-            baseline=(answer.baseline or Fraction(0)) + waited,
         )
+        if plan is not None and answer.baseline is not None:  # another plan, where it is given
+            baseline = answer.baseline + units.price_before(plan, epochs)
+            gain = None if answer.saving_alone is None else baseline - (answer.cost or Fraction(0))
+            answer = answer._replace(baseline=baseline, saving_alone=gain)
     return answer._replace(
         human_plan=None if plan is None else units.after_waiting(plan, epochs),
         steps=None if steps is None else tuple(Step(step.epoch + epochs, step.action) for step in steps),

@@ -89,6 +89,10 @@ class UnitSteps:
         busy, acts = self.busy[:epochs], any(action in self._begins for action in plan)
         return busy + (self.waiting if acts else self.resting,) * (epochs - len(busy)) + plan
 
+    def price_before(self, plan: HumanPlan, epochs: int) -> Fraction:
+        """The cost of the waiting that :meth:`after_waiting` puts before a plan."""
+        return self.task.cost_of(self.after_waiting(plan, epochs)) - self.task.cost_of(plan)
+
     def begun(self, plan: HumanPlan) -> HumanPlan:
         """The plan of the original that a plan in single epochs is."""
         begins = self._begins

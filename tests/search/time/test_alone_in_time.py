@@ -1,7 +1,9 @@
 """The human alone in time: the canonical plan of brute force, at the cost of the few epochs that matter."""
 
 from contextlib import suppress
+from fractions import Fraction
 from random import Random
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -15,7 +17,7 @@ from serendipity.model.task.passing import epoch_later
 from serendipity.model.task.unit_steps import unit_steps
 from serendipity.testing.builders import task
 from serendipity.testing.generator import random_call_in_time
-from serendipity.testing.oracle import optimal_human_plan
+from serendipity.testing.oracle import best, optimal_human_plan
 from serendipity.testing.strategies.time import tasks_in_time
 from tests.search.time.days import day, slowed
 
@@ -113,3 +115,22 @@ def test_what_is_cheaper_than_waiting_is_not_done_for_ever() -> None:
     call = random_call_in_time(266)
     answer = serendipity.plan(call.task, mode="individual", waiting_cost="0.5", time_limit=20)
     assert (answer.status, answer.reason) == ("infeasible", "no-human-plan")
+
+
+@pytest.mark.parametrize(("epoch", "cost"), [(2, 0), (3, 0.5)])
+def test_a_head_start_is_paid_for_by_who_acts_after_it(epoch: int, cost: float) -> None:
+    """What a given plan had waited was left out of what they gain alone, or a dearer plan was taken.
+
+    In epoch 2 the goal holds as soon by itself; before epoch 3 it takes an action, which is in no other plan.
+    """
+    built = task(
+        agents="h r", human="h", goal="g", actions={"a h": "-> g @ 0", "b h": "-> g @ 1", "c r": "-> g"}
+    )
+    built = built.with_script(Script(facts=[(epoch, "g")]))
+    call: dict[str, Any] = {"mode": "individual", "head_start": 1, "waiting_cost": "0.5"}
+    for told_plan, paid in ((["a h"], 0.5), (["b h"], 1.5), ([(3, "a h")], 1.5)):
+        answer = serendipity.plan(built, human_plan=told_plan, **call)
+        assert (answer.cost, answer.saving_alone) == (cost, paid - cost)
+        assert serendipity.verify(built, answer).verdict == "proved"
+        plan = built.plan_from_names(told_plan, 1)
+        assert best(built, Options(**call), plan).saving_alone == Fraction(str(answer.saving_alone))
