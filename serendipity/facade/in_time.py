@@ -208,8 +208,6 @@ def _require_known(call: Request) -> None:
         raise UsageError("mode: 'assistance' takes turns, which have no length: not where actions take time")
     if options.human_model == "local":
         raise UsageError("human_model: where actions take time, expected omniscient or observant, got local")
-    if options.human_model == "observant" and options.waiting_cost:
-        raise UsageError("waiting_cost: a human who replans waits for free, expected 0")
 
 
 def _later(units: UnitSteps, answer: Answer, epochs: int) -> Answer:

@@ -92,7 +92,7 @@ def _require_known(result: Result, human_model: str) -> None:
     if human_model != "observant":
         raise UsageError(f"human_model: in time, expected observant, got {human_model}")
     if result.options.waiting_cost:
-        raise UsageError("waiting_cost: people who replan are not known to pay for waiting")
+        raise UsageError("waiting_cost: a simulation counts no price of waiting, expected 0")
 
 
 def realised(

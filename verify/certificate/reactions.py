@@ -44,6 +44,7 @@ class _Reactions:
         self.left = left
         self.most = min((limit for limit in limits if limit is not None), default=None)
         self.may_block = options.no_block is False
+        self.epoch_of_waiting = call.prices.units(options.waiting_cost)
         self.known: dict[MomentOfPlay, int] = {}
         self.before: dict[tuple[int, MomentOfPlay], tuple[MomentOfPlay, tuple[int, ...]]] = {}
         self.offered: dict[int, list[int]] = {}
@@ -95,7 +96,7 @@ class _Reactions:
                 continue  # without what is skipped the set is tried, too
             if self.game.sees is None:
                 after = after._replace(belief=after.state)
-            total = spent + sum(team[i] for i in deed.executed)
+            total = spent + sum(team[i] for i in deed.executed) + deed.waited * self.epoch_of_waiting
             left = self.left(after.state)
             if left is None or (self.most is not None and total + left > self.most):
                 continue

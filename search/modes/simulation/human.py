@@ -158,6 +158,10 @@ class Human:
         """Their part of an epoch in which they don't look up."""
         return iter(())
 
+    def paid(self, part: JointAction, waited: int) -> tuple[JointAction, int]:
+        """Their part of an epoch with the waiting before it, and the weight of what is not yet paid for."""
+        return part, 0
+
     def accepts(self, joint: Operator, belief: int, best: int | None) -> bool:
         """Step 2: whether the human takes part, ``best`` being their cost alone now."""
         after = self.after(joint, belief)

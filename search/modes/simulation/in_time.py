@@ -9,7 +9,7 @@ from search.modes.simulation.human import Glance, Human, HumanStep
 from search.modes.simulation.intention import Intention
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due
-from search.packed.joint_actions import NOTHING, as_option
+from search.packed.joint_actions import NOTHING, JointAction, as_option
 from search.packed.operators import Operator, applicable
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
@@ -65,6 +65,8 @@ class HumanInTime(Human):
         self._due = Due(self.packed, self.weights.team, strict=options.strict)
         self.alone = BesideOthers(self, self.alone, self._due, options)
         self.concern = self.packed.all_ones
+        waiting = map(self.packed.op, self.packed.idling[:1] if self.packed.prices_waiting else ())
+        self._epoch_of_waiting = sum(map(self.weights.team, waiting))
 
     def look(self, expected: int, state: int, intention: Intention, *, settled: bool) -> tuple[int, Glance]:
         """See :class:`.Human`; what robots begin may always be news."""
@@ -93,6 +95,21 @@ class HumanInTime(Human):
         for part in going_on:
             own = intention.op is not None and intention.op.action == part.actions[0]
             yield HumanStep(part, state, intention.rest if own else intention, False)
+
+    def goes_on(self, belief: int, state: int, look: Glance) -> HumanStep:
+        """See :class:`.Human`; whether waiting is paid for is only known when they begin something."""
+        own = None if look.best is None else look.intention.op
+        if own is not None and own.action in self.packed.idling:
+            return HumanStep(NOTHING, belief, look.intention.rest, False)
+        return super().goes_on(belief, state, look)
+
+    def paid(self, part: JointAction, waited: int) -> tuple[JointAction, int]:
+        """See :class:`.Human`."""
+        if not part.actions:
+            return part, waited + self._epoch_of_waiting
+        if not self.packed.counted(part.actions[0]):
+            return part, waited
+        return part._replace(weight=part.weight + waited), 0
 
     def after(self, joint: Operator, belief: int) -> int | None:
         """See :class:`.Human`; others go on meanwhile, and the script does."""

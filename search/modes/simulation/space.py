@@ -24,11 +24,13 @@ class Mind(NamedTuple):
         belief: what they expect to see; 0 where they see everything anyway.
         intention: what remains of their plan.
         guarded: they must have a plan alone in the true state (``no_block``).
+        waited: weight of the waiting that they pay for once they begin something.
     """
 
     belief: int
     intention: Intention
     guarded: bool
+    waited: int = 0
 
 
 class Start(NamedTuple):
@@ -77,7 +79,7 @@ class Reactive:
         self._width = packed.all_ones.bit_length()
         self._labels = ParetoFront()
         self._minds: list[Mind] = []
-        self._numbers: dict[tuple[int, int, bool], int] = {}
+        self._numbers: dict[tuple[int, int, bool, int], int] = {}
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state, and what the human has in mind."""
@@ -113,21 +115,22 @@ class Reactive:
         for joint in self.successors.joint(state):
             op = human.packed.op(joint.actions[0])
             if human.accepts(op, belief, look.best):
-                yield from self._children(node, best, human.joins(op, belief, look), guarded=guarded)
-        yield from self._children(node, best, human.goes_on(belief, state, look), guarded=guarded)
+                yield from self._children(node, mind, best, human.joins(op, belief, look), guarded=guarded)
+        yield from self._children(node, mind, best, human.goes_on(belief, state, look), guarded=guarded)
 
     def _unasked(self, node: Node, mind: Mind, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors of a node in which the human does not look up: they go on, or are not up yet."""
         guarded = self.no_block and not self.human.stuck(node.state)
         for step in self.human.unasked(node.state, mind.intention):
-            yield from self._children(node, best, step, guarded=guarded)
+            yield from self._children(node, mind, best, step, guarded=guarded)
 
     def _children(
-        self, node: Node, best: Incumbent, step: HumanStep, *, guarded: bool
+        self, node: Node, mind: Mind, best: Incumbent, step: HumanStep, *, guarded: bool
     ) -> Iterator[tuple[int, Node]]:
         """What robots can do beside the human's part."""
         epoch, state, human = node.epoch + 1, node.state, self.human
-        part, settled = step.option, step.settled
+        part, waited = human.paid(step.option, mind.waited)
+        settled = step.settled
         alone = state & part.keep | part.put
         # Robots don't change the variables that the bound looks at.
         rest = human.bound(alone)
@@ -135,7 +138,7 @@ class Reactive:
             return
         if guarded and not human.sees_all and human.stuck(alone):
             guarded = False  # the human's own mistake, whatever robots do
-        number = self._number(Mind(self._belief(step.belief), step.intention, guarded)) << 1
+        number = self._number(Mind(self._belief(step.belief), step.intention, guarded, waited)) << 1
         for option in self.successors.with_robots(part, state):
             key = node.key + option.weight
             bound = key + rest
@@ -197,7 +200,7 @@ class Reactive:
 
     def _number(self, mind: Mind) -> int:
         """A number for a mind, the same for equal ones."""
-        key = (mind.belief, mind.intention.number, mind.guarded)
+        key = (mind.belief, mind.intention.number, mind.guarded, mind.waited)
         number = self._numbers.get(key)
         if number is None:
             number = self._numbers[key] = len(self._minds)

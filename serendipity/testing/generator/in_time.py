@@ -58,7 +58,6 @@ def random_call_in_time(seed: int) -> PlanCall:
             given = None
     if options["mode"] == "serendipity" and others.random() < _OBSERVANT:
         options |= {"human_model": "observant", "no_block": others.choice(("true", "true", "false"))}
-        options.pop("waiting_cost", None)
     return PlanCall(task, options, given, seed)
 
 

@@ -20,11 +20,12 @@ Slots = tuple[int | None, ...]
 
 @dataclass(frozen=True, slots=True)
 class BeliefState:
-    """How things are, what the human believes, what remains of their plan."""
+    """How things are, what the human believes, what remains of their plan, epochs waited and not paid for."""
 
     moment: Moment
     belief: State
     plan: Slots
+    waited: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,12 +43,13 @@ def best_reaction(
 
     Args:
         task: the task.
-        options: discount, horizon, interference, head start, ``human_model`` and ``no_block``.
+        options: discount, horizon, interference, head start, cost of waiting, ``human_model``, ``no_block``.
         human_plan: ``pi_H``, after its head start; None for the canonical one, which must exist.
         visible: what a local human sees.
     """
     if human_plan is None:
-        human_plan = next(human_plans(task, head_start=options.head_start, strict=options.strict), None)
+        asked = options.waiting_cost, options.head_start
+        human_plan = next(human_plans(task, *asked, strict=options.strict), None)
     assert human_plan is not None, "brute force needs a plan of the human"
     horizon = task.epochs_of(human_plan) if options.horizon is None else int(options.horizon)
     world = _World(task, options, visible)
@@ -61,7 +63,8 @@ def best_reaction(
                 reached.append((cost, actions))
             elif epoch < horizon:
                 for chosen, onward in world.unfold(now, epoch):
-                    label = (cost + world.price(chosen), actions + len(chosen))
+                    paid = world.price(chosen) + world.waiting(now, onward)
+                    label = (cost + paid, actions + len(chosen))
                     following[onward] = min(label, following.get(onward, label))
         layer = following
     return Best(*min(reached)) if reached else Best(None, None)
@@ -82,7 +85,7 @@ class _World:
         self.task = task
         self.options = options
         self.visible = visible
-        self.alone = Alone(task, strict=options.strict)
+        self.alone = Alone(task, options.waiting_cost, strict=options.strict)
         self.world = self.alone.world
         self.robots = [i for i, a in enumerate(task.actions) if task.human not in a.participants]
         self.joint = [i for i, a in enumerate(task.actions) if a.joint and task.human in a.participants]
@@ -95,12 +98,18 @@ class _World:
         actions = (self.task.actions[i] for i in chosen)
         return sum((self.task.team_cost(a, self.options.discount) for a in actions), Fraction(0))
 
+    def waiting(self, before: BeliefState, now: BeliefState) -> Fraction:
+        """What they pay for waiting, who begin something after it (semantics 10.2)."""
+        return self.options.waiting_cost * max(before.waited - now.waited, 0)
+
     def unfold(self, now: BeliefState, epoch: int) -> Iterator[tuple[tuple[int, ...], BeliefState]]:
         """Everything that robots can make of the epoch after some: what begins, and then."""
         for his, rest, believed in self._his_part(now, epoch):
+            idle = not his and not self.world.at_work(now.moment, epoch + 1) and self.options.waiting_cost
+            waited = 0 if his else now.waited + bool(idle)
             for chosen, onward in self.world.sets(now.moment, epoch + 1, [*his, *self.robots]):
                 if chosen[: len(his)] == his and not self._forbidden(now.moment, epoch, his, onward):
-                    yield chosen, BeliefState(onward, believed(onward.state), rest)
+                    yield chosen, BeliefState(onward, believed(onward.state), rest, waited)
 
     def _his_part(
         self, now: BeliefState, epoch: int
@@ -173,15 +182,16 @@ class _World:
         return _slots(self.task, starts, actions, end, epoch)
 
     def _cost_of(self, plan: Slots, moment: Moment, epoch: int) -> Fraction | None:
-        cost = Fraction(0)
+        cost = waited = Fraction(0)
         now: Moment | None = moment
         for slot in plan:
             if now is None:
                 return None
             if slot is None:
+                waited += 0 if self.world.at_work(now, epoch + 1) else self.options.waiting_cost
                 epoch, now = epoch + 1, self.world.alone(now, epoch + 1)
                 continue
             done = self.alone.acted(now, epoch, slot)
             epoch, now = epoch + self.task.actions[slot].duration, None if done is None else done.moment
-            cost += self.task.actions[slot].cost
+            cost, waited = cost + waited + self.task.actions[slot].cost, Fraction(0)
         return cost if now is not None and self.world.reached(now) else None

@@ -11,7 +11,7 @@ from serendipity.model import Condition, HumanPlan, Options, Result, Task, Usage
 from serendipity.model.answers.recognition import Recognition
 from serendipity.model.numbers import agrees, excess
 from serendipity.model.task.plans import PlanEntry
-from serendipity.model.task.plans_in_time import times_of
+from serendipity.model.task.plans_in_time import cost_alone, times_of
 from serendipity.testing.oracle import Alone, Moment, Optimum, best, human_plans
 from serendipity.testing.oracle.assistance import by_rounds, explore, mean_over_all_policies
 from serendipity.testing.oracle.best import shifted
@@ -140,8 +140,8 @@ class Truth:
         unasked = options.ties != "fixed" or options.max_cost not in (None, "human")
         if not plan or not optimum or self.task.robot_goal or unasked:
             raise UnknownTruthError
-        alone = self.task.cost_of(plan)
-        if self.task.cost_of(optimum) < alone:
+        alone, least_alone = (cost_alone(self.task, one, options.waiting_cost) for one in (plan, optimum))
+        if least_alone < alone:
             raise UnknownTruthError  # what they gain by themselves is theirs
         cost = best_reaction(self.task, options, plan, surroundings(self.task).visible).cost
         least = alone if cost is None else min(cost, alone)

@@ -1,5 +1,6 @@
 """Plans beside somebody observant where actions take time: those of brute force, and they happen."""
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -9,7 +10,8 @@ from hypothesis import strategies as st
 import serendipity
 from search.modes.simulation.human import Human
 from search.modes.simulation.in_time import BesideOthers, HumanInTime
-from serendipity.model import Options, PlanError, Result, Task, TimedPlan, UsageError
+from serendipity.model import Options, PlanError, Result, Script, Task, TimedPlan, UsageError
+from serendipity.model.task.plans_in_time import cost_alone
 from serendipity.testing.builders import task
 from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.generator.in_time import random_call_in_time
@@ -55,6 +57,34 @@ def test_answers_are_those_of_brute_force(seed: int, no_block: bool, horizon: in
     least = best_reaction(about, options, plan).cost
     costs = [cost for cost in (least, about.cost_of(plan)) if cost is not None]
     assert (found.status, found.cost) == ("optimal", float(min(costs)))
+
+
+@pytest.mark.long
+@given(SEEDS, st.sampled_from(["0.1", "0.5", "1"]), st.sampled_from([None, 5, 7]))
+def test_waiting_is_paid_for_by_who_begins_something(seed: int, price: str, horizon: int | None) -> None:
+    call = replace(random_call_in_time(seed), human_plan=None)
+    found, options = observed(call, waiting_cost=price, horizon=horizon)
+    late, price_of_one = options.head_start, options.waiting_cost
+    plan = next(human_plans(call.task, price_of_one, late, strict=options.strict), None)
+    if plan is None:
+        assert found.status == "infeasible"
+        return
+    least, alone = best_reaction(call.task, options, plan).cost, cost_alone(call.task, plan, price_of_one)
+    assert (found.status, found.cost) == ("optimal", float(alone if least is None else min(least, alone)))
+    assert serendipity.verify(call.task, found).verdict == "proved"
+
+
+def test_what_was_waited_costs_nothing_where_nothing_is_begun() -> None:
+    """She waits for the door, and needs it no more: a robot has brought what she wants."""
+    actions = {"fetch h": "open -> g @ 2", "bring r": "-> g @ 2 [3]", "show h r": "open -> g @ 1"}
+    door = task(agents="h r", human="h", goal="g", actions=actions).with_script(Script(facts=[(4, "open")]))
+    call: dict[str, Any] = {"human_model": "observant", "waiting_cost": "0.5", "discount": "0.5"}
+    helped = serendipity.plan(door, **call)
+    assert (helped.human_cost, helped.cost, helped.horizon) == (4, 1, 5)
+    assert serendipity.verify(door, helped).verdict == "proved"
+    door = replace(door, actions=tuple(a for a in door.actions if a.name != "bring r"))
+    asked = serendipity.plan(door, **call)
+    assert (asked.cost, serendipity.verify(door, asked).verdict) == (3, "proved")
 
 
 @pytest.mark.long
@@ -148,5 +178,6 @@ def test_nobody_takes_part_before_they_are_up_where_nothing_takes_longer() -> No
 def test_what_is_not_settled_is_refused() -> None:
     with pytest.raises(UsageError, match="expected omniscient or observant, got local"):
         serendipity.plan(gate(opening=2), human_model="local")
-    with pytest.raises(UsageError, match="waiting_cost: a human who replans waits for free"):
-        serendipity.plan(gate(opening=2), human_model="observant", waiting_cost=1)
+    found = serendipity.plan(gate(opening=2), human_model="observant", waiting_cost=1)
+    with pytest.raises(UsageError, match="waiting_cost: a simulation counts no price of waiting"):
+        serendipity.simulate(gate(opening=2), found)

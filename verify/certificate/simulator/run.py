@@ -23,23 +23,26 @@ class PlayedEpoch:
         executed: action ids, ascending.
         skipped: action ids that were inapplicable, in conflict, refused or broken off, ascending.
         blocks: whether robots took the human's last plan away.
+        waited: epochs of waiting before it that the human pays for, who begins something (semantics 10.2).
     """
 
     executed: tuple[int, ...]
     skipped: tuple[int, ...]
     blocks: bool
+    waited: int
 
 
 class MomentOfPlay(NamedTuple):
     """Between two epochs: the true state, the human's belief, and ``rho``, what remains of their plan.
 
-    ``asleep`` is what is left of their head start.
+    ``asleep`` is what is left of their head start, ``waited`` what they pay for once they begin something.
     """
 
     state: State
     belief: State
     rho: tuple[int, ...]
     asleep: int = 0
+    waited: int = 0
 
 
 class Look(NamedTuple):
@@ -115,11 +118,12 @@ def play(
         before = now
         deed, now = game.epoch(now, orders.get(len(deeds) + 1, ()))
         deeds.append(deed)
-        expected = now._replace(belief=game.looked(now))
+        expected = now._replace(belief=game.looked(now), waited=before.waited)
         if len(deeds) >= last and before == expected and not deed.executed:
             break  # nothing will ever change again
     done = (i for deed in deeds for i in deed.executed)
     cost = sum((price(task, task.actions[i], options.discount) for i in done), Fraction(0))
+    cost += options.waiting_cost * sum(deed.waited for deed in deeds)
     return PlayedOut(tuple(deeds), game.done(now), cost)
 
 
@@ -136,6 +140,8 @@ class Play:
         self.person = person
         self.sees = sees
         self.waiting = idling(task)
+        self._unchosen = unchosen(task)
+        self._prices_waiting = bool(options.waiting_cost)
         self._head_start = options.head_start
 
     def start(self, human_plan: Sequence[int]) -> MomentOfPlay:
@@ -176,7 +182,7 @@ class Play:
         offers = [self._as_possible(i, now.state) for i in sorted(offers)]
         joint = self._accepted(offers, look) if look.up else None
         his, learned = self._own_step(look) if joint is None else (joint, None)
-        going_on = met(self.task, now.state, () if his is None else (his,))
+        going_on = met(self.task, now.state, () if his is None or his in self.waiting else (his,))
         executed: list[int] = []
         skipped = [i for i in offers if self.with_him(i)]
         if joint is not None:
@@ -194,9 +200,14 @@ class Play:
             belief = self._after(belief, [his])
         state = self._after(now.state, executed)
         blocks = self._stuck(state) and not self._stuck(now.state) and not self._stuck(alone)
-        deed = PlayedEpoch(tuple(sorted({*executed} - self.waiting)), tuple(sorted(skipped)), blocks)
+        theirs = [i for i in executed if self.with_him(i)]
+        begins = self._prices_waiting and not self._unchosen.issuperset(theirs)
+        deed = PlayedEpoch(
+            tuple(sorted(executed)), tuple(sorted(skipped)), blocks, now.waited if begins else 0
+        )
+        waited = 0 if begins else now.waited + (self._prices_waiting and not theirs)
         rho = now.rho[1:] if now.rho[:1] == (his,) and joint is None else now.rho
-        return deed, MomentOfPlay(state, belief, rho, max(0, now.asleep - 1))
+        return deed, MomentOfPlay(state, belief, rho, max(0, now.asleep - 1), waited)
 
     def with_him(self, i: int) -> bool:
         """Whether the human takes part in an action."""
