@@ -100,12 +100,9 @@ def has_team(call: Call) -> bool:
 def joint_plans_decide(call: Call) -> bool:
     """Whether every composite plan within ``T`` keeps the mode's rules, and its cost is its objective."""
     context, options = call.context, call.options
-    if (
-        call.epochs is None
-        or options.max_cost is not None
-        or context.weights.announces
-        or call.context.packed.in_time
-    ):
+    if call.epochs is None or options.max_cost is not None:
+        return False
+    if context.weights.announces or context.packed.in_time:
         return False
     if not options.windowed:
         return True
