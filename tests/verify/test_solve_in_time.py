@@ -78,3 +78,25 @@ def test_a_head_start_is_over_when_the_plan_is_predicted() -> None:
         assert (answer.human_cost, answer.cost) == (1, cost)
         assert serendipity.verify(made, answer).verdict == "proved"
         assert solve(made, answer.options).cost == cost
+
+
+@pytest.mark.parametrize("horizon", [None, "inf"])
+def test_a_goal_that_is_undone_later_holds_at_first(horizon: str | None) -> None:
+    """Without a horizon a plan of no epochs is one: the verifier looked at the states after an epoch only."""
+    made = build(init="f", goal="f", actions={"look r": " -> seen"}).with_script(Script(facts=[(1, "!f")]))
+    answer = serendipity.plan(made, mode="composite", head_start=2, horizon=horizon)
+    assert (answer.status, answer.cost, solve(made, answer.options).cost) == ("optimal", 0, 0)
+    assert serendipity.verify(made, answer).verdict == "proved"
+
+
+def test_idle_robots_need_not_wait_for_a_head_start_without_a_horizon() -> None:
+    """The verifier took the plan predicted after the head start for the best without robots: an opportunity."""
+    made = build(goal="f", actions={"do h": " -> f @ 5", "look r": " -> seen"})
+    late = [(4, "do h")]
+    answer = serendipity.plan(
+        made, mode="composite", head_start=2, horizon="inf", waiting_cost=1, human_plan=late
+    )
+    assert (answer.human_cost, answer.cost, answer.opportunity, answer.saving_alone) == (10, 5, False, 5)
+    assert serendipity.verify(made, answer).verdict == "proved"
+    found = solve(made, answer.options, human_plan=late)
+    assert (found.opportunity, found.saving_alone) == (False, 5)

@@ -99,9 +99,9 @@ def unaided(call: ExaminedCall) -> Score | None:
 
 def idle_cost(call: ExaminedCall) -> int | None:
     """Cost of the answer with all robots idle; see :attr:`Call.idle`."""
-    if call.horizon != INFINITE or call.baseline is None or call.robots_goal:
+    if call.horizon != INFINITE or call.baseline is None or call.robots_goal or call.is_optimal:
         return call.idle
-    worth = call.plans.alone.predicted()
+    worth = call.plans.alone.optimum(call.task.init)  # nobody has to wait for a head start
     assert worth is not None
     best = call.prices.units(worth[0])
     limit = call.endless.most_cost

@@ -197,6 +197,8 @@ class EpochSearch:
     def _all_epochs(self, begin: EpochLayer) -> dict[int, list[tuple[int, int]]]:
         """All layers; the ends of windows after which the human replans, as layers and epochs, by extra."""
         self._layers, self._stages = [begin], [Stage(self._control.start)]
+        if self._endless:
+            self._end(0, 0)
         here = [0]
         completed: dict[int, list[tuple[int, int]]] = {}
         for epoch in range(1, self._question.horizon + 1):
