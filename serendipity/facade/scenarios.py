@@ -326,7 +326,8 @@ def _expected(
 ) -> Iterator[Answer]:
     """Several scenarios are left."""
     own = [_unsaid(call.task, candidate, recognition) for candidate in considered]
-    timed = call.task.needs_time or any(isinstance(one.plan, TimedPlan) for one in considered)
+    waits = any(isinstance(one.plan, TimedPlan) for one in considered)
+    timed = waits or needs_time(call.task, options=call.options)
     for answer in in_time.answers(considered) if timed else over_scenarios(call, considered):
         served = zip(answer.goals or (), own, strict=True)
         goals = tuple(replace(one, goal=goal) for one, goal in served)

@@ -29,7 +29,7 @@ def explained_in_time(
         task: the task; its own goal plays no part.
         goals: the candidates.
         observed: names of actions that the human began, in order.
-        options: of which interference counts.
+        options: of which interference counts, and what waiting costs.
         deadline: of all of it.
 
     Raises:
@@ -47,28 +47,26 @@ def explained_in_time(
         actions=tuple(action for _, action in watched),
         known_variables=(*task.variables, Variable(counters)),
     )
-    units = unit_steps(counted if observed else task, deadline)
+    units = unit_steps(counted if observed else task, deadline, options.waiting_cost)
 
-    def best(goal: Condition) -> HumanPlan | None:
+    def best(goal: Condition) -> tuple[Fraction | None, HumanPlan | None]:
         aimed = PreparedTask(units.task.with_goal(units.goal(goal)))
         found = canonical_human_plan(aimed, deadline, options)
-        plan = None if found is None else units.begun(found)
-        if plan is None:
-            return None
+        if found is None:
+            return None, None
+        cost, plan = units.task.cost_of(found), units.begun(found)
         ids = tuple(watched[i][0] for i in plan)
-        return TimedPlan(ids, plan.starts, plan.length) if isinstance(plan, TimedPlan) else ids
-
-    def cost(plan: HumanPlan | None) -> Fraction | None:
-        return None if plan is None else task.cost_of(plan)
+        return cost, TimedPlan(ids, plan.starts, plan.length) if isinstance(plan, TimedPlan) else ids
 
     found = []
     for goal in goals:
         if not observed:
-            found.append(Likelihood(cost(plan := best(goal)), None, plan))
+            cost, plan = best(goal)
+            found.append(Likelihood(cost, None, plan))
             continue
-        plan = best(Condition((*goal.positive, counters[-1]), goal.negative))
-        other = best(Condition(goal.positive, (*goal.negative, counters[-1])))
-        found.append(Likelihood(cost(plan), cost(other), plan))
+        cost, plan = best(Condition((*goal.positive, counters[-1]), goal.negative))
+        other, _ = best(Condition(goal.positive, (*goal.negative, counters[-1])))
+        found.append(Likelihood(cost, other, plan))
     return found
 
 

@@ -90,7 +90,7 @@ def test_a_goal_that_is_undone_later_holds_at_first(horizon: str | None) -> None
 
 
 def test_idle_robots_need_not_wait_for_a_head_start_without_a_horizon() -> None:
-    """The verifier took the plan predicted after the head start for the best without robots: an opportunity."""
+    """The verifier took the plan predicted after it for the best without robots, and saw an opportunity."""
     made = build(goal="f", actions={"do h": " -> f @ 5", "look r": " -> seen"})
     late = [(4, "do h")]
     answer = serendipity.plan(

@@ -72,8 +72,6 @@ def _is_known(result: Result) -> bool:
     options = result.options
     if options.human_model == "local":
         return False
-    if result.recognition is not None and result.recognition.observed:
-        return False
     kind = kind_of(result)
     if kind != "a plan for each scenario":
         return True

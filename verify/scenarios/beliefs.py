@@ -12,6 +12,7 @@ from fractions import Fraction
 from serendipity.model import Condition, Deadline, GroundAction, Options, Task
 from serendipity.model.answers.recognition import GoalPosterior, Recognition
 from verify.base.beside_script import alone_of
+from verify.base.due import after_waiting, going_on
 from verify.base.execution import unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.scenarios.reading import condition
@@ -28,7 +29,7 @@ Costs = tuple[Fraction | None, Fraction | None]
 def compiled(
     task: Task, goal: Condition, observed: Sequence[str], deadline: Deadline, *, embed: bool
 ) -> Task:
-    """The human's own task, in which plans have to embed the observations, or must not.
+    """The task, in which plans of the human's have to embed the observations, or must not.
 
     Matching each observation as early as possible decides whether a plan embeds them.
 
@@ -39,9 +40,11 @@ def compiled(
         return task.with_goal(goal, Condition())
     first, last = len(task.facts), len(task.facts) + len(observed)
     actions: list[GroundAction] = []
-    for i in deadline.each(task.human_actions):
-        action = task.actions[i]
-        steps = [first + k for k, name in enumerate(observed) if name == action.name]
+    numbers: list[int] = []
+    for action in deadline.each(task.actions):
+        own = action.participants == (task.human,)
+        steps = [first + k for k, name in enumerate(observed) if own and name == action.name]
+        numbers.append(len(actions))
         actions.append(replace(action, neg=(*action.neg, *steps)))
         for at in steps:
             pre, add, delete = (*action.pre, at), (*action.add, at + 1), (*action.delete, at)
@@ -54,6 +57,7 @@ def compiled(
         goal=Condition((*goal.positive, *positive), (*goal.negative, *negative)),
         robot_goal=Condition(),
         actions=tuple(actions),
+        due=tuple((fact, numbers[i]) for fact, i in task.due),
     )
 
 
@@ -64,7 +68,7 @@ def considered_plans(
 
     Args:
         observed: names of the observed actions, in order.
-        options: which say what disturbs a bystander.
+        options: which say what disturbs a bystander, and what head start comes before a plan.
 
     Returns:
         What begins in each plan, which no other shares, and what is done epoch by epoch.
@@ -75,13 +79,21 @@ def considered_plans(
         begun = tuple(own.actions[i].name for i in plan if i not in goes_on)
         if begun not in seen:
             seen.add(begun)
-            yield begun, tuple(own.actions[i].name for i in plan)
+            busy = len(going_on(own, len(plan), strict=options.strict))
+            late = after_waiting(own, plan[busy:], busy + options.head_start, strict=options.strict)
+            yield begun, tuple(own.actions[i].name for i in late)
 
 
-def faults(task: Task, recognised: Recognition, options: Options, deadline: Deadline) -> Iterator[Fault]:
-    """Everything that is wrong with a recognition, in order."""
+def faults(
+    task: Task, recognised: Recognition, options: Options, original: Task, deadline: Deadline
+) -> Iterator[Fault]:
+    """Everything that is wrong with a recognition, in order.
+
+    Args:
+        original: the task as it was given, which says what can be observed.
+    """
     for name in recognised.observed:
-        if all(task.actions[i].participants != (task.human,) for i in task.named.get(name, ())):
+        if all(original.actions[i].participants != (task.human,) for i in original.named.get(name, ())):
             yield f"observed: '{name}' is not an action that the human does alone"
             return
     if recognised.noise or any(goal.errors for goal in recognised.goals):

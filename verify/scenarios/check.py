@@ -72,7 +72,7 @@ def claims_over_scenarios(
     started = perf_counter()
     try:
         served = listed(result)
-        chosen, origin, fault = _expected(task, result, served, deadline)
+        chosen, origin, fault = _expected(task, result, original, served, deadline)
         fault = fault or _selection_fault(task, result, chosen, served)
         if fault is None and not chosen:
             fault = _nothing_fault(task, result)
@@ -201,13 +201,13 @@ def _by_rule(name: str, fault: Callable[[], str | None], origin: str) -> Claim:
 
 
 def _expected(
-    task: Task, result: Result, served: Sequence[GoalAnswer], deadline: Deadline
+    task: Task, result: Result, original: Task, served: Sequence[GoalAnswer], deadline: Deadline
 ) -> tuple[list[Scenario], str, str | None]:
     """The scenarios to consider, where they come from, and what is wrong with that."""
     known, watched = recognised(result), result.options.ties == "watched"
     if known is None and not watched:
         return _given(task, served)
-    fault = None if known is None else next(faults(task, known, result.options, deadline), None)
+    fault = None if known is None else next(faults(task, known, result.options, original, deadline), None)
     if fault is not None:
         return [], "", fault
     seen = known.observed if known is not None and known.explained else ()
