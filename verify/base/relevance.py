@@ -5,7 +5,7 @@ no plan, and an action that changes no relevant fact can be left out of any plan
 making a precondition, a goal or another action's applicability false.
 """
 
-from collections.abc import Iterable, Sequence, Set
+from collections.abc import Collection, Iterable, Sequence, Set
 from dataclasses import dataclass, replace
 
 from serendipity.model import Deadline, Task
@@ -57,23 +57,21 @@ def relevant_part(question: Subproblem, extra: Iterable[int] = ()) -> Relevant |
     changing = true & false
     kept, facts = closure(task, usable, seeds & changing, changing, deadline)
     kept |= set(forced)
-    return Relevant(
-        tuple(sorted(kept)),
-        frozenset(facts),
-        {i: tuple(f for f in task.actions[i].pre if f in facts) for i in deadline.each(kept)},
-        {i: tuple(f for f in task.actions[i].neg if f in facts) for i in deadline.each(kept)},
-    )
+    return _kept(task, sorted(kept), facts, deadline)
 
 
 def whole_task(question: Subproblem) -> Relevant:
     """All of a question's task, where :func:`relevant_part` leaves nothing to ask."""
     task = question.task
-    kept = tuple(question.allowed())
+    return _kept(task, question.allowed(), range(len(task.facts)), question.deadline)
+
+
+def _kept(task: Task, actions: Sequence[int], facts: Collection[int], deadline: Deadline) -> Relevant:
     return Relevant(
-        kept,
-        frozenset(range(len(task.facts))),
-        {i: task.actions[i].pre for i in question.deadline.each(kept)},
-        {i: task.actions[i].neg for i in question.deadline.each(kept)},
+        tuple(actions),
+        frozenset(facts),
+        {i: tuple(f for f in task.actions[i].pre if f in facts) for i in deadline.each(actions)},
+        {i: tuple(f for f in task.actions[i].neg if f in facts) for i in deadline.each(actions)},
     )
 
 

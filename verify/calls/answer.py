@@ -81,7 +81,7 @@ def best_plan(call: ExaminedCall, *, robots: bool = True) -> PricedPlan | None:
 
 def is_help(call: ExaminedCall, score: Score) -> bool:
     """Whether a plan of this objective and cost beats what there is without robots (semantics 1, 3.1)."""
-    idle, alone = idle_cost(call), unaided(call)
+    idle, alone = call.idle, unaided(call)
     return (idle is None or score[1] < idle) and (alone is None or score < alone)
 
 
@@ -89,23 +89,12 @@ def unaided(call: ExaminedCall) -> Score | None:
     """Objective and cost of the best plan in which no robot acts, where help has to beat that, too.
 
     It has where robots have goals and a plan is given that is not optimal.  Without such goals
-    :func:`idle_cost` is that plan's; beside an optimal plan whatever costs less is an opportunity.
+    ``call.idle`` is that plan's; beside an optimal plan whatever costs less is an opportunity.
     """
     if call.human_plan is None or not call.robots_goal or call.is_optimal:
         return None
     found = best_plan(call, robots=False)
     return None if found is None else (found.objective, found.cost)
-
-
-def idle_cost(call: ExaminedCall) -> int | None:
-    """Cost of the answer with all robots idle; see :attr:`Call.idle`."""
-    if call.horizon != INFINITE or call.baseline is None or call.robots_goal or call.is_optimal:
-        return call.idle
-    worth = call.plans.alone.optimum(call.task.init)  # nobody has to wait for a head start
-    assert worth is not None
-    best = call.prices.units(worth[0])
-    limit = call.endless.most_cost
-    return best if limit is None or best <= limit else call.baseline
 
 
 def calls(
@@ -127,6 +116,3 @@ def calls(
     if len(tied) > options.max_ties:
         raise UsageError(f"max_ties: the human has more than {options.max_ties} optimal plans")
     return [ExaminedCall(task, options, plan, plans, effort) for plan in tied or [None]]
-
-
-__all__ = ["CallAnswer", "answer", "best_plan", "calls", "idle_cost", "is_help"]

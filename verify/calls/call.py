@@ -132,6 +132,11 @@ class ExaminedCall:
         """Cost of the answer with all robots idle: less than the baseline only for a given ``pi_H``."""
         if self.baseline is None or self.robots_goal or self.is_optimal:
             return self.baseline
+        if self.horizon == INFINITE:
+            worth = self.plans.alone.optimum(self.task.init)  # nobody has to wait for a head start
+            assert worth is not None
+            best, limit = self.prices.units(worth[0]), self._most_cost
+            return best if limit is None or best <= limit else self.baseline
         found = self.best(self.question.but(robots=False), self.do_nothing)
         return self.baseline if found is None else found.cost
 

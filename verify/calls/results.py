@@ -7,7 +7,7 @@ from serendipity.model.keywords import Horizon
 from serendipity.model.numbers import figure
 from verify.base.execution import plan_step, shares
 from verify.base.subproblem import PricedPlan
-from verify.calls.answer import CallAnswer, idle_cost
+from verify.calls.answer import CallAnswer
 from verify.calls.call import ExaminedCall
 
 
@@ -28,7 +28,7 @@ def found_result(call: ExaminedCall, found: PricedPlan, *, opportunity: bool) ->
         objective=least,
         lower_bound=least,
         window=found.window,
-        saving_alone=_saving(call, None if call.baseline is None else idle_cost(call)),
+        saving_alone=_saving(call, None if call.baseline is None else call.idle),
         plan=plan_steps(call, found.steps),
         agent_costs={agent: figure(share) for agent, share in paid.items()},
         **_header(call),

@@ -10,16 +10,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import chain
 
-from serendipity.model import (
-    Claim,
-    Condition,
-    Deadline,
-    HumanPlan,
-    PlanError,
-    PlanStep,
-    Result,
-    Task,
-)
+from serendipity.model import Claim, Condition, Deadline, HumanPlan, PlanError, PlanStep, Result, Task
 from serendipity.model.answers.result_parts import GoalAnswer, TiedAnswer
 from serendipity.model.numbers import agrees
 from serendipity.model.task.actions import GroundAction
@@ -35,12 +26,12 @@ from verify.base.execution import (
     is_calm,
     meant_by,
     met,
-    participants,
     plan_step,
     price,
 )
 from verify.base.obligations import kind_of, needed
 from verify.base.undecided import UNDECIDED, why
+from verify.rules.replay import meant
 from verify.rules.report import Violation
 
 _TEXT = "10.1"
@@ -185,23 +176,18 @@ class SingleEpochs:
         return None
 
     def _misnamed(self, step: PlanStep) -> Violation | None:
-        task, ids = self._original, self._original.named.get(step.action, ())
-        place = _TEXT, step.epoch, step.action
-        if not ids:
-            return _violation("unknown-action", "the task has no such action", *place)
-        meant = meant_by(task, step.action, step.agents)
-        if not meant:
-            expected = ", ".join(participants(task, ids[0]))
-            words = f"its participants are {expected}, not {', '.join(step.agents) or 'nobody'}"
-            return _violation("wrong-agents", words, *place)
-        action = task.actions[meant[0]]
+        task, place = self._original, (step.epoch, step.action)
+        ids, fault = meant(task, step)
+        if fault is not None:
+            return Violation(fault.rule, "replay", _TEXT, fault.message, *place)
+        action = task.actions[ids[0]]
         if step.duration != action.duration:
             words = f"it takes {action.duration} epochs, not {step.duration}"
-            return _violation("duration", words, *place)
+            return Violation("duration", "replay", _TEXT, words, *place)
         cost = price(task, action, self._result.options.discount)
         if not agrees(step.cost, cost):
             words = f"costs {float(cost):g}, the result says {step.cost:g}"
-            return Violation("step-cost", "cost", "1", words, step.epoch, step.action)
+            return Violation("step-cost", "cost", "1", words, *place)
         return None
 
     def _meant(self, step: PlanStep, state: State) -> GroundAction:
@@ -249,16 +235,13 @@ class SingleEpochs:
             here = [step for step in left if step.epoch <= epoch]
             left = left[len(here) :]
             chosen = met(task, state, [self._first(step, state) for step in here])
-            if said.options.waiting_cost and epoch < begun and not self._has_human(chosen):
+            busy = any(task.human in task.actions[i].participants for i in chosen)
+            if said.options.waiting_cost and epoch < begun and not busy:
                 chosen = (*chosen, self.units.waiting)
             for i in chosen:
                 yield plan_step(task, Step(epoch, i), said.options.discount)
             state = executed(state, [task.actions[i] for i in chosen], strict=said.options.strict)
         yield from left
-
-    def _has_human(self, chosen: tuple[int, ...]) -> bool:
-        task = self.task
-        return any(task.human in task.actions[i].participants for i in chosen)
 
     def _goes_on(self, epoch: int, last: int | None, state: State) -> bool:
         """Whether something may still happen by itself.
@@ -299,7 +282,3 @@ def begun_steps(task: Task, steps: Iterable[PlanStep], discount: Fraction) -> tu
         for step, meant in begun
         for action in meant
     )
-
-
-def _violation(rule: str, words: str, section: str, epoch: int, action: str) -> Violation:
-    return Violation(rule, "replay", section, words, epoch, action)

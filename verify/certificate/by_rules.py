@@ -21,12 +21,12 @@ def check_by_rules(task: Task, result: Result, deadline: Deadline) -> tuple[Clai
 
 
 def _claims(task: Task, result: Result, deadline: Deadline) -> Iterable[Claim]:
-    if not needs_time(task, options=result.options) and not result.in_time:
-        return _examined(task, result, deadline, task)
-    from verify.calls.single_epochs import examined_in_time
-
     def examine(unit: Task, said: Result) -> tuple[Claim, ...]:
         return tuple(_examined(unit, said, deadline, task))
+
+    if not needs_time(task, options=result.options) and not result.in_time:
+        return examine(task, result)
+    from verify.calls.single_epochs import examined_in_time
 
     return examined_in_time(task, result, deadline, examine)
 

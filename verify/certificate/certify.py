@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import (
@@ -38,7 +37,7 @@ from verify.certificate.simulator import realised_claim
 from verify.certificate.tied import combined
 from verify.limits import limited, limits
 from verify.policy import check_policy
-from verify.programs.alone import least_alone
+from verify.programs.alone import cost_alone
 from verify.programs.effort import Effort, NoProgramError
 from verify.proofs.book import ProofReader, ProofWriter
 from verify.rules import Checker, RuleReport
@@ -108,24 +107,15 @@ def _certify(task: Task, result: Result, effort: Effort) -> Certificate:
         return Certificate(claims, perf_counter() - started)
     version = solver_version(effort.solver)
     timed = needs_time(task, options=result.options) or result.in_time
-    found = _in_time(task, result, effort) if timed else _examined(task, result, effort, task)
-    claims, calls = complete(result, found), len(effort.calls)
-    return Certificate(claims, perf_counter() - started, version, effort.encoding, effort.size, calls)
-
-
-def _in_time(task: Task, result: Result, effort: Effort) -> tuple[Claim, ...]:
-    """Semantics 10.
-
-    Raises:
-        UsageError: the paper's encoding is asked for.
-    """
-    if effort.encoding != "automata":
+    if timed and effort.encoding != "automata":
         raise UsageError("encoding: the paper's equations know no time; expected automata")
 
     def examine(unit: Task, said: Result) -> tuple[Claim, ...]:
         return _examined(unit, said, effort, task)
 
-    return examined_in_time(task, result, effort.deadline, examine)
+    found = examined_in_time(task, result, effort.deadline, examine) if timed else examine(task, result)
+    claims, calls = complete(result, found), len(effort.calls)
+    return Certificate(claims, perf_counter() - started, version, effort.encoding, effort.size, calls)
 
 
 def _examined(task: Task, result: Result, effort: Effort, original: Task) -> tuple[Claim, ...]:
@@ -310,7 +300,8 @@ class _Certifier:
 
     def _individual(self) -> Verdict:
         """Mode ``individual``: the human's least cost alone, by a search over states or by a program."""
-        result, cost = self.result, self._least_alone()
+        result = self.result
+        cost = cost_alone(self.task, result.options, self.effort, self.alone)
         if cost is None:
             right = result.cost is None
             return "proved" if right else "refuted", wording.NOT_ALONE, None
@@ -324,12 +315,6 @@ class _Certifier:
                 given = self.task.cost_of(replay_human(self.task, result.human_plan, self.effort.deadline))
                 right = right and agrees(result.saving_alone, given - cost)
         return "proved" if right else "refuted", wording.LEAST_ALONE.format(float(cost)), None
-
-    def _least_alone(self) -> Fraction | None:
-        if self.effort.method == "program":
-            return least_alone(self.task, self.result.options, self.effort)
-        worth = self.alone.predicted()
-        return None if worth is None else worth[0]
 
     def _ties(self, wanted: list[str]) -> Iterator[Claim]:
         """What every optimal ``pi_H`` allows has to give the result's figures."""

@@ -11,12 +11,12 @@ from serendipity.model.numbers import agrees, as_written
 from verify.base import wording
 from verify.base.subproblem import PricedPlan, Subproblem
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
-from verify.calls.answer import CallAnswer, answer, best_plan, idle_cost, is_help
+from verify.calls.answer import CallAnswer, answer, best_plan, is_help
 from verify.calls.call import ExaminedCall, Score
 from verify.calls.methods import decide, decide_without_horizon
 from verify.calls.results import found_result, plan_steps
 from verify.certificate.savings import savings_fault
-from verify.programs.alone import least_alone
+from verify.programs.alone import cost_alone
 from verify.programs.effort import Attempt, Minimum, SolverCall
 from verify.rules import Checker
 from verify.solvers.mip import solver_version
@@ -95,7 +95,7 @@ class Examiner:
 
     def optimum_is_no_opportunity(self) -> Verdict:
         """A proved optimum costs no less than the answer without robots."""
-        idle = idle_cost(self.call)
+        idle = self.call.idle
         if idle is not None and is_help(self.call, self._score()):
             return "refuted", wording.OPTIMUM_IS_CHEAPER.format(self._amount(idle)), None
         return "proved", wording.NO_LESS_THAN_ALONE, None
@@ -117,7 +117,7 @@ class Examiner:
 
     def opportunity_is_cheaper(self) -> Verdict | None:
         """Refutes an opportunity that costs no less than doing without robots."""
-        idle, score = idle_cost(self.call), self._score()
+        idle, score = self.call.idle, self._score()
         if idle is not None and score[1] >= idle:
             return "refuted", wording.NO_CHEAPER.format(self._amount(idle)), None
         if not is_help(self.call, score):
@@ -133,7 +133,7 @@ class Examiner:
             return None
         if self._usual():  # a window in a head start that costs may say less, and is no other plan alone
             return self._wrong_savings(call.baseline, call.baseline) if result.saving_alone else None
-        idle, cost = idle_cost(call), self._score()[1]
+        idle, cost = call.idle, self._score()[1]
         assert idle is not None
         fault = self._wrong_savings(call.baseline, idle)
         if fault is None and not result.opportunity and call.options.windowed and cost != call.baseline:
@@ -186,19 +186,13 @@ class Examiner:
         """There is no plan at all."""
         call = self.call
         if call.needs_pi_h and call.human_plan is None:
-            if not self._has_plan_alone():
+            if cost_alone(call.task, call.options, call.effort, call.plans.alone) is None:
                 return "proved", wording.ALL_VISITED, None
             return "refuted", wording.HE_HAS_A_PLAN, None
         given: CallAnswer = answer(call)
         if given.cost is None:
             return "proved", wording.NOTHING_SATISFIES, None
         return "refuted", wording.PLAN, given.found or call.idle_robots_plan
-
-    def _has_plan_alone(self) -> bool:
-        call = self.call
-        if call.effort.method == "program":
-            return least_alone(call.task, call.options, call.effort) is not None
-        return call.plans.alone.predicted() is not None
 
     # -- helpers
 

@@ -54,8 +54,7 @@ class HumanExaminer(Examiner):
             return self._nothing_to_compare()
         if result.plan is None:
             return None
-        compared = self._idle is not None and not call.robots_goal
-        idle = min(self._idle, call.baseline) if compared and self._idle is not None else call.baseline
+        idle = call.baseline if call.robots_goal or self._alone is None else self._alone
         return self._wrong_savings(call.baseline, idle)
 
     def lower_bound(self) -> Verdict:
@@ -146,14 +145,13 @@ def _idle_cost(call: ExaminedCall) -> int | None:
     """What the human pays alone; None if that does not reach all goals in time."""
     if call.human_plan is None:
         return None
-    horizon = call.horizon
     played = play(
         call.task,
         call.options,
         call.human_plan,
         (),
         human_model=call.options.human_model,
-        horizon=horizon if isinstance(horizon, int) else None,
+        horizon=call.horizon,
         person=ReplanningPerson(call.task, call.plans, strict=call.options.strict),
     )
     return call.prices.units(played.cost) if played.goals_hold else None

@@ -79,7 +79,8 @@ class _Reactions:
                     return Minimum("undecided", best, reason=f"more than {limits().moments} states and minds")
                 for after, total in self._play(epoch, now, spent):
                     if self.game.done(after):
-                        best, self.most = self._found(epoch, after, total), total - 1
+                        best = PricedPlan(tuple(self._steps(epoch, after)), None, total, total)
+                        self.most = total - 1
                     else:
                         self.known[after] = total
                         following[after] = total
@@ -110,9 +111,6 @@ class _Reactions:
         found = (i for f in (-1, *state) for i in self.offered.get(f, ()))
         candidates = [i for i in self.deadline.each(found) if applicable(task.actions[i], state)]
         return sets_beside(task, (), candidates, self.deadline, strict=self.call.options.strict)
-
-    def _found(self, epoch: int, moment: MomentOfPlay, cost: int) -> PricedPlan:
-        return PricedPlan(tuple(self._steps(epoch, moment)), None, cost, cost)
 
     def _steps(self, epoch: int, moment: MomentOfPlay) -> Iterable[Step]:
         steps = []

@@ -141,12 +141,18 @@ def _mean_fault(result: Result, found: Counter[AchievedFigures]) -> str | None:
     cost, objective = (_mean(found, lambda each: each.cost), _mean(found, lambda each: each.objective))
     if not agrees(result.cost, cost) or not agrees(result.objective, objective):
         return wording.OVER_TIES.format("expected", found.total(), float(cost))
-    saving = None if any(each.saving is None for each in found) else _mean(found, lambda each: each.saving)
-    alone = None if saving is None or result.saving_alone is None else Fraction(0)
-    if not agrees(result.saving, saving) or not agrees(result.saving_alone, alone):
-        words = wording.OVER_TIES.format("expected", found.total(), float(cost))
-        return wording.TIES_SAVINGS.format(words, rounded(saving), rounded(alone))
-    return None
+    return _mean_savings_fault(result, found, cost)
+
+
+def _mean_savings_fault(result: Result, known: Counter[Any], cost: Fraction) -> str | None:
+    """Whether a mean saves something else; at a limit it need not be known what nobody but humans saves."""
+    saving = None if any(each.saving is None for each in known) else _mean(known, lambda each: each.saving)
+    open_yet = result.status == "feasible" and result.saving_alone is None
+    alone = None if saving is None or open_yet else Fraction(0)
+    if agrees(result.saving, saving) and agrees(result.saving_alone, alone):
+        return None
+    words = wording.OVER_TIES.format("expected", known.total(), float(cost))
+    return wording.TIES_SAVINGS.format(words, rounded(saving), rounded(alone))
 
 
 def _is_at_hand(result: Result) -> bool:
@@ -174,13 +180,8 @@ def _compared(result: Result, known: Counter[SolvedPlan], each: EachPlan) -> Ver
         least = _objective(result, each)
     if not agrees(result.cost, cost) or not agrees(result.objective, least):
         return "refuted", words
-    if is_mean(result):  # else a rule says what is saved
-        saving, alone = None, None
-        if all(solved.saving is not None for solved in known):
-            saving, alone = _mean(known, lambda solved: solved.saving), Fraction(0)
-        if not agrees(result.saving, saving) or not agrees(result.saving_alone, alone):
-            return "refuted", wording.TIES_SAVINGS.format(words, rounded(saving), rounded(alone))
-    return "proved", words
+    fault = _mean_savings_fault(result, known, cost) if is_mean(result) else None  # else a rule says it
+    return ("proved", words) if fault is None else ("refuted", fault)
 
 
 def _net(solved: SolvedPlan, result: Result) -> Fraction:

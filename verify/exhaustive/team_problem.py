@@ -14,7 +14,7 @@ from verify.packed.problem import PackedProblem, StateSpace
 def circles(actions: list[tuple[int, GroundAction]], task: Task, deadline: Deadline) -> list[tuple[int, ...]]:
     """Sets of actions that may share an epoch but in no order follow each other."""
     by_id = dict(actions)
-    disables = _all_disabled(actions, deadline)
+    disables = all_disabled(actions, deadline)
     found: set[tuple[int, ...]] = set()
 
     def extend(chosen: tuple[int, ...]) -> None:
@@ -32,7 +32,7 @@ def circles(actions: list[tuple[int, GroundAction]], task: Task, deadline: Deadl
     return sorted(found)
 
 
-def _all_disabled(actions: list[tuple[int, GroundAction]], deadline: Deadline) -> dict[int, list[int]]:
+def all_disabled(actions: list[tuple[int, GroundAction]], deadline: Deadline) -> dict[int, list[int]]:
     """For each action, those of which it falsifies a precondition."""
     needing: dict[int, set[int]] = {}
     forbidding: dict[int, set[int]] = {}

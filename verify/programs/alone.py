@@ -6,6 +6,7 @@ from typing import Any, Final
 
 from serendipity.model import Options, Task
 from verify.base.beside_script import alone_of
+from verify.base.individual import IndividualOptimum
 from verify.base.operators import OwnActions
 from verify.base.subproblem import prices
 from verify.base.undecided import TooManyStatesError, UndecidedError, during
@@ -16,6 +17,14 @@ from verify.proofs.book import Entry, ProofReader, require_same
 from verify.solvers.mip import BYTES_A_TERM, Model
 
 _BYTES_A_MOVE: Final = 350 + 3 * BYTES_A_TERM
+
+
+def cost_alone(task: Task, options: Options, effort: Effort, alone: IndividualOptimum) -> Fraction | None:
+    """The human's least cost alone, by a program or by a search over states, as the method says; or None."""
+    if effort.method == "program":
+        return least_alone(task, options, effort)
+    worth = alone.predicted()
+    return None if worth is None else worth[0]
 
 
 def least_alone(task: Task, options: Options, effort: Effort) -> Fraction | None:

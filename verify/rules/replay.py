@@ -117,21 +117,27 @@ def _beside(
                 yield (*before, i)
 
 
-def _resolve(task: Task, step: PlanStep, state: State) -> tuple[tuple[int, ...], Fault | None]:
-    """The actions that a step may mean, which share its name and are applicable: at least one."""
+def meant(task: Task, step: PlanStep) -> tuple[list[int], Fault | None]:
+    """The actions that a step may mean, by its name and agents: at least one, or what is wrong."""
     ids = task.named.get(step.action, ())
-    if not ids:
-        return (), Fault("unknown-action", "the task has no such action", step.epoch, step.action)
     listed = meant_by(task, step.action, step.agents)
+    if not ids:
+        return [], Fault("unknown-action", "the task has no such action", step.epoch, step.action)
     if not listed:
         expected = ", ".join(participants(task, ids[0]))
         message = f"its participants are {expected}, not {', '.join(step.agents) or 'nobody'}"
-        return (), Fault("wrong-agents", message, step.epoch, step.action)
+        return [], Fault("wrong-agents", message, step.epoch, step.action)
+    return listed, None
+
+
+def _resolve(task: Task, step: PlanStep, state: State) -> tuple[tuple[int, ...], Fault | None]:
+    """The same that are applicable, too."""
+    listed, fault = meant(task, step)
     fitting = tuple(i for i in listed if applicable(task.actions[i], state))
-    if fitting:
-        return fitting, None
-    message = f"precondition: {_unmet(task, listed[0], state)}"
-    return (), Fault("precondition", message, step.epoch, step.action)
+    if listed and not fitting:
+        message = f"precondition: {_unmet(task, listed[0], state)}"
+        fault = Fault("precondition", message, step.epoch, step.action)
+    return fitting, fault
 
 
 def _conflict(

@@ -69,7 +69,7 @@ def claims_over_scenarios(
         certain: makes the claims of an answer of section 3.
         proved: makes those that rules can't make of an answer that breaks none; None: nobody does.
     """
-    started = perf_counter()
+    started, asked, goals = perf_counter(), task, list[tuple[Condition, Condition]]()
     try:
         served = listed(result)
         chosen, origin, fault = _expected(task, result, original, served, deadline)
@@ -78,12 +78,13 @@ def claims_over_scenarios(
             fault = _nothing_fault(task, result)
         if fault is None and len(chosen) == 1:
             fault = _entry_fault(result, served[0])
-    except MalformedError as error:
+        if fault is None and len(chosen) > 1:
+            pairs = list(zip(chosen, served, strict=True))
+            asked, goals, fault = _bound(task, result, original, pairs, deadline)
+    except (MalformedError, PlanError) as error:
         fault = str(error)
     except UNDECIDED as error:
-        replay = Claim("replay", "undecided", why(error), seconds=perf_counter() - started)
-        others = (name for name in needed(result) if name != "replay")
-        return replay, *(Claim(name, "undecided", wording.same_as(replay)) for name in others)
+        return tuple(Claim(name, "undecided", why(error)) for name in needed(result))
     if fault is not None:
         return (Claim("replay", "refuted", fault, seconds=perf_counter() - started),)
     if not chosen:
@@ -92,15 +93,6 @@ def claims_over_scenarios(
         ties = "fixed" if result.options.ties == "watched" else result.options.ties
         known = replace(result, goals=None, recognition=None, options=result.options.but(ties=ties))
         return tuple(certain(task.with_goal(chosen[0].goal), known))
-    try:
-        pairs = list(zip(chosen, served, strict=True))
-        asked, goals, fault = _bound(task, result, original, pairs, deadline)
-    except PlanError as error:
-        fault = str(error)
-    except UNDECIDED as error:
-        return tuple(Claim(name, "undecided", why(error)) for name in needed(result))
-    if fault is not None:
-        return (Claim("replay", "refuted", fault, seconds=perf_counter() - started),)
     lines = timelines(asked, result, goals, served, deadline)
     claims = tuple(_claims_by_rules(result, lines, origin))
     return *claims, *_beyond_rules(result, lines, claims, proved)

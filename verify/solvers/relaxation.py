@@ -60,7 +60,7 @@ class Relaxation:
         """
         self._deadline.check()
         if not self._model.upper:
-            return self._without_columns()
+            return Relaxed([], 0.0, [0.0] * len(self._model.heads))
         self._restrict(bounds)
         left = self._deadline.left()
         if left is not None:
@@ -76,19 +76,6 @@ class Relaxation:
             return Relaxed(None, 0.0, list(ray) if known else [])
         self._deadline.check()
         raise LimitReachedError("time-limit" if status == "kTimeLimit" else f"HiGHS: {status}")
-
-    def _without_columns(self) -> Relaxed:
-        """HiGHS gives no duals then: the first row that does not hold is the ray."""
-        wrong = (
-            (number, 1.0 if right > 0 else -1.0)
-            for number, (sense, right) in enumerate(self._model.heads)
-            if (right > 0 and sense != "<=") or (right < 0 and sense != ">=")
-        )
-        duals = [0.0] * len(self._model.heads)
-        for number, sign in wrong:
-            duals[number] = sign
-            return Relaxed(None, 0.0, duals)
-        return Relaxed([], 0.0, duals)
 
     def _restrict(self, bounds: Mapping[int, tuple[int, int]]) -> None:
         for x in self._changed.keys() | bounds.keys():

@@ -24,7 +24,7 @@ def policy_lines(task: Task, result: Result) -> Iterator[str]:
     if result.policy is None or result.plan is not None or not result.policy.decisions:
         return
     # Loaded only here: other answers have no branches.
-    from verify.policy.branches import branches
+    from serendipity.cli.text.branches import branches
 
     yield ""
     yield f"{task.agents[task.robots[0]]} starts at 1 and looks what {result.human} does:"

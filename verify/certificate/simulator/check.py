@@ -84,14 +84,13 @@ class _Examination:
             yield f"epoch {epoch}: the plan {says} '{name}'"
 
     def _play(self, model: str) -> PlayedOut:
-        horizon = self.result.horizon
         return play(
             self.task,
             self.result.options,
             self.human_plan,
             self.steps,
             human_model=model,
-            horizon=horizon if isinstance(horizon, int) else None,
+            horizon=self.result.horizon,
             person=self.person,
         )
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from serendipity.model import Task
+from serendipity.model import HumanPlan, Task
 from verify.base.due import onward
 from verify.base.execution import State
 from verify.base.optimal_plans import OptimalPlans
@@ -27,13 +27,9 @@ class ReplanningPerson:
         worth = self._plans.worth(state)
         return None if worth is None else worth[0]
 
-    def plan(self, state: State) -> list[int]:
+    def plan(self, state: State) -> HumanPlan:
         """The canonical optimal plan from a state that has one."""
-        chosen = []
-        while (step := next(self._plans.steps(state), None)) is not None:
-            action, state = step
-            chosen.append(action)
-        return chosen
+        return next(self._plans.plans(state))
 
     def cost_of(self, plan: Sequence[int], state: State) -> Fraction | None:
         """``c``: what a plan costs if it works from a state, robots idle; None for infinity."""

@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from serendipity.model import Options, Step, Task, Visible, surroundings
+from serendipity.model.keywords import Horizon
 from verify.base.due import onward
 from verify.base.execution import State, after, applicable, fits, idling, met, price, unchosen
 from verify.base.optimal_plans import OptimalPlans
@@ -88,7 +89,7 @@ def play(
     steps: Sequence[Step],
     *,
     human_model: str,
-    horizon: int | None,
+    horizon: Horizon | None,
     visible: Visible | None = None,
     person: ReplanningPerson | None = None,
 ) -> PlayedOut:
@@ -116,7 +117,7 @@ def play(
     while not game.done(now) and len(deeds) != horizon:
         deadline.check()
         before = now
-        deed, now = game.epoch(now, orders.get(len(deeds) + 1, ()))
+        deed, now = game.act(game.look(now), orders.get(len(deeds) + 1, ()))
         deeds.append(deed)
         expected = now._replace(belief=game.looked(now), waited=before.waited)
         if len(deeds) >= last and before == expected and not deed.executed:
@@ -154,10 +155,6 @@ class Play:
         reached = task.goal.holds(state) and task.robot_goal.holds(state)
         return reached and not now.asleep and state.issuperset(task.at_rest)
 
-    def epoch(self, now: MomentOfPlay, offers: Sequence[int]) -> tuple[PlayedEpoch, MomentOfPlay]:
-        """One epoch in which robots try the actions ``offers``, joint ones included."""
-        return self.act(self.look(now), offers)
-
     def looked(self, now: MomentOfPlay) -> State:
         """The human's belief after a look: all of the state, or what is visible of it."""
         if self.sees is None:
@@ -173,11 +170,11 @@ class Play:
         belief, rho = self.looked(now), now.rho
         kept, best = self.person.cost_of(rho, belief), self.person.cost(belief)
         if best is not None and (kept is None or best < kept):
-            rho = tuple(self.person.plan(belief))
+            rho = self.person.plan(belief)
         return Look(now._replace(belief=belief, rho=rho), best)
 
     def act(self, look: Look, offers: Sequence[int]) -> tuple[PlayedEpoch, MomentOfPlay]:
-        """Steps 2 to 4."""
+        """Steps 2 to 4, in an epoch in which robots try the actions ``offers``, joint ones included."""
         now = look.now
         offers = [self._as_possible(i, now.state) for i in sorted(offers)]
         joint = self._accepted(offers, look) if look.up else None

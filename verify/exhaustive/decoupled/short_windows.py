@@ -22,7 +22,7 @@ from verify.base.subproblem import Subproblem
 from verify.base.undecided import during, why
 from verify.exhaustive.decoupled.leavings import differences, together
 from verify.exhaustive.decoupled.timeline import RobotTimeline, parts
-from verify.exhaustive.team_problem import as_operator, team_space
+from verify.exhaustive.team_problem import all_disabled, as_operator, team_space
 from verify.limits import limits
 from verify.packed.cheapest_path import TooManyPackedStatesError
 from verify.packed.layout import PackedLayout, Words
@@ -124,28 +124,16 @@ class _Search:
 
     def _in_the_way(self, relevant: Relevant, space: StateSpace) -> bool:
         """Whether a robot may disable an action of the human's in the epoch in which that is done."""
-        task, strict = self._question.task, self._question.options.strict
-        if strict:
+        task = self._question.task
+        if self._question.options.strict:
             return False
-        deleting: dict[int, list[int]] = {}
-        adding: dict[int, list[int]] = {}
-        for i in relevant.actions:
-            if task.human not in task.actions[i].participants:
-                for fact in task.actions[i].delete:
-                    deleting.setdefault(fact, []).append(i)
-                for fact in task.actions[i].add:
-                    adding.setdefault(fact, []).append(i)
-        for j in self._deadline.each(relevant.actions):
-            own = task.actions[j]
-            if task.human in own.participants:
-                ways = [i for fact in own.pre for i in deleting.get(fact, ())]
-                ways += [i for fact in own.neg for i in adding.get(fact, ())]
-                for i in ways:
-                    robots = task.actions[i]
-                    if not conflicting(own, robots, strict=False) and space.pairs.possible(
-                        {*own.pre, *robots.pre}
-                    ):
-                        return True
+        by_id = {i: task.actions[i] for i in relevant.actions}
+        for i, disabled in all_disabled([*by_id.items()], self._deadline).items():
+            robots = by_id[i]
+            for own in (by_id[j] for j in disabled if task.human not in robots.participants):
+                beside = task.human in own.participants and not conflicting(own, robots, strict=False)
+                if beside and space.pairs.possible({*own.pre, *robots.pre}):
+                    return True
         return False
 
     def _ends(self, alone: _Alone, timelines: list[RobotTimeline]) -> str:
