@@ -4,7 +4,7 @@ Parts that only some answers have stand in ``statistics``.  A part of a file tha
 there as it is, and what is wrong with it is told: the verifier refutes answers that need it.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, Final
 
 from serendipity.model.answers.answer import PolicyBounds
@@ -28,6 +28,7 @@ from serendipity.model.errors import UsageError
 from serendipity.model.numbers import MOST_IN_RESULTS, Figure, exact
 from serendipity.model.options import MAX_EPOCH, Options
 from serendipity.model.schemas import schema_fault
+from serendipity.model.task.plans import PlanTimes
 
 SCHEMA: Final = "serendipity.result/1"
 
@@ -90,20 +91,28 @@ def fields_of(kind: type, data: Any) -> dict[str, Any]:
     found = read_fields(kind, given, (*_IN_JSON, *_IN_TIME))
     if found["mode"] != found["options"].mode:
         raise MalformedError(f"mode: is {found['mode']!r:.50}, but '{found['options'].mode}' in the options")
-    times, names = found["human_plan_times"], found["human_plan"]
-    if times is not None and len(times.starts) != len(names or ()):
-        raise MalformedError(f"human_plan_times: expected {len(names or ())} starts, got {len(times.starts)}")
+    _require_starts(found["human_plan_times"], found["human_plan"])
     statistics = found["statistics"]
     parts: dict[str, Any] = {}
     malformed = {}
     for name in _PARTS:
         if name in statistics:
             try:
-                parts |= read_fields(kind, statistics, (name,), "statistics")
+                read = read_fields(kind, statistics, (name,), "statistics")
+                for said in (read[name] or ()) if name in ("goals", "ties") else ():
+                    _require_starts(said.human_plan_times, said.human_plan, f"statistics.{name}: ")
+                parts |= read
             except MalformedError as error:
                 malformed[name] = str(error)
     left = {name: value for name, value in statistics.items() if name not in parts}
     return {**found, **parts, "statistics": left, "malformed": malformed}
+
+
+def _require_starts(times: PlanTimes | None, names: Sequence[str] | None, where: str = "") -> None:
+    """Return if a plan has a time for each action, or none at all."""
+    count = len(names or ())
+    if times is not None and len(times.starts) != count:
+        raise MalformedError(f"{where}human_plan_times: expected {count} starts, got {len(times.starts)}")
 
 
 def _is_committed(data: dict[str, Any]) -> bool:

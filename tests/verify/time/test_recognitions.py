@@ -88,6 +88,10 @@ DOCTORED: dict[str, tuple[Edit, str]] = {
     "another": (edit("statistics.recognition.observed", ["go h a c"]), "with the observations is 6.0"),
     "a posterior": (edit(f"{FIRST}.posterior", 0.25), "the posterior is"),
     "a head start": (edit("options.head_start", 1), "head start"),
+    "an action without a time": (
+        edit("statistics.goals.0.human_plan", ["go h a b", "enter h", "enter h"]),
+        "expected 3 starts, got 2",
+    ),
     "an epoch": (edit("statistics.goals.0.human_plan_times.starts", [2, 7]), "not the optimal plan"),
 }
 
