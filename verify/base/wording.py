@@ -32,6 +32,7 @@ FOLLOWED_BY_ALL: Final[Mapping[str, str]] = {
 
 POSTERIOR: Final = "the posterior is right"
 ALL_OPTIMAL: Final = "the plans are the human's optimal ones"
+NO_GOALS_TOLD: Final = "the answer does not say which goals can't be reached alone"
 GIVEN_PLANS: Final = "plans and probabilities are taken as given"
 
 FOLLOWED_BY_POLICY: Final = "closed under what the human may do, and every run ends"

@@ -15,7 +15,7 @@ from serendipity.model.task.metered import Metered
 from verify.base import wording
 from verify.base.beside_script import alone_of
 from verify.base.obligations import BY_RULES, needed
-from verify.base.undecided import UNDECIDED, why
+from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.rules.case import Case
 from verify.rules.header import mode_and_human, reason, status_and_fields
 from verify.rules.nobody_pays import broken, rule_of
@@ -198,6 +198,8 @@ def _expected(
     """The scenarios to consider, where they come from, and what is wrong with that."""
     known, watched = recognised(result), result.options.ties == "watched"
     if known is None and not watched:
+        if not served and result.status == "infeasible":
+            raise UndecidedError(wording.NO_GOALS_TOLD)
         return _given(task, served)
     fault = None if known is None else next(faults(task, known, result.options, original, deadline), None)
     if fault is not None:

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable
 from copy import deepcopy
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -275,3 +276,16 @@ def test_posteriors_of_dear_tasks_are_certified(unit: int) -> None:
             serendipity.verify(dear, Result.from_dict(json.loads(json.dumps(answer.to_dict())))).verdict
             == "proved"
         )
+
+
+def test_noisy_goals_out_of_reach_are_not_told() -> None:
+    """The answer has no posterior then, and named no goal: it was refuted, since nothing adds up to 1."""
+    task = build(goal="f", actions={"do h": " -> f", "look r": " -> seen"})
+    asked = {"goals": [{"goal": ["seen"]}], "observed": ["do h"]}
+    for noise, verdict in (("wrong=0.2", "undecided"), (None, "proved")):
+        answer = serendipity.plan(task, **asked, noise=noise)
+        certificate = serendipity.verify(task, answer)
+        assert (answer.status, certificate.verdict) == ("infeasible", verdict)
+        assert serendipity.check(task, answer).verdict != "refuted"
+        said = replace(answer, status="optimal", reason=None)
+        assert serendipity.verify(task, said).verdict == "refuted"
