@@ -3,7 +3,6 @@
 import ctypes
 from array import array
 from collections.abc import Callable, Collection, Sequence
-from itertools import groupby
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -140,11 +139,12 @@ class Epochs:
         count = self._kernel.epochs_sets(
             self._epochs, leaving.number, given.buffer_info()[0], found.buffer_info()[0]
         )
-        sets = [
-            [self._operators[number] for number in numbers]
-            for is_end, numbers in groupby(found[: count - 1], lambda number: number == _NONE)
-            if not is_end
-        ]
+        sets: list[list[Operator]] = [[]]
+        for number in found[: count - 1]:  # a set may be empty
+            if number == _NONE:
+                sets.append([])
+            else:
+                sets[-1].append(self._operators[number])
         return sets[::-1]
 
     def _run(self, given: int, limit: int, most: int, deadline: Deadline) -> bool:

@@ -162,3 +162,17 @@ def test_a_state_of_many_sets_is_left_when_the_time_for_it_is_up() -> None:
             pass
     assert progress.bound == 0, "there was not enough time for all"
     assert context.deadline.elapsed() < 0.5
+
+
+def test_nobody_may_act_in_a_window() -> None:
+    """Beside a dearer plan the human may be there already: the epoch was left out, the window began in 0."""
+    ways = {"go h": "f -> g !f", "back h": "g -> f !g", "help r": " -> x"}
+    context = SearchContext(PreparedTask(build(init="f", goal="f", actions=ways)), ONE_EPOCH, Deadline())
+    plan = tuple(context.task.named[name][0] for name in ("go h", "back h"))
+    followed = sum(option.weight for _, option in context.followed(plan))
+    found = Incumbent(followed + context.keys.epoch_weight + context.keys.of_start(2, 2))
+    question = ShortWindowQuestion(context, plan, 2, found)
+    for _ in AllTogether(question, Progress(), INFINITE_KEY).windows(1_000, Deadline()):
+        pass
+    assert found.node is not None
+    assert (found.node.start, found.end, found.tail) == (1, 2, ())
