@@ -161,9 +161,8 @@ def discount_threshold(ask: Ask) -> Threshold:
     if not answer.opportunity:
         return Threshold("discount", None, False, (_confirm(ask, "discount", value),))
     alone = _alone(ask.task, ask())
-    nothing = alone + (
-        ask.options.window_weight if ask.options.windowed else 0
-    )  # ``pi_H`` in its best window
+    windowed = ask.options.windowed and ask.options.human_model == "omniscient"
+    nothing = alone + (ask.options.window_weight if windowed else 0)  # ``pi_H`` in its best window
     while answer.opportunity:
         parts = parts_of(ask.task, answer)
         if parts.objective(answer.options) == nothing and value < 1:

@@ -5,7 +5,8 @@ from dataclasses import replace
 from typing import Final, TypeVar, Unpack
 
 from serendipity.explanation.ask import PROVED, Ask, discount_threshold, parts_of, window_weight_threshold
-from serendipity.explanation.explanation import Explanation, misses, moments, removal_of
+from serendipity.explanation.explanation import TOLD, Explanation, misses, moments, removal_of
+from serendipity.explanation.person import Played, Reaction
 from serendipity.explanation.waiting import waits
 from serendipity.explanation.wording import sentences
 from serendipity.facade.call import options_from
@@ -54,7 +55,7 @@ def explain(
 
     Raises:
         UsageError: both an answer and options, or an answer that has nothing to explain
-            (individual and assistance mode, human models).
+            (individual and assistance mode).
         PlanError: ``human_plan`` can't be executed, or misses the goal.
         LimitReachedError: a limit came before there was any answer to explain.
     """
@@ -66,11 +67,8 @@ def explain(
         raise UsageError("explain: expected a result or options, got both")
     asked = result.options if result else options_from(options)
     chosen = asked.but(ties="fixed", time_limit=None, memory_limit=None)
-    if chosen.mode not in _MODES or chosen.human_model != "omniscient":
-        raise UsageError(
-            f"explain: expected mode {', '.join(_MODES)} and human model 'omniscient', "
-            f"got '{chosen.mode}' and '{chosen.human_model}'"
-        )
+    if chosen.mode not in _MODES:
+        raise UsageError(f"explain: expected mode {', '.join(_MODES)}, got '{chosen.mode}'")
     ask = Ask(task, chosen, _entries(task, human_plan if result is None else _before(task, result)), limits)
     proved = result is not None and result.plan is not None and result.status == "optimal"
     answer = result if result is not None and proved else ask.attempt()
@@ -125,14 +123,14 @@ class _Findings:
 def _explained(ask: Ask, answer: Result, on_progress: OnProgress) -> Explanation:
     """Everything about an answer; the windows, of which there are many, come last."""
     options, has_plan = ask.options, answer.human_plan is not None
-    windows = has_plan and options.mode == "serendipity"
+    untold, replans = has_plan and options.mode == "serendipity", options.human_model != "omniscient"
+    windows = untold and not replans
     priced = has_plan and _has_thresholds(ask, answer)
     helpless = has_plan and not answer.opportunity
     early = answer.opportunity and bool(options.head_start)
     findings = _Findings(None if answer.status in PROVED else ask.limit_of(answer))
-    told = findings.about(
-        "announcement", lambda: ask(mode="communication", keep_prefix=False), wanted=windows
-    )
+    reaction = _reaction(ask, answer, findings) if replans and answer.opportunity else None
+    told = findings.about("announcement", lambda: ask(**TOLD), wanted=untold)
     at_once = findings.about("head_start", lambda: ask(head_start=0), wanted=early)
     discount = findings.about("discount", lambda: discount_threshold(ask), wanted=priced)
     missed = findings.about("miss", lambda: misses(ask, None), wanted=helpless)
@@ -152,11 +150,21 @@ def _explained(ask: Ask, answer: Result, on_progress: OnProgress) -> Explanation
         misses=missed or (),
         waits=waits(ask.task, answer),
         at_once=at_once,
+        reaction=reaction,
         epoch=ask.task.epoch if ask.task.needs_time or answer.in_time else None,
         limit=findings.limit,
         left_out=tuple(findings.left_out),
     )
     return replace(found, sentences=tuple(sentences(found)))
+
+
+def _reaction(ask: Ask, answer: Result, findings: _Findings) -> Reaction | None:
+    """What a human who replans makes of help; None where a limit came before anything was known of it."""
+    played = Played(ask.task, answer, ask.deadline)
+    turns = findings.about("person", played.turns, wanted=True)
+    alone = findings.about("contrast", played.alone, wanted=True)
+    contrasts = findings.about("contrast", played.contrasts, wanted=True)
+    return None if turns is None else Reaction(turns, alone, contrasts or ())
 
 
 def _has_thresholds(ask: Ask, answer: Result) -> bool:

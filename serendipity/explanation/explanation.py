@@ -7,6 +7,7 @@ from itertools import groupby
 from typing import Any, Final
 
 from serendipity.explanation.ask import Ask, Parts, Threshold
+from serendipity.explanation.person import Reaction, play
 from serendipity.explanation.waiting import Wait
 from serendipity.facade.interruptibility import Interruption, InterruptionReport, Removal, removal
 from serendipity.model import Result, Window
@@ -95,6 +96,9 @@ RULES: Final = {
     "preservation": "keeping only what the human needs (preservation kernel)",
     "interference": "the paper's interference rule",
     "max_cost": "dearer plans (no max_cost)",
+    "local": "planning for people who see everything (human model observant)",
+    "sight": "planning for people who do what the plan says, told or not (human model omniscient)",
+    "no_block": "leaving them without a plan of their own meanwhile (allow-block)",
 }
 """The rules that can be relaxed, and what that means."""
 
@@ -108,6 +112,18 @@ _LOOSEST: Final = {
 """The loosest value of each option that restricts plans."""
 
 
+_OF_WINDOWS: Final = ("max_window", "suffix", "preservation")
+"""Those without effect where there are no windows."""
+
+TOLD: Final = {
+    "mode": "communication",
+    "keep_prefix": False,
+    "human_model": "omniscient",
+    "no_block": None,
+}
+"""The changes with which the human is told."""
+
+
 @dataclass(frozen=True, slots=True)
 class Miss:
     """What relaxing one rule would give.
@@ -116,6 +132,7 @@ class Miss:
         rule: a key of ``RULES``.
         window: of the answer then, or the shortest that its cost needs.
         removal: what would disappear from their plan, and what would replace it.
+        departs: what becomes of it beside the human as they are, who replan; None of others.
     """
 
     rule: str
@@ -123,6 +140,7 @@ class Miss:
     saving: float
     window: Window | None
     removal: Removal
+    departs: str | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object."""
@@ -130,17 +148,19 @@ class Miss:
             **written(self, ("rule", "cost", "saving", "window")),
             "removed": list(self.removal.removed),
             "replacement": list(self.removal.replacement),
+            **({} if self.departs is None else {"departs": self.departs}),
         }
 
 
 def misses(ask: Ask, report: InterruptionReport | None) -> tuple[Miss, ...]:
     """For each rule the answer without it, where that is an opportunity; cheapest first."""
-    found = []
+    found, model = [], ask.options.human_model
     for rule, changes in _relaxations(ask):
         answer = ask(**changes)
         if answer.opportunity and answer.cost is not None and answer.saving is not None:
             window = answer.window or _shortest(report, answer)
-            found.append(Miss(rule, answer.cost, answer.saving, window, removal_of(answer)))
+            departs = play(ask.task, answer, model, ask.deadline).reason if model != "omniscient" else None
+            found.append(Miss(rule, answer.cost, answer.saving, window, removal_of(answer), departs))
     return tuple(sorted(found, key=lambda miss: miss.cost))
 
 
@@ -153,13 +173,19 @@ def removal_of(answer: Result) -> Removal:
 
 def _relaxations(ask: Ask) -> list[tuple[str, dict[str, Any]]]:
     options = ask.options
+    replans = options.human_model != "omniscient"
     wanted: list[tuple[str, dict[str, Any]]] = []
-    if options.windowed and options.window_weight > 0:
+    if options.windowed and not replans and options.window_weight > 0:
         wanted.append(("window-length", {"window_weight": 0}))
     if options.mode == "serendipity":
-        wanted.append(("prefix", {"mode": "communication", "keep_prefix": False}))
+        wanted.append(("prefix", TOLD))
+    if options.human_model == "local":
+        wanted.append(("local", {"human_model": "observant"}))
+    if replans:
+        wanted.append(("sight", {"human_model": "omniscient", "no_block": None}))
+        wanted += [("no_block", {"no_block": False})] if options.no_block is not False else []
     for name, loosest in _LOOSEST.items():
-        if getattr(options, name) != loosest:
+        if getattr(options, name) != loosest and not (replans and name in _OF_WINDOWS):
             wanted.append((name, {name: loosest}))
     return wanted
 
@@ -193,11 +219,12 @@ class Explanation(Output):
         misses: what would help if a rule were relaxed; empty where a robot helps anyway.
         waits: actions that begin no sooner, and why, as far as script, head start or the human's plan say.
         at_once: the answer without the head start; None where there is none, or no help.
+        reaction: what a human who replans makes of help; None beside others, and without help.
         epoch: how long an epoch is, in the unit of the input; None where nothing takes time.
         sentences: all of it in words, topic by topic.
         limit: which limit came before everything was found out (as ``Result.reason`` has it), or None.
         left_out: what is missing for it: ``moment``, ``discount``, ``window_weight``,
-            ``announcement``, ``head_start``, ``miss``.
+            ``announcement``, ``head_start``, ``person``, ``contrast``, ``miss``.
     """
 
     answer: Result
@@ -210,6 +237,7 @@ class Explanation(Output):
     misses: tuple[Miss, ...]
     waits: tuple[Wait, ...] = ()
     at_once: Result | None = None
+    reaction: Reaction | None = None
     epoch: Fraction | None = None
     sentences: tuple[tuple[str, str], ...] = ()
     limit: str | None = None
@@ -251,6 +279,7 @@ class Explanation(Output):
             "announcement": None if told is None else {"cost": told.cost, "opportunity": told.opportunity},
             **written(self, ("misses", *(() if self.epoch is None else ("epoch", "waits")))),
             **({} if early is None else {"at_once": {"cost": early.cost, "opportunity": early.opportunity}}),
+            **({} if self.reaction is None else {"reaction": self.reaction.to_dict()}),
             "sentences": [{"topic": topic, "text": text} for topic, text in self.sentences],
             "options": answer.options.to_dict(),
         }

@@ -7,6 +7,8 @@ from typing import Final
 
 from serendipity.explanation.ask import Threshold
 from serendipity.explanation.explanation import RULES, WHY, Explanation, Miss, Moment
+from serendipity.explanation.person_wording import contrasted, moved, turned
+from serendipity.explanation.telling_time import begin, end
 from serendipity.explanation.waiting import Wait
 from serendipity.model import Result, Window
 from serendipity.model.errors import limit_words
@@ -18,9 +20,13 @@ _MISSING: Final = {
     "window_weight": "up to which window weight a longer interruption would help",
     "announcement": "what a word in advance would gain",
     "head_start": "what help is worth without the head start",
+    "person": "what the human makes of it",
+    "contrast": "what hinges on each action of robots'",
     "miss": "what would help if a rule were relaxed",
 }
 """What would have been told of what is left out."""
+
+_SIGHT: Final = {"observant": "sees everything", "local": "sees what is near"}
 
 Sentence = tuple[str, str]
 """A topic and a sentence."""
@@ -38,7 +44,10 @@ def sentences(found: Explanation) -> Iterator[Sentence]:
     if answer.saving_alone:
         yield "help", f"{answer.human} could save {plain(answer.saving_alone)} without any robot."
     for topic, part in (
+        ("person", turned(found)),
+        ("without", contrasted(found)),
         ("waiting", _waiting(found)),
+        ("moment", moved(found)),
         ("moment", _moments(found)),
         ("discount", _discount(found)),
         ("announcement", _announcement(found)),
@@ -66,7 +75,8 @@ def _help(found: Explanation) -> Iterator[str]:
         yield "Nothing has to take their place."
     theirs = [step for step in answer.plan or () if answer.human not in step.agents]
     if theirs:
-        yield f"Robots do: {'; '.join(f'{step.action} ({_begin(found, step.epoch)})' for step in theirs)}."
+        deeds = (f"{step.action} ({begin(found.epoch, step.epoch)})" for step in theirs)
+        yield f"Robots do: {'; '.join(deeds)}."
     yield (
         f"{answer.human} pays {plain(parts.human)} instead of {plain(answer.human_cost or 0)}; "
         f"the robots' work costs {plain(parts.discounted(answer.options))}; "
@@ -74,7 +84,8 @@ def _help(found: Explanation) -> Iterator[str]:
     )
     if answer.status == "feasible":
         yield "It is the best plan found so far, and not proved to be the best there is."
-    if answer.mode == "serendipity" and answer.realised.get("observant") is False:
+    untold = answer.mode == "serendipity" and answer.options.human_model == "omniscient"
+    if untold and answer.realised.get("observant") is False:
         yield (
             f"But {answer.human} is not told, and would not do all of this going by what is to be seen "
             "(`simulate` plays what happens)."
@@ -86,6 +97,12 @@ def _no_help(answer: Result) -> Iterator[str]:
         yield "No help was found so far; that there is none is not proved."
     elif answer.human_plan == ():
         yield f"The goal of {answer.human} holds already, so there is nothing to help with."
+    elif answer.options.human_model != "omniscient":
+        who, sees = answer.human, _SIGHT[answer.options.human_model]
+        yield (
+            f"No help: nothing that robots could do beside {who}, who {sees} and is not told, "
+            f"costs less than the {plain(answer.human_cost or 0)} that {who} pays alone."
+        )
     else:
         yield (
             f"No help: nothing that follows the rules of mode {answer.mode} costs less than the "
@@ -93,19 +110,9 @@ def _no_help(answer: Result) -> Iterator[str]:
         )
 
 
-def _begin(found: Explanation, epoch: int) -> str:
-    """An epoch; where there is a clock, with the time at its beginning."""
-    return f"epoch {epoch}" if found.epoch is None else f"epoch {epoch}, at {_end(found, epoch - 1)}"
-
-
-def _end(found: Explanation, epoch: int) -> str:
-    """The time at the end of an epoch."""
-    return plain((found.epoch or 1) * epoch)
-
-
 def _waiting(found: Explanation) -> Iterator[str]:
     for wait in found.waits:
-        begins = f"'{wait.action}' begins in {_begin(found, wait.epoch)}, and no sooner"
+        begins = f"'{wait.action}' begins in {begin(found.epoch, wait.epoch)}, and no sooner"
         yield f"{' and '.join(wait.agents)}: {begins}: {_until(found, wait)}."
     if found.at_once is not None:
         now, then = found.answer.saving, found.at_once.saving if found.at_once.opportunity else 0
@@ -114,7 +121,7 @@ def _waiting(found: Explanation) -> Iterator[str]:
 
 
 def _until(found: Explanation, wait: Wait) -> str:
-    until = _end(found, wait.until or 0)
+    until = end(found.epoch, wait.until or 0)
     if wait.why == "fact":
         fact = (wait.cause or "").removeprefix("!")
         return f"{fact} becomes {'true' if fact == wait.cause else 'false'} at {until}"
@@ -212,6 +219,8 @@ def _cheapest_miss(found: Explanation, miss: Miss) -> Iterator[str]:
             f"epoch {miss.window.end - 1} (window {_window(miss.window)})."
         )
     yield f"It is found by {RULES[miss.rule]}."
+    if miss.departs is not None:
+        yield f"But beside {found.answer.human} it would not come to that: {miss.departs}."
 
 
 def _window(window: Window) -> str:

@@ -91,7 +91,7 @@ def test_an_answer_is_explained_under_its_own_options() -> None:
         serendipity.explain(task, answer, discount="0.9")
 
 
-@pytest.mark.parametrize("options", [{"mode": "individual"}, {"human_model": "observant"}])
+@pytest.mark.parametrize("options", [{"mode": "individual"}, {"mode": "assistance"}])
 def test_what_has_no_explanation(options: dict[str, str]) -> None:
     with pytest.raises(UsageError, match="explain"):
         explained("room2", **options)

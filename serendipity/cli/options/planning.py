@@ -89,7 +89,10 @@ _ALL: Final = (
 
 WINDOWS: Final = tuple(name for name in _ALL if name in (*InterruptionOptions.__annotations__, "human_plan"))
 """What makes a difference to windows."""
-EXPLAINED: Final = (*_ALL[: _ALL.index("keep_prefix")], "waiting_cost", "head_start")
+EXPLAINED: Final = (
+    *_ALL[: _ALL.index("keep_prefix")],
+    *("human_model", "no_block", "waiting_cost", "head_start"),
+)
 """What can be explained."""
 FRONT: Final = tuple(
     name for name in _ALL if name not in ("max_disturbance", "ties", "max_ties", "policy", "risk")
