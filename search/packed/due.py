@@ -126,6 +126,13 @@ class Due:
                     return self.outcome(state, together(part, others))
         return None
 
+    def supposed(self, state: int, own: JointAction) -> int:
+        """The same as somebody takes it to be who may be wrong: all goes on, whatever it asks."""
+        done = own
+        for variants in self._others.at(state):
+            done = together(done, (self._possible(variants, state) or variants)[0])
+        return self.outcome(state, done)
+
     def outcome(self, state: int, done: JointAction) -> int:
         """The state after an epoch in which all this is done, and the clock goes on."""
         after, last = state & done.keep | done.put, self.last(state)

@@ -6,6 +6,7 @@ from dataclasses import replace
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
+from serendipity.model.task.unit_steps import CLOCK
 from serendipity.model.task.variables import Variable
 
 
@@ -41,10 +42,11 @@ def doubted(task: Task, deadline: Deadline) -> Task:
 
     A belief of theirs may hold two values of one variable, or none: they saw that the kit has
     left the room, but not where it went.  So for them only the variables that nobody
-    else changes stay variables, of which they always know the truth; every other fact is
-    a bit by itself.
+    else changes stay variables, of which they always know the truth, as they do of the clock;
+    every other fact is a bit by itself.
     """
-    shared: set[int] = set()
+    shared, clock = set[int](), task.agents.index(CLOCK) if CLOCK in task.agents else None
+    ticks = {fact for fact, action in task.due if task.actions[action].participants == (clock,)}
     for action in task.actions:
         deadline.tick()
         if task.human not in action.participants:
@@ -52,7 +54,7 @@ def doubted(task: Task, deadline: Deadline) -> Task:
     found: list[Variable] = []
     for variable in task.variables:
         deadline.tick()
-        if shared.isdisjoint(variable.facts):
+        if shared.isdisjoint(variable.facts) or not ticks.isdisjoint(variable.facts):
             found.append(variable)
         else:
             found += [Variable((fact,)) for fact in variable.facts]

@@ -216,10 +216,10 @@ class Played:
         for step in before:
             changed = self._changed(step)
             later = set[str]().union(*(self._changed(other) for other in before if other.epoch > step.epoch))
-            is_new = step.epoch >= max(last, 1) and (sees_all or human in step.agents)
-            if changed & saw - later or (
-                is_new and {fact.removeprefix("not ") for fact in changed} & matters
-            ):
+            is_known = step.epoch >= max(last, 1) and (sees_all or human in step.agents)
+            is_seen = not saw and step.epoch < now <= step.end  # nothing but what somebody is at can be news
+            has_to_do = not matters.isdisjoint(fact.removeprefix("not ") for fact in changed)
+            if changed & saw - later or (has_to_do and (is_known or is_seen)):
                 yield step.action
 
     def _changed(self, step: PlanStep) -> set[str]:

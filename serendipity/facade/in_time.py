@@ -159,7 +159,7 @@ def in_units(call: Request, units: UnitSteps) -> Request:
     """
     prepared, epochs = PreparedTask(units.task), call.options.head_start
     given = None if call.given is None else units.plan(call.given, epochs)
-    asleep = epochs if call.options.human_model == "observant" else 0
+    asleep = 0 if call.options.human_model == "omniscient" else epochs
     options = call.options.but(head_start=asleep, ties="fixed")
     if given is not None:  # it may come too late, or be in a bystander's way
         call.task.replay_alone(units.begun(given), strict=options.strict)
@@ -206,8 +206,10 @@ def _require_known(call: Request) -> None:
     options = call.options
     if options.mode == "assistance":
         raise UsageError("mode: 'assistance' takes turns, which have no length: not where actions take time")
-    if options.human_model == "local":
-        raise UsageError("human_model: where actions take time, expected omniscient or observant, got local")
+    if call.visible is not None:
+        raise UsageError("visible: is not known where actions take time")
+    if options.human_model == "local" and options.waiting_cost:
+        raise UsageError("waiting_cost: beside a human who sees what is near waiting is free, expected 0")
 
 
 def _later(units: UnitSteps, answer: Answer, epochs: int) -> Answer:

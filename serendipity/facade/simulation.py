@@ -68,9 +68,15 @@ def simulate(
             played_in_time,  # it plans, and plans say what is realised
         )
 
-        _require_known(result, human_model)
+        if visible is not None:
+            raise UsageError("visible: is not known where actions take time")
+        if result.options.waiting_cost:
+            raise UsageError("waiting_cost: a simulation counts no price of waiting, expected 0")
         entries = result.human_entries or ()
-        simulated = played_in_time(task, result.options, entries, steps, horizon=horizon, deadline=limits)
+        local = human_model == "local"
+        simulated = played_in_time(
+            task, result.options, entries, steps, horizon=horizon, deadline=limits, local=local
+        )
         return _Story(task, result, human_model, simulated).trace()
     plan = task.plan_from_names(result.human_plan) if result.human_plan else ()
     with HELD.taken(task) as prepared:
@@ -85,14 +91,6 @@ def simulate(
             deadline=limits,
         )
     return _Story(task, result, human_model, simulated).trace()
-
-
-def _require_known(result: Result, human_model: str) -> None:
-    """Raise UsageError where a result in time is not played beside such a person."""
-    if human_model != "observant":
-        raise UsageError(f"human_model: in time, expected observant, got {human_model}")
-    if result.options.waiting_cost:
-        raise UsageError("waiting_cost: a simulation counts no price of waiting, expected 0")
 
 
 def realised(

@@ -8,6 +8,7 @@ from hypothesis import assume, given
 import serendipity
 from serendipity.execution import Decided, Execution, Outlook, moment_of, person_of
 from serendipity.model import Condition, Deadline, PlanStep, Task, UsageError
+from serendipity.testing.builders import task
 from serendipity.testing.call import Call
 from serendipity.testing.strategies import calls_in_time
 
@@ -73,7 +74,14 @@ def test_the_talk_is_realised_and_told() -> None:
 
 def test_what_is_not_known_in_time_is_refused() -> None:
     task: Task = serendipity.example("morning")
-    with pytest.raises(UsageError, match="in time, expected observant"):
-        serendipity.simulate(task, serendipity.plan(task), human_model="local")
     with pytest.raises(UsageError, match="waiting_cost"):
         serendipity.simulate(task, serendipity.plan(task, waiting_cost=1))
+
+
+def test_somebody_without_a_plan_waits_until_robots_give_them_one() -> None:
+    """What robots begin last may be what gives the person a plan."""
+    about = task(init="a", goal="d", actions={"go h": "a gate -> d !a @ 1 [3]", "open r": " -> gate @ 1"})
+    answer = serendipity.plan(about, mode="composite")
+    for model in ("observant", "local"):
+        played = serendipity.simulate(about, answer, model)
+        assert (played.realised, len(played.epochs)) == (True, 4)

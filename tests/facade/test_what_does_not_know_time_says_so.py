@@ -28,12 +28,6 @@ def test_waiting_and_a_head_start_are_played() -> None:
         assert played.realised and [epoch.did for epoch in played.epochs] == [None, None, "do h"]
 
 
-def test_options_that_are_not_for_time_are_refused() -> None:
-    for name, value in {"human_model": "local"}.items():
-        with pytest.raises(UsageError, match=f"{name}: where actions take time, expected"):
-            serendipity.plan(slow(), **{name: value})
-
-
 def test_options_of_time_are_written_down_only_where_they_are_in_force() -> None:
     assert "waiting_cost" not in Options().to_dict()
     timed = Options(waiting_cost="0.5", head_start=7)

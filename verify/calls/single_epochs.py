@@ -61,8 +61,6 @@ def examined_in_time(
 def _is_known(result: Result) -> bool:
     """Whether such a result is examined in time."""
     options = result.options
-    if options.human_model == "local":
-        return False
     kind = kind_of(result)
     if kind != "a plan for each scenario":
         return True

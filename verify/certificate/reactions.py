@@ -9,14 +9,14 @@ worse, since robots can do the same from it, only sooner).
 
 from collections.abc import Iterable, Iterator
 
-from serendipity.model import Step, surroundings
+from serendipity.model import Step
 from serendipity.model.errors import LIMITS
 from verify.base.execution import State, applicable, sets_beside, unchosen
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE, PricedPlan
 from verify.base.undecided import during, why
 from verify.calls.call import ExaminedCall
-from verify.certificate.simulator import MomentOfPlay, Play, ReplanningPerson
+from verify.certificate.simulator import MomentOfPlay, Play, ReplanningPerson, Sight
 from verify.exhaustive.without_epochs import LeastLeft
 from verify.limits import limits
 from verify.programs.effort import Attempt, Minimum
@@ -38,9 +38,8 @@ class _Reactions:
         task, options = call.task, call.options
         self.call = call
         self.deadline = call.effort.deadline
-        tick = self.deadline.tick
-        sees = surroundings(task, tick).visible if options.human_model == "local" else None
-        self.game = Play(task, options, ReplanningPerson(task, call.plans, strict=options.strict), sees)
+        sight = Sight(task, None, self.deadline.tick) if options.human_model == "local" else None
+        self.game = Play(task, options, ReplanningPerson(task, call.plans, strict=options.strict), sight)
         self.left = left
         self.most = min((limit for limit in limits if limit is not None), default=None)
         self.may_block = options.no_block is False
@@ -95,7 +94,7 @@ class _Reactions:
             deed, after = self.game.act(look, offers)
             if deed.skipped or (deed.blocks and not self.may_block):
                 continue  # without what is skipped the set is tried, too
-            if self.game.sees is None:
+            if self.game.sight is None:
                 after = after._replace(belief=after.state)
             total = spent + sum(team[i] for i in deed.executed) + deed.waited * self.epoch_of_waiting
             left = self.left(after.state)

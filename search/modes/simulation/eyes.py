@@ -38,19 +38,68 @@ def nearby(encoding: PackedTask, places: Surroundings) -> Eyes:
     """The local human: they see what is where they are, or all where nothing is anywhere."""
     if not places.located:
         return Eyes(0, lambda _: encoding.all_ones)
-    human, naming = encoding.task.agents[encoding.task.human], _naming(encoding, places)
-    located = [
-        (*bits, who, place)
-        for fact, (who, place) in places.located.items()
-        if (bits := encoding.fact_bits[fact]) is not None
-    ]
+    near, naming = _Near(encoding, places), _naming(encoding, places)
+    facts = Eyes(near.depends, lambda positions: union(naming.get(name, 0) for name in near(positions)))
+    return SeesWork(encoding, near, facts) if encoding.task.due else facts
 
-    def sees(positions: int) -> int:
-        here = [(who, place) for mask, value, who, place in located if positions & mask == value]
-        at = {place for who, place in here if who == human}
-        return union(naming.get(name, 0) for name in at.union(who for who, place in here if place in at))
 
-    return Eyes(union(mask for mask, *_ in located), sees)
+class _Near:
+    """What is near the human, by the fields on which it depends: names, their place among them."""
+
+    def __init__(self, encoding: PackedTask, places: Surroundings) -> None:
+        self._human = encoding.task.agents[encoding.task.human]
+        self._located = [
+            (*bits, who, place)
+            for fact, (who, place) in places.located.items()
+            if (bits := encoding.fact_bits[fact]) is not None
+        ]
+        self.depends = union(mask for mask, *_ in self._located)
+
+    def __call__(self, positions: int) -> set[str]:
+        here = [(who, place) for mask, value, who, place in self._located if positions & mask == value]
+        at = {place for who, place in here if who == self._human}
+        return at.union(who for who, place in here if place in at)
+
+
+class SeesWork(Eyes):
+    """The local human in single epochs: they also see what those are at whom they see (semantics 10.6).
+
+    Others they take to go on with what they were at, unless somebody whom they see was at it, too.
+
+    Args:
+        near: whom they see.
+        facts: how they see all other facts.
+    """
+
+    def __init__(self, encoding: PackedTask, near: _Near, facts: Eyes) -> None:
+        task, clock = encoding.task, encoding.clock_bit
+        self._facts, self._near, self._agents = facts, near, task.agents
+        self._known = 1 << task.human | clock | sum(1 << person for person in task.script.people)
+        self._ticks = union(field for field, _, op in encoding.due if op.agents == clock)
+        self._work = [
+            (field, value, op.agents) for field, value, op in encoding.due if not field & self._ticks
+        ]
+        free = {task.facts[fact]: encoding.fact_bits[fact] for fact in task.at_rest}
+        self._free = [
+            (1 << i, bits) for i, name in enumerate(task.agents) if (bits := free.get(f"free {name}"))
+        ]
+
+    def look(self, belief: int, state: int) -> int:
+        """See :class:`Eyes`."""
+        near = self._near(state & self._near.depends)
+        shown = self._known | sum(1 << i for i, name in enumerate(self._agents) if name in near)
+        shown |= union(
+            agents for mask, value, agents in self._work if state & mask == value and agents & shown
+        )
+        work = [(mask, value, agents) for mask, value, agents in self._work if agents & shown]
+        seen = self._ticks | union(mask for mask, *_ in work)
+        seen |= union(mask for agent, (mask, _) in self._free if agent & shown)
+        found = self._facts.look(belief, state) & ~seen | state & seen
+        over = union(agents for mask, value, agents in work if belief & mask == value != state & mask)
+        for agent, (mask, value) in self._free:
+            if agent & over & ~shown:
+                found = found & ~mask | value
+        return found
 
 
 def as_told(encoding: PackedTask, visible: Visible) -> Eyes:

@@ -119,15 +119,20 @@ class Human:
         intention = look.intention
         own = None if look.best is None else intention.op
         if own is None:
-            return HumanStep(NOTHING, belief, intention, False)
+            return HumanStep(NOTHING, self.expects(belief, NOTHING), intention, False)
         if not applicable(own, state):
-            return HumanStep(NOTHING, self.learn(belief, state, own), intention, False)
-        return HumanStep(intention.option, belief & own.keep | own.put, intention.rest, True)
+            learnt = self.learn(belief, state, own)
+            return HumanStep(NOTHING, self.expects(learnt, NOTHING), intention, False)
+        return HumanStep(intention.option, self.expects(belief, intention.option), intention.rest, True)
 
     def joins(self, joint: Operator, belief: int, look: Glance) -> HumanStep:
         """Step 2: a joint action that they have accepted."""
         option = as_option(joint, self.weights.team(joint))
-        return HumanStep(option, belief & joint.keep | joint.put, look.intention, False)
+        return HumanStep(option, self.expects(belief, option), look.intention, False)
+
+    def expects(self, belief: int, own: JointAction) -> int:
+        """What they expect to see after an epoch in which they do something, or nothing."""
+        return belief & own.keep | own.put
 
     def decide(self, belief: int, intention: Intention) -> Glance:
         """Step 1: whether they keep their plan, make another, or wait."""
@@ -154,7 +159,7 @@ class Human:
         """Whether they don't look up in a packed state after some epochs; without time they always do."""
         return False
 
-    def unasked(self, state: int, intention: Intention) -> Iterator[HumanStep]:
+    def unasked(self, state: int, belief: int, intention: Intention) -> Iterator[HumanStep]:
         """Their part of an epoch in which they don't look up."""
         return iter(())
 
@@ -182,6 +187,10 @@ class Human:
     def stuck(self, state: int) -> bool:
         """Whether the human has no plan alone from a packed state, as it truly is."""
         return self.alone.key(state) >= INFINITE_KEY
+
+    def stuck_by_themselves(self, state: int, own: JointAction) -> bool:
+        """Whether they are after an epoch in which they do something, and robots begin nothing."""
+        return self.stuck(state & own.keep | own.put)
 
     def learn(self, belief: int, state: int, op: Operator) -> int:
         """The belief after the human tried an action in vain: its preconditions as they are."""

@@ -51,17 +51,17 @@ class BesideOthers(IndividualPlanner):
 
 
 class HumanInTime(Human):
-    """One human who sees everything, in a task of single epochs.
+    """One human in a task of single epochs.
 
     Args:
-        options: discount, weights, and the head start, in which they are not up.
+        options: discount, weights, the human model, and the head start, in which they are not up.
         actions: ids of actions that will be asked about, beyond the useful ones.
     """
 
     def __init__(
         self, prepared: PreparedTask, options: Options, deadline: Deadline, actions: Collection[int] = ()
     ) -> None:
-        super().__init__(prepared, options, deadline, human_model="observant", actions=actions)
+        super().__init__(prepared, options, deadline, human_model=options.human_model, actions=actions)
         self._due = Due(self.packed, self.weights.team, strict=options.strict)
         self.alone = BesideOthers(self, self.alone, self._due, options)
         self.concern = self.packed.all_ones
@@ -70,7 +70,8 @@ class HumanInTime(Human):
 
     def look(self, expected: int, state: int, intention: Intention, *, settled: bool) -> tuple[int, Glance]:
         """See :class:`.Human`; what robots begin may always be news."""
-        return state, self.decide(state, intention)
+        belief = self.eyes.look(expected, state)
+        return belief, self.decide(belief, intention)
 
     def works(self, belief: int, intention: Intention) -> bool:
         """See :class:`.Human`; others go on meanwhile, and the script does."""
@@ -86,15 +87,24 @@ class HumanInTime(Human):
         """See :class:`.Human`: they are not up yet, or at something."""
         return epoch < self.asleep or self._due.human(state) is not None
 
-    def unasked(self, state: int, intention: Intention) -> Iterator[HumanStep]:
+    def unasked(self, state: int, belief: int, intention: Intention) -> Iterator[HumanStep]:
         """See :class:`.Human`."""
         going_on = self._due.human(state)
         if going_on is None:
-            yield HumanStep(NOTHING, state, intention.rest, False)
+            yield HumanStep(NOTHING, self.expects(belief, NOTHING), intention.rest, False)
             return
         for part in going_on:
             own = intention.op is not None and intention.op.action == part.actions[0]
-            yield HumanStep(part, state, intention.rest if own else intention, False)
+            yield HumanStep(part, self.expects(belief, part), intention.rest if own else intention, False)
+
+    def expects(self, belief: int, own: JointAction) -> int:
+        """See :class:`.Human`; others go on as the human takes them to, and the script does."""
+        return belief if self.sees_all else self._due.supposed(belief, own)
+
+    def stuck_by_themselves(self, state: int, own: JointAction) -> bool:
+        """See :class:`.Human`; what robots are at goes on."""
+        after = self._due.after(state, (own,))
+        return after is None or self.stuck(after)
 
     def goes_on(self, belief: int, state: int, look: Glance) -> HumanStep:
         """See :class:`.Human`; whether waiting is paid for is only known when they begin something."""

@@ -121,7 +121,7 @@ class Reactive:
     def _unasked(self, node: Node, mind: Mind, best: Incumbent) -> Iterator[tuple[int, Node]]:
         """Successors of a node in which the human does not look up: they go on, or are not up yet."""
         guarded = self.no_block and not self.human.stuck(node.state)
-        for step in self.human.unasked(node.state, mind.intention):
+        for step in self.human.unasked(node.state, mind.belief, mind.intention):
             yield from self._children(node, mind, best, step, guarded=guarded)
 
     def _children(
@@ -136,7 +136,7 @@ class Reactive:
         rest = human.bound(alone)
         if node.key + part.weight + rest >= best.key:
             return
-        if guarded and not human.sees_all and human.stuck(alone):
+        if guarded and not human.sees_all and human.stuck_by_themselves(state, part):
             guarded = False  # the human's own mistake, whatever robots do
         number = self._number(Mind(self._belief(step.belief), step.intention, guarded, waited)) << 1
         for option in self.successors.with_robots(part, state):

@@ -1,4 +1,4 @@
-"""A plan in time, played beside somebody observant, epoch by epoch (semantics 6, 10.6)."""
+"""A plan in time, played beside somebody who replans, epoch by epoch (semantics 6, 10.6)."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
@@ -14,6 +14,7 @@ from search.modes.simulation.simulator import (
     Skipped,
 )
 from serendipity.facade.person.follower import Follower
+from serendipity.facade.person.sight import Sight
 from serendipity.facade.person.ways import Ways, entries_of
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Step, Task
@@ -34,23 +35,25 @@ def played_in_time(
     horizon: int | None,
     deadline: Deadline,
     mind: Follower | None = None,
+    local: bool = False,
 ) -> Simulation:
     """The robots' part of a plan, played beside a person who looks up when they are free.
 
     Args:
-        options: discount and interference.
+        options: discount, interference and head start.
         plan: their plan at the beginning, with its epochs; empty where they have none.
         steps: the plan, by ids; what it wants the person to do alone is not looked at.
         horizon: ``T``, or None for any.
         mind: what they mean to do, instead of a plan.
+        local: whether they see only what is where they are.
 
     Raises:
         LimitReachedError: the deadline ran out in the first epoch.
     """
     if mind is None:
         mind = Follower(Ways(options))
-        mind.rest = entries_of(task, task.plan_from_names(plan))
-    game = _Game(task, options, mind, steps, deadline)
+        mind.rest = entries_of(task, task.plan_from_names(plan)) if plan else ()
+    game = _Game(task, options, mind, steps, deadline, Sight(task) if local else None)
     epochs: list[SimulatedEpoch] = []
     limit = None
     while not game.over(len(epochs)) and (horizon is None or len(epochs) < horizon):
@@ -77,7 +80,9 @@ class _Game:
         mind: Follower,
         steps: Iterable[Step],
         deadline: Deadline,
+        sight: Sight | None,
     ) -> None:
+        self._sight = sight
         self._now, self._options, self._deadline = task, options, deadline
         self._mind, self._ways = mind, mind.ways
         self._left: dict[int, list[int]] = defaultdict(list)
@@ -98,7 +103,7 @@ class _Game:
         """Whether after some epochs it is done, or nothing will happen any more."""
         if passed < self._options.head_start:
             return False
-        return self.done or (self._stuck and not self._left and not self._now.script)
+        return self.done or (self._stuck and not self._left)
 
     def epoch(self, number: int) -> SimulatedEpoch:
         """Let an epoch go by."""
@@ -106,28 +111,37 @@ class _Game:
         now, mind = self._now, self._mind
         offered = sorted(self._left.pop(number, ()))
         joint = [i for i in offered if now.human in now.actions[i].participants]
-        before, saw = mind.working(now), self._saw
         busy = now.human in at_work(now) or number <= self._options.head_start  # when they are not up yet
-        choice = None if busy else mind.choose(now, self._steps(joint), self._deadline)
-        best = mind.working(now) if busy else self._plan()
+        if self._sight is not None:
+            self._saw = () if busy else self._sight.look(now)
+        saw, believed = self._saw, now if self._sight is None else self._sight.believed
+        before = mind.working(believed)
+        possible = [i for i in joint if self._sight is None or self._why_not(i, None) == REFUSED]
+        choice = None if busy else mind.choose(believed, self._steps(possible), self._deadline)
+        best = mind.working(believed) if busy else self._plan(believed)
         plan, accepted, own = mind.plan(now) or (), None, None
         if isinstance(choice, PlanStep):
             accepted = self._variant(actions_named(now, choice.action, choice.agents))
         elif choice is not None:
             own = self._variant(actions_named(now, choice, [now.agents[now.human]]))
         his = [i for i in (accepted, own) if i is not None]
+        if all(now.actions[i].applicable(now.init) for i in his):
+            broken += self._broken_off(his)
+        elif self._sight is not None:
+            self._sight.learn(now.actions[his[0]], now)
         failed = self._later(his) is None
         taken = [] if failed else his
         skipped = [Skipped(i, CONFLICT) for i in broken]
         refused = joint if accepted is None else [i for i in joint if self._name(i) != self._name(accepted)]
         skipped += [Skipped(i, self._why_not(i, accepted)) for i in refused]
         robots = self._robots([i for i in offered if i not in joint], taken, skipped)
-        if accepted is not None:
-            mind.joined()
+        if accepted is not None or (failed and self._sight is not None):
+            mind.joined()  # or will try again
         else:
             mind.passed(None if failed or own is None else now.actions[own].name)
         self._move(taken, robots)
-        self._stuck = best is None and not busy
+        happens = robots or taken or now.script or believed.script
+        self._stuck = best is None and not busy and not happens
         cost = None if before is None else now.cost_of(before)
         least = None if best is None else now.cost_of(best)
         replanned = best is not None and cost != least
@@ -136,12 +150,19 @@ class _Game:
             number, saw, cost, least, replanned, tuple(plan), done, own, failed, tuple(robots), tuple(skipped)
         )
 
-    def _broken_off(self) -> list[int]:
-        """What can't go on with this epoch, and is given up: first what robots are at."""
+    def _broken_off(self, his: Sequence[int] = ()) -> list[int]:
+        """What can't go on with this epoch, and is given up: first what robots are at.
+
+        Args:
+            his: what the person begins, to whom only bystanders don't give way.
+        """
         given_up = list[int]()
-        while self._later(()) is None:
+        while self._later(his) is None:
             script, human = self._now.script, self._now.human
-            deeds = [deed for deed in script.begun(1) if deed.agent not in script.people] or script.begun(1)
+            others = [deed for deed in script.begun(1) if deed.agent not in script.people]
+            deeds = others or (() if his else script.begun(1))
+            if not deeds:
+                break
             worst = max(deeds, key=lambda deed: (deed.agent != human, deed.agent))
             given_up += actions_named(self._now, *self._said(worst.variants[0]))[:1]
             kept = tuple(deed for deed in script.deeds if deed is not worst)
@@ -150,9 +171,9 @@ class _Game:
             )
         return given_up
 
-    def _plan(self) -> HumanPlan | None:
-        """What the person means to do, if there is a way."""
-        return None if self._ways.of(self._now, self._deadline) is None else self._mind.working(self._now)
+    def _plan(self, believed: Task) -> HumanPlan | None:
+        """What the person means to do, if there is a way as they believe things to be."""
+        return None if self._ways.of(believed, self._deadline) is None else self._mind.working(believed)
 
     def _robots(self, offered: Sequence[int], his: Sequence[int], skipped: list[Skipped]) -> list[int]:
         """What robots begin without the person, who has priority; among them the smaller id."""
@@ -179,6 +200,8 @@ class _Game:
         assert later is not None, "what is begun was tried before"
         alone = later.init if expected is None else expected.init
         self._saw = tuple((fact, fact in later.init) for fact in sorted(alone ^ later.init))
+        if self._sight is not None:
+            self._sight.passed(self._now.actions[i] for i in his)
         self._now = later
 
     def _later(self, begun: Iterable[int]) -> Task | None:

@@ -66,11 +66,7 @@ class PlayedPlan:
         self._require_free(begun)
         self._going += [_Going(action, action.duration) for action in begun]
         changes = [self._change(going) for going in self._going]
-        for a, b in combinations([change for change in changes if change.add or change.delete], 2):
-            if conflicting(a, b, strict=False):
-                raise BrokenPlanError(a, f"and '{b.name}' change the same fact in epoch {self.epoch}")
-        if self._strict:
-            self._require_undisturbed(changes)
+        self._require_undisturbed(changes)
         self.state = self.state.difference(*[change.delete for change in changes])
         self.state = self.state.union(*[change.add for change in changes])
         true, false = self._script.changes(self.epoch)
@@ -129,8 +125,11 @@ class PlayedPlan:
         self._ask(timing.at_end, action, "can't end")
         return end
 
-    def _require_undisturbed(self, changes: Iterable[GroundAction]) -> None:
-        for a, b in combinations(changes, 2):
+    def _require_undisturbed(self, changes: Sequence[GroundAction]) -> None:
+        for a, b in combinations([change for change in changes if change.add or change.delete], 2):
+            if conflicting(a, b, strict=False):
+                raise BrokenPlanError(a, f"and '{b.name}' change the same fact in epoch {self.epoch}")
+        for a, b in combinations(changes, 2) if self._strict else ():
             if conflicting(a, b, strict=True):
                 raise BrokenPlanError(a, f"and '{b.name}' disturb each other in epoch {self.epoch}")
 
@@ -138,6 +137,19 @@ class PlayedPlan:
         unmet = first_unmet(condition, self.state, self._facts)
         if unmet is not None:
             raise BrokenPlanError(action, f"{words}: {unmet}")
+
+
+class SupposedPlan(PlayedPlan):
+    """The same as somebody takes it to be who may be wrong: all goes on, whatever it asks."""
+
+    def _require_free(self, begun: Sequence[GroundAction]) -> None:
+        """They may be wrong about that."""
+
+    def _require_undisturbed(self, changes: Sequence[GroundAction]) -> None:
+        """They may be wrong about that."""
+
+    def _ask(self, condition: Condition, action: GroundAction, words: str) -> None:
+        """They may be wrong about that."""
 
 
 def first_unmet(condition: Condition, state: AbstractSet[int], facts: Sequence[str]) -> str | None:

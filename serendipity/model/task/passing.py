@@ -4,14 +4,15 @@ What is left of the script counts from there, and what has begun is part of it: 
 on with what is left of it, and nobody chooses anything about that, or pays for it again.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Set as AbstractSet
 from dataclasses import replace
 from fractions import Fraction
 from itertools import chain
 from typing import Any
 
 from serendipity.model.task.actions import GroundAction
-from serendipity.model.task.course import PlayedPlan
+from serendipity.model.task.course import PlayedPlan, SupposedPlan
 from serendipity.model.task.script import Deed, Timeline
 from serendipity.model.task.task import Task
 
@@ -25,7 +26,36 @@ def epoch_later(task: Task, begun: Iterable[GroundAction], *, strict: bool = Fal
     Raises:
         BrokenPlanError: something can't begin, go on or end, or two actions are in each other's way.
     """
-    course = PlayedPlan(task.facts, task.init, task.script, strict=strict)
+    return _passed(task, PlayedPlan(task.facts, task.init, task.script, strict=strict), begun)
+
+
+def supposed_later(task: Task, begun: Iterable[GroundAction]) -> Task:
+    """The same for a task as somebody believes it to stand, who may be wrong about what goes on."""
+    return _passed(task, SupposedPlan(task.facts, task.init, task.script), begun)
+
+
+def as_seen(believed: Task, now: Task, facts: Callable[[int], bool], agents: AbstractSet[int]) -> Task:
+    """The task as somebody believes it to stand after a look (semantics 10.6).
+
+    Args:
+        believed: before it.
+        now: as it truly stands.
+        facts: whether they see a fact.
+        agents: ids of those whom they see, and themselves.
+    """
+    known = now.script.people | agents
+    work = [(deed, frozenset(deed.variants[0].participants)) for deed in now.script.begun(1)]
+    shown = known.union(*(who for _, who in work if not who.isdisjoint(known)))
+    others = believed.script.begun(1)
+    kept = (deed for deed in others if shown.isdisjoint(deed.variants[0].participants))
+    true = (deed for deed, who in work if not who.isdisjoint(shown))
+    later = (deed for deed in now.script.deeds if deed.epoch > 1)
+    state = believed.init ^ frozenset(fact for fact in believed.init ^ now.init if facts(fact))
+    script = replace(now.script, deeds=(*later, *true, *kept))
+    return replace(now.at(state), script=script, known_variables=now.variables)
+
+
+def _passed(task: Task, course: PlayedPlan, begun: Iterable[GroundAction]) -> Task:
     course.begin(begun)
     going = (Deed(1, doer(task, action), (_rest(action, epochs),)) for action, epochs in course.going)
     moved = task.at(course.state)

@@ -69,6 +69,7 @@ class Task(Told):
         at_rest: facts that say of each robot that it is at nothing, as all have to be at the end.
         own_goals: of other agents, by id, as far as the input says whose they are: what they plan for as
             bystanders, or if they are the human instead.
+        in_time: the task that this one says in single epochs, else None.
         epoch: of an epoch, how long it is in the unit of the input (of PDDL's durations), for people.
         variables: finite-domain variables behind the facts; each fact is in exactly one.  They
             follow from facts, initial state and actions.
@@ -94,6 +95,7 @@ class Task(Told):
     due: tuple[tuple[int, int], ...] = ()
     at_rest: tuple[int, ...] = ()
     own_goals: tuple[tuple[int, Condition], ...] = ()
+    in_time: "Task | None" = field(default=None, repr=False, compare=False)
     variables: tuple[Variable, ...] = field(init=False, repr=False, compare=False)
     known_variables: InitVar[tuple[Variable, ...] | None] = field(default=None, kw_only=True)
 

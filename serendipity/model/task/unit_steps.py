@@ -311,6 +311,7 @@ class _Steps:
             at_rest=tuple(sorted(set(self._free.values()) - set(theirs))),
             due=tuple((fact, numbers[id(action)]) for fact, action in self._due),
             script=Timeline(people=frozenset(people)),
+            in_time=task,
             known_variables=self._variables(
                 find_variables(facts, init, tuple(every), deadline, self._at_work)
             ),

@@ -3,18 +3,22 @@
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
+from fractions import Fraction
 from random import Random
 from typing import Final
 
 from serendipity.model import Condition, GroundAction, PlanError, Script, Task, Timing
 from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.generator.tasks import random_task
+from serendipity.testing.generator.tasks import corridor, errands, random_task, varied
 from serendipity.testing.oracle import optimal_human_plan
 
 _DURATIONS: Final = (1, 1, 1, 2, 2, 3)
 _LAST_EPOCH: Final = 6
 _LONGEST: Final = 8
 """Epochs of the human's plan: to prove what is best beside a longer one may take a minute."""
+
+_LONGEST_LOCAL: Final = 6
+"""The same of who sees what is where they are: what they believe makes for many more moments."""
 
 _BYSTANDERS, _OBSERVANT = 0.3, 0.25
 """Shares of tasks with a bystander, among those with several robots, and of calls about who replans."""
@@ -59,6 +63,69 @@ def random_call_in_time(seed: int) -> PlanCall:
     if options["mode"] == "serendipity" and others.random() < _OBSERVANT:
         options |= {"human_model": "observant", "no_block": others.choice(("true", "true", "false"))}
     return PlanCall(task, options, given, seed)
+
+
+def random_local_call(seed: int) -> PlanCall:
+    """A small random call in time about who sees what is where they are; equal seeds give equal calls."""
+    dice = Random(f"local in time {seed}")
+    while True:
+        plain = varied(dice, dice.choice((corridor, corridor, errands))(dice), robots_want=0)
+        task = _in_time(dice, sighted(dice, plain))
+        if dice.random() < _BYSTANDERS:
+            task = _with_bystander(dice, task)
+        plan = optimal_human_plan(task)
+        if task.needs_time and (plan is None or task.epochs_of(plan) <= _LONGEST_LOCAL):
+            break
+    options = {
+        "mode": "serendipity",
+        "human_model": "local",
+        "no_block": dice.choice(("true", "true", "false")),
+    }
+    for name in ("discount", "interference", "head_start"):
+        if value := dice.choice(_CHOICES[name]):
+            options[name] = value
+    if task.script.people:
+        options["nobody_pays"] = "false"
+    return PlanCall(task, options, None, seed)
+
+
+def sighted(dice: Random, task: Task) -> Task:
+    """The task with places: facts that are about where the human is, robots about, or something there."""
+    places = [f"p{i}" for i in range(sum(fact.startswith("at") for fact in task.facts) or 2)]
+    human, robots = task.agents[task.human], [task.agents[i] for i in task.robots]
+
+    def named(fact: str) -> str:
+        who = next((name for name in (human, *robots) if fact.startswith(name)), None)
+        if fact.startswith("at"):
+            return f"at {human} p{fact[2:]}"
+        if who is not None and fact[len(who) :].isdecimal():
+            return f"at {who} p{fact[len(who) :]}"
+        return f"{fact} {dice.choice((*places, *robots, human))}"
+
+    facts = [named(fact) for fact in task.facts]
+    still = [f"at {robot} {place}" for robot in robots for place in places]
+    still = [fact for fact in still if not any(f.startswith(fact.rpartition(" ")[0]) for f in facts)]
+    ids = {fact: len(facts) + i for i, fact in enumerate(still)}
+    actions, init = [*task.actions], set(task.init)
+    for agent, robot in zip(task.robots, robots, strict=True):
+        own = [ids[fact] for fact in still if fact.startswith(f"at {robot} ")]
+        if own:
+            init.add(dice.choice(own))
+            cost = dice.choice((Fraction(0), Fraction(1)))
+            actions += [
+                GroundAction(f"go {robot} {i} {j}", (agent,), (a,), (), (b,), (a,), cost)
+                for i, a in enumerate(own)
+                for j, b in enumerate(own)
+                if abs(i - j) == 1
+            ]
+            actions = [
+                replace(one, pre=tuple(sorted({*one.pre, dice.choice(own)})))
+                if one.participants == (agent,) and not one.name.startswith("go ") and dice.random() < 0.5
+                else one
+                for one in actions
+            ]
+    every = tuple(sorted(actions, key=lambda action: action.key))
+    return replace(task, facts=(*facts, *still), init=frozenset(init), actions=every)
 
 
 def _in_time(dice: Random, task: Task) -> Task:

@@ -4,7 +4,7 @@ A part asks what has to hold before its epoch, and does what takes effect in it:
 and effects at start, the last those at end, and all but the first ask for what holds over all.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from functools import cache
 from itertools import combinations
 from typing import NamedTuple
@@ -71,7 +71,7 @@ class World:
         self.settled = task.script.last
         deeds = [action for deed in task.script.deeds for action in deed.variants]
         self._numbers = {id(action): len(task.actions) + i for i, action in enumerate(deeds)}
-        self._who = [action.participants for action in (*task.actions, *deeds)]
+        self._who = [frozenset(action.participants) for action in (*task.actions, *deeds)]
         self._parts = [parts_of(action) for action in (*task.actions, *deeds)]
         self._strict = strict
         self._share = cache(self._may_share)
@@ -110,6 +110,24 @@ class World:
                 return None
             going = (*going, (action, 0))
         return self._outcome(moment, epoch, going)
+
+    def supposed(self, moment: Moment, epoch: int, begun: Iterable[int]) -> Moment:
+        """The same as somebody takes it to be who may be wrong: all goes on, whatever it asks."""
+        going = (*moment.going, *((i, 0) for i in begun))
+        for deed in self.task.script.begun(epoch):
+            numbers = [self._numbers[id(action)] for action in deed.variants]
+            possible = (i for i in numbers if usable(self._parts[i][0], moment.state))
+            going = (*going, (next(possible, numbers[0]), 0))
+        onward = self._outcome(moment, epoch, going)
+        assert onward is not None, "nobody who may be wrong notices help"
+        return onward
+
+    def seen(self, believed: Going, true: Going, agents: Collection[int]) -> Going:
+        """What somebody takes to be under way who sees what some agents are at, and with whom."""
+        shown = {agent for i, _ in true if not self._who[i].isdisjoint(agents) for agent in self._who[i]}
+        shown.update(agents)
+        kept = [one for one in believed if self._who[one[0]].isdisjoint(shown)]
+        return tuple(sorted((*kept, *(one for one in true if not self._who[one[0]].isdisjoint(shown)))))
 
     def idled(self, moment: Moment, epoch: int, last: int) -> Moment | None:
         """The moment after epoch ``last``, everybody idle until then; None where a bystander is disturbed."""

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from serendipity.model import HumanPlan, Options, Task
+from serendipity.model import HumanPlan, Options, Task, surroundings
 from serendipity.testing.oracle.alone import Alone, human_plans
-from serendipity.testing.oracle.epochs import State, after, holds, usable
+from serendipity.testing.oracle.epochs import State, holds, usable
 from serendipity.testing.oracle.moments import Moment
 
 Visible = Callable[[int, int, State], bool]
@@ -23,7 +23,7 @@ class BeliefState:
     """How things are, what the human believes, what remains of their plan, epochs waited and not paid for."""
 
     moment: Moment
-    belief: State
+    belief: Moment
     plan: Slots
     waited: int = 0
 
@@ -55,7 +55,8 @@ def best_reaction(
     world = _World(task, options, visible)
     reached: list[tuple[Fraction, int]] = []
     slots = _slots(task, task.starts_of(human_plan), human_plan, task.epochs_of(human_plan))
-    layer = {BeliefState(Moment(task.init), task.init, slots): (Fraction(0), 0)}
+    start = Moment(task.init)
+    layer = {BeliefState(start, start, slots): (Fraction(0), 0)}
     for epoch in range(horizon + 1):
         following: dict[BeliefState, tuple[Fraction, int]] = {}
         for now, (cost, actions) in layer.items():
@@ -85,6 +86,7 @@ class _World:
         self.task = task
         self.options = options
         self.visible = visible
+        self.places = surroundings(task)
         self.alone = Alone(task, options.waiting_cost, strict=options.strict)
         self.world = self.alone.world
         self.robots = [i for i, a in enumerate(task.actions) if task.human not in a.participants]
@@ -109,20 +111,19 @@ class _World:
             waited = 0 if his else now.waited + bool(idle)
             for chosen, onward in self.world.sets(now.moment, epoch + 1, [*his, *self.robots]):
                 if chosen[: len(his)] == his and not self._forbidden(now.moment, epoch, his, onward):
-                    yield chosen, BeliefState(onward, believed(onward.state), rest, waited)
+                    yield chosen, BeliefState(onward, believed(onward), rest, waited)
 
     def _his_part(
         self, now: BeliefState, epoch: int
-    ) -> Iterator[tuple[tuple[int, ...], Slots, Callable[[State], State]]]:
+    ) -> Iterator[tuple[tuple[int, ...], Slots, Callable[[Moment], Moment]]]:
         """The human's part: a joint action that they would accept, or what they mean to do."""
         if self.world.busy(now.moment, self.task.human):
-            yield (), now.plan, lambda state: state
+            yield (), now.plan, self._believing(now.belief, epoch, ())
             return
         if epoch < self.options.head_start:  # they are not up yet
-            yield (), now.plan[1:], lambda state: state
+            yield (), now.plan[1:], self._believing(now.belief, epoch, ())
             return
-        belief = self._look(now)
-        there = now.moment._replace(state=belief)
+        there = self._look(now)
         kept, best, plan = self._cost_of(now.plan, there, epoch), self._alone(there, epoch), now.plan
         if best is not None and (kept is None or best < kept):
             plan = self._plan(there, epoch)
@@ -131,23 +132,23 @@ class _World:
             if after_it is not None and usable(self.task.actions[j], now.moment.state):
                 rest = self._alone(after_it, epoch + 1)
                 if best is None or (rest is not None and self.task.actions[j].cost + rest <= best):
-                    yield (j,), plan, self._believing(belief, (j,))
+                    yield (j,), plan, self._believing(there, epoch, (j,))
         if best is None or not plan:
-            yield (), plan, self._believing(belief, ())
+            yield (), plan, self._believing(there, epoch, ())
         elif plan[0] is None:
-            yield (), plan[1:], self._believing(belief, ())
+            yield (), plan[1:], self._believing(there, epoch, ())
         elif usable(action := self.task.actions[plan[0]], now.moment.state):
-            yield (plan[0],), plan[1:], self._believing(belief, (plan[0],))
+            yield (plan[0],), plan[1:], self._believing(there, epoch, (plan[0],))
         else:
             truth = {*action.pre, *action.neg}
-            learnt = frozenset((belief - truth) | (now.moment.state & truth))
-            yield (), plan, self._believing(learnt, ())
+            learnt = frozenset((there.state - truth) | (now.moment.state & truth))
+            yield (), plan, self._believing(there._replace(state=learnt), epoch, ())
 
-    def _believing(self, belief: State, done: tuple[int, ...]) -> Callable[[State], State]:
-        """What they believe after an epoch, by how things are: those who see everything, the truth."""
+    def _believing(self, belief: Moment, epoch: int, begun: tuple[int, ...]) -> Callable[[Moment], Moment]:
+        """What they believe after one more epoch, by how things are: those who see everything, the truth."""
         if self.options.human_model == "observant":
-            return lambda state: state
-        onward = after(belief, [self.task.actions[i] for i in done])
+            return lambda truth: truth
+        onward = self.world.supposed(belief, epoch + 1, begun)
         return lambda _: onward
 
     def _forbidden(self, before: Moment, epoch: int, his: tuple[int, ...], onward: Moment) -> bool:
@@ -158,14 +159,17 @@ class _World:
         without_robots = self.world.after(before, epoch + 1, his)
         return without_robots is not None and self._alone(without_robots, epoch + 1) is not None
 
-    def _look(self, now: BeliefState) -> State:
+    def _look(self, now: BeliefState) -> Moment:
         state = now.moment.state
         if self.options.human_model == "observant":
-            return state
+            return now.moment
         assert self.visible is not None, "brute force is told what is visible"
         human = self.task.human
         seen = {f for f in range(len(self.task.facts)) if self.visible(human, f, state)}
-        return frozenset((now.belief - seen) | (state & seen))
+        facts = frozenset((now.belief.state - seen) | (state & seen))
+        near = self.places.near(human, state) if self.places.located else self.task.agents
+        shown = {human, *self.task.script.people, *(i for i, a in enumerate(self.task.agents) if a in near)}
+        return Moment(facts, self.world.seen(now.belief.going, now.moment.going, shown))
 
     def _alone(self, moment: Moment, epoch: int) -> Fraction | None:
         """What they still pay alone, once they are free."""

@@ -176,8 +176,8 @@ def test_nobody_takes_part_before_they_are_up_where_nothing_takes_longer() -> No
 
 
 def test_what_is_not_settled_is_refused() -> None:
-    with pytest.raises(UsageError, match="expected omniscient or observant, got local"):
-        serendipity.plan(gate(opening=2), human_model="local")
+    with pytest.raises(UsageError, match="waiting_cost: beside a human who sees what is near"):
+        serendipity.plan(gate(opening=2), human_model="local", waiting_cost=1)
     found = serendipity.plan(gate(opening=2), human_model="observant", waiting_cost=1)
     with pytest.raises(UsageError, match="waiting_cost: a simulation counts no price of waiting"):
         serendipity.simulate(gate(opening=2), found)

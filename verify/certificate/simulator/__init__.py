@@ -3,5 +3,6 @@
 from verify.certificate.simulator.check import realised_claim
 from verify.certificate.simulator.person import ReplanningPerson
 from verify.certificate.simulator.run import MomentOfPlay, Play, PlayedOut, play
+from verify.certificate.simulator.sight import Sight
 
-__all__ = ["MomentOfPlay", "Play", "PlayedOut", "ReplanningPerson", "play", "realised_claim"]
+__all__ = ["MomentOfPlay", "Play", "PlayedOut", "ReplanningPerson", "Sight", "play", "realised_claim"]

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
-from serendipity.model import Options, Step, Task, Visible, surroundings
+from serendipity.model import Options, Step, Task, Visible
 from serendipity.model.keywords import Horizon
 from verify.base.due import onward
 from verify.base.execution import State, after, applicable, fits, idling, met, price, unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.certificate.simulator.person import ReplanningPerson
+from verify.certificate.simulator.sight import Sight
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,11 +108,8 @@ def play(
             orders.setdefault(step.epoch, []).append(step.action)
     person = person or ReplanningPerson(task, OptimalPlans(task), strict=options.strict)
     deadline = person.deadline
-    if human_model != "local":
-        visible = None
-    elif visible is None:
-        visible = surroundings(task, deadline.tick).visible
-    game = Play(task, options, person, visible)
+    sight = Sight(task, visible, deadline.tick) if human_model == "local" else None
+    game = Play(task, options, person, sight)
     last = max(orders, default=0)
     now, deeds = game.start(human_plan), list[PlayedEpoch]()
     while not game.done(now) and len(deeds) != horizon:
@@ -132,14 +130,14 @@ class Play:
     """The rules of semantics 6 for one task and one human.
 
     Args:
-        sees: what they see of a state; None for everything.
+        sight: how they see; None for everything.
     """
 
-    def __init__(self, task: Task, options: Options, person: ReplanningPerson, sees: Visible | None) -> None:
+    def __init__(self, task: Task, options: Options, person: ReplanningPerson, sight: Sight | None) -> None:
         self.task = task
         self.strict = options.strict
         self.person = person
-        self.sees = sees
+        self.sight = sight
         self.waiting = idling(task)
         self._unchosen = unchosen(task)
         self._prices_waiting = bool(options.waiting_cost)
@@ -157,11 +155,7 @@ class Play:
 
     def looked(self, now: MomentOfPlay) -> State:
         """The human's belief after a look: all of the state, or what is visible of it."""
-        if self.sees is None:
-            return now.state
-        doubtful = now.state ^ now.belief
-        human = self.task.human
-        return now.belief ^ frozenset(f for f in doubtful if self.sees(human, f, now.state))
+        return now.state if self.sight is None else self.sight.looked(now.belief, now.state)
 
     def look(self, now: MomentOfPlay) -> Look:
         """Step 1: ``rho`` is kept or replaced."""
@@ -190,11 +184,9 @@ class Play:
         for i in offers:
             if not self.with_him(i):
                 (executed if self._fits(i, executed, now.state) else skipped).append(i)
-        belief = now.belief
-        if learned is not None:
-            belief = learned
-        elif his is not None:
-            belief = self._after(belief, [his])
+        belief = now.belief if learned is None else learned
+        if self.sight is not None:
+            belief = self._after(belief, met(self.task, belief, () if his is None else (his,)))
         state = self._after(now.state, executed)
         blocks = self._stuck(state) and not self._stuck(now.state) and not self._stuck(alone)
         theirs = [i for i in executed if self.with_him(i)]
@@ -221,10 +213,10 @@ class Play:
                 yield i
 
     def _worth_it(self, joint: int, look: Look) -> bool:
-        if look.best is None:
-            return True
         begun = onward(self.task, look.now.belief, (joint,), strict=self.strict)
-        rest = None if begun is None else self.person.cost(begun)
+        if begun is None or look.best is None:
+            return begun is not None
+        rest = self.person.cost(begun)
         return rest is not None and self.task.actions[joint].cost + rest <= look.best
 
     def _own_step(self, look: Look) -> tuple[int | None, State | None]:
