@@ -124,11 +124,7 @@ class Companion:
         return Course(steps or (), keys.cost(best.key), alone, proved)
 
     def played(self, start: Start, steps: Sequence[Step], deadline: Deadline) -> Simulation:
-        """What becomes of the robots' part of a plan.
-
-        Raises:
-            LimitReachedError: the deadline ran out in the first epoch, or before it.
-        """
+        """What becomes of the robots' part of a plan; see :func:`.simulate`."""
         self._clock.renew(deadline)
         return simulate_from(start, self.human, self._options, steps, horizon=None, deadline=deadline)
 

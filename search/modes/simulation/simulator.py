@@ -133,34 +133,14 @@ def simulate_from(
     horizon: int | None,
     deadline: Deadline,
 ) -> Simulation:
-    """The same from any moment, with a human who is there already.
-
-    Args:
-        start: where it begins.
-        human: the human; every action of ``steps`` is packed.
-        options: discount and interference.
-        steps: the composite plan, its epochs counted from the start.
-        horizon: ``T``, or None for any.
-
-    Raises:
-        LimitReachedError: the deadline ran out in the first epoch, or before it.
-    """
+    """The same from any moment, with a human who is there already; every action of ``steps`` is packed."""
     return _Run(options, human, steps, start, deadline).play(horizon)
 
 
 def way_on(
     start: Start, human: Human, options: Options, steps: Sequence[Step], deadline: Deadline
 ) -> Simulation | None:
-    """A plan that was made for another moment, played; None where it does not lead to the goals.
-
-    Args:
-        start: where it begins.
-        options: discount and interference.
-        steps: the plan, its epochs counted from the start.
-
-    Raises:
-        LimitReachedError: the deadline ran out in the first epoch, or before it.
-    """
+    """A plan that was made for another moment, played as before; None where it misses the goals."""
     if not steps or not all(human.packed.is_useful(step.action) for step in steps):
         return None
     played = simulate_from(start, human, options, steps, horizon=None, deadline=deadline)
