@@ -123,7 +123,8 @@ class _Game:
         if isinstance(choice, PlanStep):
             accepted = self._variant(actions_named(now, choice.action, choice.agents))
         elif choice is not None:
-            own = self._variant(actions_named(now, choice, [now.agents[now.human]]))
+            ids = actions_named(now, choice, [now.agents[now.human]])
+            own = next((i for i in ids if now.actions[i].applicable(believed.init)), ids[0])
         his = [i for i in (accepted, own) if i is not None]
         if all(now.actions[i].applicable(now.init) for i in his):
             broken += self._broken_off(his)

@@ -110,6 +110,12 @@ def test_who_is_wrong_about_what_they_believe_is_refuted(
     assert verdicts == ["refuted", "proved"], name
 
 
+def test_they_try_the_variant_that_they_believe_to_be_possible() -> None:
+    call = random_local_call(2750)
+    found = answered(call)
+    assert (found.cost, serendipity.simulate(call.task, found, "local").realised) == (3, True)
+
+
 def test_a_doctored_answer_is_refuted() -> None:
     task = kitchen()
     found = serendipity.plan(task, discount="0.5", human_model="local")
