@@ -1,6 +1,6 @@
 """What help has to leave as it would be without it (semantics 12)."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -47,9 +47,14 @@ def is_kept(task: Task, rule: Kept, answer: Answer | ServedGoal, last: int | Non
 
 def left(call: Request, rule: Kept, answer: Answer) -> list[tuple[Literal, Fraction]]:
     """What an answer leaves that is priced, the dearest first."""
+    return left_by(call.task, rule, answer.steps or (), int(answer.horizon or 0))
+
+
+def left_by(task: Task, rule: Kept, steps: Sequence[Step], last: int) -> list[tuple[Literal, Fraction]]:
+    """The same of what happens until ``T``, the last epoch."""
     if not rule.prices:
         return []
-    state = _played(call.task, answer.steps or (), int(answer.horizon or 0))
+    state = _played(task, steps, last)
     found = [(literal, price) for literal, price in rule.prices if (literal[0] in state) is not literal[1]]
     return sorted(found, key=lambda one: -one[1])
 
@@ -116,11 +121,18 @@ def _condition(literals: Iterable[tuple[int, bool]]) -> Condition:
 
 def with_goals(task: Task, facts: Condition, literals: Iterable[Literal] = ()) -> Task:
     """The task with more goals of the robots'."""
-    more = _condition(literals)
-    own = task.robot_goal
-    positive = {*own.positive, *facts.positive, *more.positive}
-    negative = {*own.negative, *facts.negative, *more.negative}
-    return task.with_goal(task.goal, Condition(tuple(sorted(positive)), tuple(sorted(negative))))
+    return task.with_goal(
+        task.goal, with_literals(with_literals(task.robot_goal, literals), _literals(facts))
+    )
+
+
+def with_literals(condition: Condition, literals: Iterable[Literal]) -> Condition:
+    """A condition that asks for more."""
+    return _condition(_literals(condition) | {*literals})
+
+
+def _literals(condition: Condition) -> _Literals:
+    return {*((fact, True) for fact in condition.positive), *((fact, False) for fact in condition.negative)}
 
 
 def _due(task: Task, state: frozenset[int]) -> list[GroundAction]:
@@ -175,9 +187,7 @@ def _undisturbed(task: Task, state: frozenset[int]) -> _Literals:
 
     def ask(condition: Condition) -> _Literals | None:
         """The literals of a condition that nothing has changed since; None where it does not hold."""
-        literals = {(fact, True) for fact in condition.positive} | {
-            (fact, False) for fact in condition.negative
-        }
+        literals = _literals(condition)
         return {one for one in literals if one[0] not in touched} if condition.holds(state) else None
 
     ends = {agent: ask(goals.get(agent, Condition())) for agent in people}

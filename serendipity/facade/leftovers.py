@@ -5,9 +5,9 @@ call with one more goal of the robots', or paid for; those before it in the row 
 """
 
 import heapq
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from fractions import Fraction
-from typing import Final, NamedTuple
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
 from serendipity.facade.call import Request
 from serendipity.facade.kept import Kept, Literal, left
@@ -15,13 +15,33 @@ from serendipity.model import Step, Task
 from serendipity.model.answers.answer import Answer
 from serendipity.model.options import Options
 
-Keep = Callable[[frozenset[Literal]], Iterator[Answer]]
+L = TypeVar("L", bound=Hashable)
+"""A priced literal, by what it is kept for."""
+
+Keep = Callable[[frozenset[L]], Iterator[Answer]]
 """Answers to the call without prices, with some priced literals kept."""
 
-_NOTHING: Final[frozenset[Literal]] = frozenset()
+
+class Question(Protocol[L]):
+    """A call whose answers pay for what they leave."""
+
+    def least(self, kept: frozenset[L], paid: frozenset[L]) -> Fraction:
+        """What is to be paid if some literals are kept, and some left."""
+
+    def open(self, found: Answer, kept: frozenset[L], paid: frozenset[L]) -> list[L]:
+        """What an answer leaves that is not settled."""
+
+    def with_price(self, answer: Answer) -> Answer:
+        """An answer whose costs include what it leaves."""
+
+    def total(self, answer: Answer) -> Fraction:
+        """What is minimised."""
+
+    def settled(self, answer: Answer) -> Answer:
+        """The best answer, proved: doing nothing where it is no opportunity."""
 
 
-class _Call(NamedTuple):
+class _Call(NamedTuple, Generic[L]):
     """A call without prices that is to be answered; ordered by its bound.
 
     Attributes:
@@ -33,11 +53,11 @@ class _Call(NamedTuple):
 
     bound: Fraction
     number: int
-    kept: frozenset[Literal]
-    paid: frozenset[Literal]
+    kept: frozenset[L]
+    paid: frozenset[L]
 
 
-class _Prices:
+class Prices:
     """What has to be paid at least for what is left.
 
     Who is no more where they would be is somewhere else: of a group of facts of which exactly one is true the
@@ -78,83 +98,107 @@ class _Prices:
         return min((self._prices.get(one, Fraction(0)) for one in others), default=Fraction(0))
 
 
-def priced(call: Request, rule: Kept, keep: Keep) -> Iterator[Answer]:
+class OnePlan:
+    """A call beside one plan of the human's, whose answers pay for what they leave."""
+
+    def __init__(self, call: Request, rule: Kept) -> None:
+        self._call, self._rule, self._prices = call, rule, Prices(call.task, rule)
+        self._options = call.options
+
+    def least(self, kept: frozenset[Literal], paid: frozenset[Literal]) -> Fraction:
+        """What is to be paid if some literals are kept, and some left."""
+        return self._prices.least(kept, paid)
+
+    def open(self, found: Answer, kept: frozenset[Literal], paid: frozenset[Literal]) -> list[Literal]:
+        """What an answer leaves that is not settled."""
+        return self._prices.open(left(self._call, self._rule, found), kept, paid)
+
+    def with_price(self, answer: Answer) -> Answer:
+        """An answer whose costs include what it leaves."""
+        found = left(self._call, self._rule, answer)
+        return paying(answer, [(fact, price) for (fact, _), price in found])
+
+    def total(self, answer: Answer) -> Fraction:
+        """The objective, of doing nothing with the shortest window that it fits (semantics 3.1)."""
+        least = answer.objective or Fraction(0)
+        weight = self._options.window_weight if self._options.windowed else Fraction(0)
+        return least + weight if answer.window is None else least
+
+    def settled(self, answer: Answer) -> Answer:
+        """The best answer, proved: doing nothing where it is no opportunity."""
+        least = None if answer.baseline is None else answer.baseline - (answer.saving_alone or 0)
+        if answer.window is not None and least is not None and (answer.cost or 0) >= least:
+            steps = tuple(
+                Step(epoch, action) for epoch, action in enumerate(answer.human_plan or (), start=1)
+            )
+            nothing = answer._replace(
+                steps=steps, window=None, left=(), saving=Fraction(0), opportunity=False
+            )
+            answer = nothing._replace(cost=answer.baseline, objective=answer.baseline)
+        helps = answer.opportunity and (least is None or (answer.cost or 0) < least)
+        return answer._replace(status="optimal", lower_bound=answer.objective, opportunity=helps)
+
+
+def paying(answer: Answer, found: Iterable[tuple[int, Fraction]]) -> Answer:
+    """An answer with what it leaves, and the prices of that among its costs."""
+    listed = tuple(found)
+    price = sum((price for _, price in listed), Fraction(0))
+    return answer._replace(
+        cost=(answer.cost or 0) + price,
+        objective=(answer.objective or 0) + price,
+        saving=None if answer.saving is None else answer.saving - price,
+        left=listed,
+    )
+
+
+def priced(options: Options, question: Question[L], keep: Keep[L]) -> Iterator[Answer]:
     """Answers with what they leave among their costs, as they get better.
 
     Args:
-        call: the call.
-        rule: what has to be kept, and what costs something.
+        options: of the call.
+        question: what answers leave, and what that costs.
         keep: answers it without prices.
     """
-    calls, number = [_Call(Fraction(0), 0, _NOTHING, _NOTHING)], 0
+    nothing = frozenset[L]()
+    calls, number = [_Call(Fraction(0), 0, nothing, nothing)], 0
     best: Answer | None = None
     alone: Fraction | None = None  # known where nothing is kept, which would be a goal of the robots'
-    prices = _Prices(call.task, rule)
-    while calls and (best is None or calls[0].bound <= _total(call.options, best)):
+    while calls and (best is None or calls[0].bound <= question.total(best)):
         bound, _, kept, paid = heapq.heappop(calls)
         *_, found = keep(kept)
         alone = found.saving_alone if not kept else alone
         found = found._replace(saving_alone=alone)
         if found.cost is not None:
-            candidate = _with_price(call, rule, found)
-            if best is None or _order(call.options, candidate) < _order(call.options, best):
+            candidate = question.with_price(found)
+            if best is None or _order(question, candidate) < _order(question, best):
                 best = candidate
         if found.status not in ("optimal", "infeasible"):
-            yield _unproved(call.options, best or found, bound)
+            yield _unproved(options, question, best or found, bound)
             return
         if found.status == "infeasible":
             if best is None and not calls:
                 yield found
             continue
-        for literal in prices.open(left(call, rule, found), kept, paid):
+        for literal in question.open(found, kept, paid):
             number += 1
             more = kept | {literal}
-            least = _total(call.options, found) + prices.least(more, paid)
+            least = question.total(found) + question.least(more, paid)
             heapq.heappush(calls, _Call(max(bound, least), number, more, paid))
             paid |= {literal}
         if best is not None and calls:
-            yield _unproved(call.options, best, calls[0].bound)
+            yield _unproved(options, question, best, calls[0].bound)
     if best is not None:
-        yield _settled(best)
+        yield question.settled(best)
 
 
-def _with_price(call: Request, rule: Kept, answer: Answer) -> Answer:
-    """An answer whose costs include what it leaves."""
-    found = left(call, rule, answer)
-    price = sum((price for _, price in found), Fraction(0))
-    return answer._replace(
-        cost=(answer.cost or 0) + price,
-        objective=(answer.objective or 0) + price,
-        saving=None if answer.saving is None else answer.saving - price,
-        left=tuple((fact, price) for (fact, _), price in found),
-    )
+def _order(question: Question[L], answer: Answer) -> tuple[Fraction, Fraction]:
+    return question.total(answer), answer.cost or Fraction(0)
 
 
-def _total(options: Options, answer: Answer) -> Fraction:
-    """The objective, of doing nothing with the shortest window that it fits (semantics 3.1)."""
-    least = answer.objective or Fraction(0)
-    return least + options.window_weight if options.windowed and answer.window is None else least
-
-
-def _order(options: Options, answer: Answer) -> tuple[Fraction, Fraction]:
-    return _total(options, answer), answer.cost or Fraction(0)
-
-
-def _settled(answer: Answer) -> Answer:
-    """The best answer, proved: doing nothing where it is no opportunity."""
-    least = None if answer.baseline is None else answer.baseline - (answer.saving_alone or 0)
-    if answer.window is not None and least is not None and (answer.cost or 0) >= least:
-        steps = tuple(Step(epoch, action) for epoch, action in enumerate(answer.human_plan or (), start=1))
-        nothing = answer._replace(steps=steps, window=None, left=(), saving=Fraction(0), opportunity=False)
-        answer = nothing._replace(cost=answer.baseline, objective=answer.baseline)
-    helps = answer.opportunity and (least is None or (answer.cost or 0) < least)
-    return answer._replace(status="optimal", lower_bound=answer.objective, opportunity=helps)
-
-
-def _unproved(options: Options, answer: Answer, bound: Fraction) -> Answer:
+def _unproved(options: Options, question: Question[L], answer: Answer, bound: Fraction) -> Answer:
     """An answer on the way, or at a limit."""
     if answer.cost is None:
         return answer
     least = max(Fraction(0), bound - options.window_weight) if options.windowed else bound
-    nothing = _settled(answer)
+    nothing = question.settled(answer)
     return nothing._replace(status="feasible", lower_bound=min(least, nothing.objective or least))

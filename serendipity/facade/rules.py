@@ -7,14 +7,26 @@ answered with what has to be kept as goals of the robots, and with a task that a
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any, Final
+from typing import Final
 
 from search import PreparedTask
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade.call import Request
-from serendipity.facade.kept import Kept, Literal, epochs, is_kept, kept, kept_by, left, with_goals
-from serendipity.facade.leftovers import priced
-from serendipity.model import Deadline, HumanPlan, Options, Step, Task, UsageError
+from serendipity.facade.kept import (
+    Kept,
+    Literal,
+    epochs,
+    is_kept,
+    kept,
+    kept_by,
+    left,
+    left_by,
+    with_goals,
+    with_literals,
+)
+from serendipity.facade.leftovers import OnePlan, priced
+from serendipity.facade.leftovers_over_scenarios import Literals, OverScenarios
+from serendipity.model import Condition, Deadline, HumanPlan, Options, Step, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import INFINITE
@@ -48,19 +60,17 @@ def answers(call: Request, plan: HumanPlan | None, solve: Solve) -> Iterator[Ans
         if answer.horizon == INFINITE:
             _refuse_infinite(call.options)
             return True
-        known, rule = _is_calm(call, answer) and _is_noticed(call, answer), kept_by(call, answer)
+        known, rule = _is_known(call, call.task, answer), kept_by(call, answer)
         return known and is_kept(call.task, rule, answer) and not left(call, rule, answer)
 
     def keeping(free: Answer) -> Iterator[Answer]:
         rule = kept_by(call, free)
         if not rule.prices:
             return _keeping(call, free, rule, solve)
-        return priced(call, rule, lambda literals: _keeping(call, free, rule, solve, literals))
+        asked = OnePlan(call, rule)
+        return priced(call.options, asked, lambda literals: _keeping(call, free, rule, solve, literals))
 
-    found = _answers(call, solve(_soon(call), plan), keeps, keeping)
-    if call.options.disturbance is None and call.options.max_disturbance is None:
-        return found
-    return (one if one.cost is None else one._replace(disturbed=disturbance_of(call, one)) for one in found)
+    return _disturbing(call, _answers(call, solve(_soon(call), plan), keeps, keeping))
 
 
 def over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[Answer]:
@@ -83,16 +93,38 @@ def over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[A
     ]
 
     def keeps(answer: Answer) -> bool:
-        served = zip(answer.goals or (), rules, strict=True)
-        return all(is_kept(call.task, rule, one, last) for one, rule in served)
+        return all(
+            is_kept(call.task, rule, served, last)
+            and _is_known(call, call.task.with_goal(one.goal), served)
+            and not left_by(call.task, rule, served.steps or (), last)
+            for one, served, rule in zip(candidates, answer.goals or (), rules, strict=True)
+        )
 
-    def keeping(free: Answer) -> Iterator[Answer]:
-        del free
-        return _keeping_over_scenarios(call, candidates, rules)
+    def keeping(_free: Answer) -> Iterator[Answer]:
+        under = [*_under_rules(call, candidates, rules)]
+        if not any(rule.prices for rule in rules):
+            return _solved(call, under)
+        idle = next(_solved(call, candidates))
+        question = OverScenarios(call.task, call.options, candidates, rules, last, idle)
+        return priced(
+            call.options, question, lambda literals: _solved(call, [*_keeping_more(under, literals)])
+        )
 
     if call.options.risk == "regret":  # what it compares with keeps the rule, too
-        return (answer._replace(is_bound=True) for answer in keeping(Answer("unknown")))
-    return _answers(call, _solved(_soon(call), candidates), keeps, keeping)
+        found = (answer._replace(is_bound=True) for answer in keeping(Answer("unknown")))
+        return _disturbing(call, found)
+    return _disturbing(call, _answers(call, _solved(_soon(call), candidates), keeps, keeping))
+
+
+def _disturbing(call: Request, found: Iterator[Answer]) -> Iterator[Answer]:
+    """Answers that say how much they disturb the human, where that counts; at most, over scenarios."""
+    if call.options.disturbance is None and call.options.max_disturbance is None:
+        return found
+
+    def amount(answer: Answer) -> Fraction:
+        return max(disturbance_of(call, one) for one in answer.goals or (answer,))
+
+    return (one if one.cost is None else one._replace(disturbed=amount(one)) for one in found)
 
 
 def _solved(call: Request, candidates: Sequence[Candidate]) -> Iterator[Answer]:
@@ -163,20 +195,50 @@ def _keeping(
     plan, task = free.human_plan, with_goals(call.task, rule.facts, literals)
     optimum = call.optimum if call.given is not None or plan is None else call.task.cost_of(plan)
     asked = replace(call, optimum=optimum, predicts=plan is not None, question=None)
-    layers: list[Noticed | Metered | Calm] = []
-    if call.options.noticed and plan is not None:
-        layers.append(Noticed(task, plan, call.original or call.task))
-        task = layers[-1].task
-    if call.task.robot_goal and rule.most is not None:
-        layers.append(Metered(task, rule.most, call.deadline))
-    if call.options.max_disturbance is not None:
-        metered = layers[-1].task if layers else task
-        layers.append(Calm(metered, call.original or call.task, call.options, call.deadline))
-    given = plan
-    for layer in layers:
-        given = None if given is None else layer.plan(given)
-    found = solve(replace(asked, prepared=PreparedTask(layers[-1].task if layers else task)), given)
+    layers = _Layers(call, task, plan, rule.most if call.task.robot_goal else None)
+    given = None if plan is None else layers.plan(plan)
+    found = solve(replace(asked, prepared=PreparedTask(layers.task)), given)
     return (_told(layers, answer) for answer in found)
+
+
+class _Layers:
+    """A task that allows nothing but what rules of help do.
+
+    Args:
+        plan: the human's, or None without one.
+        most: that they may pay; None: anything.
+    """
+
+    def __init__(self, call: Request, task: Task, plan: HumanPlan | None, most: Fraction | None) -> None:
+        self.task, self._layers = task, list[Noticed | Metered | Calm]()
+        original = call.original or call.task
+        if call.options.noticed and plan is not None:
+            self._add(Noticed(task, plan, original))
+        self._metered = None if most is None else Metered(self.task, most, call.deadline)
+        if self._metered is not None:
+            self._add(self._metered)
+        if call.options.max_disturbance is not None:
+            self._add(Calm(self.task, original, call.options, call.deadline))
+
+    def _add(self, layer: "Noticed | Metered | Calm") -> None:
+        self.task = layer.task
+        self._layers.append(layer)
+
+    def plan(self, plan: HumanPlan) -> HumanPlan:
+        """The human's plan by ids of this task."""
+        for layer in self._layers:
+            plan = layer.plan(plan)
+        return plan
+
+    def goal(self, goal: Condition, most: Fraction | None) -> Condition:
+        """A goal with which they have paid no more than so much."""
+        return goal if self._metered is None or most is None else self._metered.goal(goal, most)
+
+    def back(self, plan: Sequence[int]) -> tuple[int, ...]:
+        """A plan by ids of the task that was given."""
+        for layer in reversed(self._layers):
+            plan = layer.back(plan)
+        return tuple(plan)
 
 
 class Calm:
@@ -198,43 +260,40 @@ class Calm:
         return tuple(self._weighed.original[number] for number in self._metered.back(plan))
 
 
-def _keeping_over_scenarios(
+def _under_rules(
     call: Request, candidates: Sequence[Candidate], rules: Sequence[Kept]
-) -> Iterator[Answer]:
-    """The same over scenarios."""
-    bound = [replace(one, kept=rule.facts) for one, rule in zip(candidates, rules, strict=True)]
-    mosts = [rule.most for rule in rules if rule.most is not None]
-    if not mosts:
-        return _solved(call, bound)
-    metered = Metered(call.task, max(mosts), call.deadline)
-    bound = [
-        replace(one, goal=metered.goal(one.goal, most), plan=metered.plan(one.plan))
-        for one, most in zip(bound, mosts, strict=True)
-    ]
-    found = _solved(replace(call, prepared=PreparedTask(metered.task)), bound)
-    return (_told([metered], answer) for answer in found)
+) -> Iterator[Candidate]:
+    """Scenarios with what each has to keep, and with a task of its own, one where that is the same."""
+    most = max((rule.most for rule in rules if rule.most is not None), default=None)
+    known: dict[object, tuple[_Layers, PreparedTask]] = {}
+    for one, rule in zip(candidates, rules, strict=True):
+        task, asked = call.task, (one.goal, one.plan) if call.options.noticed else None
+        if asked is not None:
+            task = task.with_goal(one.goal)
+        if asked not in known:
+            layers = _Layers(call, task, one.plan, most)
+            known[asked] = layers, PreparedTask(layers.task)
+        layers, own = known[asked]
+        goal = layers.goal(one.goal if asked is None else layers.task.goal, rule.most)
+        original = layers.back(range(len(layers.task.actions)))
+        plan = layers.plan(one.plan)
+        yield replace(one, goal=goal, plan=plan, kept=rule.facts, own=own, original=original)
 
 
-def _told(layers: Sequence[Noticed | Metered | Calm], answer: Answer) -> Answer:
+def _keeping_more(candidates: Sequence[Candidate], literals: Literals) -> Iterator[Candidate]:
+    """Scenarios of which some keep more."""
+    for k, one in enumerate(candidates):
+        more = (literal for number, literal in literals if number == k)
+        yield replace(one, kept=with_literals(one.kept, more))
+
+
+def _told(layers: _Layers, answer: Answer) -> Answer:
     """An answer about a task with some layers on it as one about the task itself."""
-
-    def original(ids: Sequence[int]) -> tuple[int, ...]:
-        for layer in reversed(layers):
-            ids = layer.back(ids)
-        return tuple(ids)
-
-    def back(answer: ServedGoal | Answer) -> dict[str, Any]:
-        plan, steps = answer.human_plan, answer.steps or ()
-        actions = original([step.action for step in steps])
-        return {
-            "human_plan": None if plan is None else original(plan),
-            "steps": None
-            if answer.steps is None
-            else tuple(Step(step.epoch, action) for step, action in zip(steps, actions, strict=True)),
-        }
-
-    goals = None if answer.goals is None else tuple(replace(one, **back(one)) for one in answer.goals)
-    return answer._replace(**back(answer), goals=goals)
+    plan, steps = answer.human_plan, answer.steps
+    if steps is not None:
+        actions = layers.back([step.action for step in steps])
+        steps = tuple(Step(step.epoch, action) for step, action in zip(steps, actions, strict=True))
+    return answer._replace(human_plan=None if plan is None else layers.back(plan), steps=steps)
 
 
 def _order(answer: Answer) -> tuple[bool, Fraction, Fraction]:
@@ -244,20 +303,21 @@ def _order(answer: Answer) -> tuple[bool, Fraction, Fraction]:
 # -- what an answer keeps
 
 
-def _is_calm(call: Request, answer: Answer) -> bool:
-    """Whether an answer disturbs the human no more than it may."""
-    most = call.options.max_disturbance
-    return most is None or disturbance_of(call, answer) <= most
+def _is_known(call: Request, task: Task, answer: Answer | ServedGoal) -> bool:
+    """Whether an answer disturbs the human no more than it may, and they see what they leave their plan for.
 
-
-def _is_noticed(call: Request, answer: Answer) -> bool:
-    """Whether the human sees in time what an answer has them leave their plan for."""
-    if not call.options.noticed or answer.human_plan is None:
+    Args:
+        task: of the answer.
+    """
+    most, plan = call.options.max_disturbance, answer.human_plan
+    if most is not None and disturbance_of(call, answer) > most:
+        return False
+    if not call.options.noticed or plan is None:
         return True
-    return Noticed(call.task, answer.human_plan, call.original or call.task).allows(answer.steps or ())
+    return Noticed(task, plan, call.original or call.task).allows(answer.steps or ())
 
 
-def disturbance_of(call: Request, answer: Answer) -> Fraction:
+def disturbance_of(call: Request, answer: Answer | ServedGoal) -> Fraction:
     """How much an answer disturbs the human."""
     task = call.task
     weighed = Weighed(task, disturbance_from(call.options.disturbance), call.original or task)

@@ -21,8 +21,6 @@ _OPTIONS = st.builds(
     leave_free=st.sampled_from([None, None, "at *"]),
 )
 
-_TWO = [{"name": room, "goal": [f"at commx {room}"]} for room in ("room1", "room2")]
-
 
 @pytest.mark.long
 @given(st.one_of(rooms(timed=False), strategies.tasks()), _OPTIONS)
@@ -61,7 +59,6 @@ def test_what_is_handed_over_needs_no_notice() -> None:
         ({"suffix": "subplan"}, "noticed: goes with suffix replan only"),
         ({"interference": "strict"}, "noticed: does not go with interference strict"),
         ({"head_start": 3}, "noticed: waiting_cost and head_start are given, which is not known here yet"),
-        ({"goals": _TWO}, "noticed: is for one goal and plan only"),
     ],
 )
 def test_what_it_does_not_go_with_is_refused(options: dict[str, Any], message: str) -> None:

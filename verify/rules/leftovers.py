@@ -1,10 +1,11 @@
 """What a plan leaves changed, and that no plan costs less with that (semantics 12)."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from fractions import Fraction
 
 from serendipity.model import Result
-from serendipity.model.numbers import as_written
+from serendipity.model.numbers import as_written, figure
 from verify.base.execution import State
 
 Prices = Mapping[int, tuple[bool, Fraction]]
@@ -14,6 +15,23 @@ Prices = Mapping[int, tuple[bool, Fraction]]
 def left(prices: Prices, state: State) -> dict[int, Fraction]:
     """The priced facts that a last state has otherwise."""
     return {fact: price for fact, (true, price) in prices.items() if (fact in state) is not true}
+
+
+def unpriced(result: Result, price: Fraction) -> Result:
+    """A result as if what it leaves had cost nothing, which claims no more than that it can be had."""
+
+    def less(value: float | None, amount: Fraction) -> float | None:
+        return None if value is None else figure(as_written(value) - amount)
+
+    return replace(
+        result,
+        options=result.options.but(leave_price=None, leave_free=None),
+        status="feasible",
+        lower_bound=0.0,
+        cost=less(result.cost, price),
+        objective=less(result.objective, price),
+        saving=less(result.saving, -price),
+    )
 
 
 class Leftovers:

@@ -10,13 +10,11 @@ from typing import Final, NamedTuple
 
 from serendipity.model import Claim, Condition, Deadline, HumanPlan, Options, PlanError, Result, Task
 from serendipity.model.answers.certificate import Verdict
-from serendipity.model.numbers import as_written, figure
+from serendipity.model.numbers import as_written
 from serendipity.model.task.actions import GroundAction
-from serendipity.model.task.disturbance import Weighed, disturbance_from
+from serendipity.model.task.disturbance import disturbance_from
 from serendipity.model.task.gate import is_bound, nobody_pays
 from serendipity.model.task.leftovers import leftovers
-from serendipity.model.task.metered import Metered
-from serendipity.model.task.noticed import Noticed
 from serendipity.model.task.visibility import surroundings
 from verify.base import wording
 from verify.base.beside_script import alone_of
@@ -25,7 +23,8 @@ from verify.base.execution import State, after, is_calm, is_last, met
 from verify.base.obligations import is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.plan_graph import plan_graph
-from verify.rules.leftovers import Leftovers, Prices, left
+from verify.rules.layers import Layers
+from verify.rules.leftovers import Leftovers, Prices, left, unpriced
 from verify.rules.noticed import unnoticed
 from verify.rules.replay import replay, replay_human
 
@@ -81,7 +80,7 @@ def under_the_rule(
     except PlanError:
         return tuple(examine(task, result))  # which says so
     rule = rule_of(task, result.options, plan, result.horizon, original)
-    fault = _fault(task, result, rule, plan, original, deadline)
+    fault = fault_of(task, result, rule, plan, original, deadline)
     if fault is not None:
         return (Claim("replay", "refuted", fault),)
 
@@ -89,12 +88,12 @@ def under_the_rule(
         return bound_task(task, result.options, rule, kept, plan, original, deadline)
 
     binds = result.statistics.get("rule_binds")
-    if rule.prices and (binds or left(rule.prices, _last_state(task, result))):
+    if rule.prices and (binds or left(rule.prices, last_state(task, result))):
         return _priced_claims(task, result, rule, bound, examine, solve)
     return tuple(examine(bound() if binds else task, result))
 
 
-def _fault(
+def fault_of(
     task: Task, result: Result, rule: Rule, plan: HumanPlan | None, original: Task, deadline: Deadline
 ) -> str | None:
     """What a plan beside one of the human's breaks of the rules, in words."""
@@ -127,7 +126,7 @@ def _claims_over_ties(
         if solve is None or rule.prices:
             return None
         free = solve(task, asked, named(plan))
-        if free is None or _fault(task, free, rule, plan, original, deadline) is None:
+        if free is None or fault_of(task, free, rule, plan, original, deadline) is None:
             return free
         return solve(under, asked, named(plan))
 
@@ -184,21 +183,13 @@ def _priced_claims(
         found = None if solve is None else solve(bound(kept), options, result.human_plan)
         if found is None or found.status not in ("optimal", "infeasible"):
             return None
-        return found, _last_state(task, found)
+        return found, last_state(task, found)
 
     idle = max(Fraction(0), as_written(result.saving_alone or 0))
     if result.opportunity and as_written(result.saving or 0) <= idle:
         return (Claim("cost", "refuted", wording.LEFT_TOO_DEAR),)
-    price = sum(left(rule.prices, _last_state(task, result)).values(), Fraction(0))
-    said = replace(
-        result,
-        options=options,
-        status="feasible",
-        lower_bound=0.0,
-        cost=_less(result.cost, price),
-        objective=_less(result.objective, price),
-        saving=_less(result.saving, -price),
-    )
+    price = sum(left(rule.prices, last_state(task, result)).values(), Fraction(0))
+    said = unpriced(result, price)
     weight = options.window_weight if options.windowed else Fraction(0)
     below = as_written(result.lower_bound or 0)
     if result.status == "optimal":
@@ -213,12 +204,9 @@ def _priced_claims(
     return (*claims, *(Claim(name, told[verdict], wording.PRICED[verdict]) for name in asked))
 
 
-def _last_state(task: Task, found: Result) -> State:
+def last_state(task: Task, found: Result) -> State:
+    """The state that a plan leads to."""
     return replay(task, found.plan or (), Deadline(), strict=found.options.strict).last
-
-
-def _less(value: float | None, amount: Fraction) -> float | None:
-    return None if value is None else figure(as_written(value) - amount)
 
 
 def bound_task(
@@ -238,15 +226,7 @@ def bound_task(
     as_idle = {fact: rule.prices[fact][0] for fact in kept}
     positive, negative = ([f for f, true in as_idle.items() if true is value] for value in (True, False))
     bound = with_goals(with_goals(task, rule.facts), Condition(tuple(positive), tuple(negative)))
-    if options.noticed and plan is not None:
-        bound = Noticed(bound, plan, original).task
-    if rule.most is not None and task.robot_goal:
-        bound = Metered(bound, rule.most, deadline).task
-    most = options.max_disturbance
-    if most is not None:
-        weighed = Weighed(bound, disturbance_from(options.disturbance), original)
-        bound = Metered(weighed.task, most, deadline, weighed.weights, "disturbed").task
-    return bound
+    return Layers(bound, options, plan, rule.most if task.robot_goal else None, original, deadline).task
 
 
 def broken(task: Task, result: Result, rule: Rule, deadline: Deadline) -> str | None:

@@ -6,28 +6,32 @@ from fractions import Fraction
 from itertools import islice
 from time import perf_counter
 
-from serendipity.model import Claim, Condition, Deadline, PlanError, Result, Task
+from serendipity.model import Claim, Condition, Deadline, HumanPlan, PlanError, Result, Task
 from serendipity.model.answers.certificate import ClaimVerdict
 from serendipity.model.answers.fields import MalformedError
 from serendipity.model.answers.result_parts import GoalAnswer
+from serendipity.model.numbers import as_written
 from serendipity.model.task.gate import is_bound
-from serendipity.model.task.metered import Metered
 from verify.base import wording
 from verify.base.beside_script import alone_of
 from verify.base.obligations import BY_RULES, needed
 from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.rules.case import Case
 from verify.rules.header import mode_and_human, reason, status_and_fields
-from verify.rules.nobody_pays import broken, rule_of
+from verify.rules.layers import Layers
+from verify.rules.leftovers import left, unpriced
+from verify.rules.nobody_pays import Rule, fault_of, last_state, rule_of
 from verify.rules.replay import replay_human
 from verify.scenarios.beliefs import considered_plans, faults
 from verify.scenarios.reading import condition, listed, recognised
 from verify.scenarios.timelines import (
+    Aimed,
     Timeline,
     bound_fault,
     close,
     figures_fault,
     lasting_fault,
+    mean,
     rule_fault,
     suffix_fault,
     timelines,
@@ -69,7 +73,7 @@ def claims_over_scenarios(
         certain: makes the claims of an answer of section 3.
         proved: makes those that rules can't make of an answer that breaks none; None: nobody does.
     """
-    started, asked, goals = perf_counter(), task, list[tuple[Condition, Condition]]()
+    started, aimed, paid = perf_counter(), list[Aimed](), list[Fraction]()
     try:
         served = listed(result)
         chosen, origin, fault = _expected(task, result, original, served, deadline)
@@ -80,7 +84,7 @@ def claims_over_scenarios(
             fault = _entry_fault(result, served[0])
         if fault is None and len(chosen) > 1:
             pairs = list(zip(chosen, served, strict=True))
-            asked, goals, fault = _bound(task, result, original, pairs, deadline)
+            aimed, paid, fault = _bound(task, result, original, pairs, deadline)
     except (MalformedError, PlanError) as error:
         fault = str(error)
     except UNDECIDED as error:
@@ -93,9 +97,26 @@ def claims_over_scenarios(
         ties = "fixed" if result.options.ties == "watched" else result.options.ties
         known = replace(result, goals=None, recognition=None, options=result.options.but(ties=ties))
         return tuple(certain(task.with_goal(chosen[0].goal), known))
-    lines = timelines(asked, result, goals, served, deadline)
+    lines = timelines(aimed, result, served, deadline)
+    if paid:
+        return tuple(_priced_claims(result, lines, paid, origin))
     claims = tuple(_claims_by_rules(result, lines, origin))
     return *claims, *_beyond_rules(result, lines, claims, proved)
+
+
+def _priced_claims(
+    result: Result, lines: Sequence[Timeline], paid: Sequence[Fraction], origin: str
+) -> Iterator[Claim]:
+    """The claims where something that is left costs so much in each scenario: none on what is best."""
+    if result.opportunity and as_written(result.saving or 0) <= as_written(result.saving_alone or 0):
+        yield Claim("cost", "refuted", wording.LEFT_TOO_DEAR)
+        return
+    own = []
+    for line, price in zip(lines, paid, strict=True):
+        answer = unpriced(line.case.result, price)
+        own.append(replace(line, case=replace(line.case, result=answer)))
+    yield from _claims_by_rules(unpriced(result, mean(lines, paid)), own, origin)
+    yield from (Claim(name, "undecided", wording.PRICED[None]) for name in beyond_rules(result))
 
 
 def _bound(
@@ -104,37 +125,44 @@ def _bound(
     original: Task,
     pairs: Sequence[tuple[Scenario, GoalAnswer]],
     deadline: Deadline,
-) -> tuple[Task, list[tuple[Condition, Condition]], str | None]:
-    """The task, in each scenario the goal and what has to be kept, and what breaks the rule of semantics 12.
+) -> tuple[list[Aimed], list[Fraction], str | None]:
+    """Each scenario's task, with its goals and what has to be kept; what is paid for what each leaves, where
+    that counts; and what breaks a rule of help.
 
-    As with one scenario they are those without the rule where the answer does not say that it binds.
+    As with one scenario they are those without the rules where the answer does not say that they bind.
     """
-    plain = [(one.goal, Condition()) for one, _ in pairs]
-    if not is_bound(original, result.options):
-        return task, plain, None
-    rules = []
+    tasks = {one.goal: task.with_goal(one.goal, Condition()) for one, _ in pairs}
+    plain = [Aimed(tasks[one.goal]) for one, _ in pairs]
+    options = result.options
+    if not is_bound(original, options):
+        return plain, [], None
+    rules, plans, paid = list[Rule](), list[HumanPlan](), list[Fraction]()
     for one, entry in pairs:
-        own = task.with_goal(one.goal)
-        plan = replay_human(own, one.plan, deadline)
-        rules.append(rule_of(own, result.options, plan, int(result.horizon or 0), original))
-        fault = broken(own, replace(result, plan=entry.plan), rules[-1], deadline)
+        own = tasks[one.goal]
+        plans.append(replay_human(own, one.plan, deadline))
+        rules.append(rule_of(own, options, plans[-1], int(result.horizon or 0), original))
+        told = replace(result, plan=entry.plan)
+        fault = fault_of(own, told, rules[-1], plans[-1], original, deadline)
         if fault is not None:
-            return task, plain, f"scenario '{one.name}': {fault}"
-    mosts = [rule.most for rule in rules if rule.most is not None]
-    if not result.statistics.get("rule_binds"):
-        return task, plain, None
-    each = zip(pairs, rules, strict=True)
-    if not mosts:
-        return task, [(one.goal, rule.facts) for (one, _), rule in each], None
-    metered = Metered(task, max(mosts), deadline)
-    return (
-        metered.task,
-        [
-            (metered.goal(one.goal, most), rule.facts)
-            for ((one, _), rule), most in zip(each, mosts, strict=True)
-        ],
-        None,
-    )
+            return plain, [], f"scenario '{one.name}': {fault}"
+        leaves = left(rules[-1].prices, last_state(own, told)) if rules[-1].prices else {}
+        paid.append(sum(leaves.values(), Fraction(0)))
+    binds = result.statistics.get("rule_binds")
+    if not any(paid) and not (binds and any(rule.prices for rule in rules)):
+        paid = []
+    if not binds:
+        return plain, paid, None
+    most = max((rule.most for rule in rules if rule.most is not None), default=None)
+    known: dict[object, Layers] = {}
+    found = []
+    for (one, _), plan, rule in zip(pairs, plans, rules, strict=True):
+        asked = (one.goal, plan) if options.noticed else None
+        if asked not in known:
+            known[asked] = Layers(tasks[one.goal], options, plan, most, original, deadline)
+        layers = known[asked]
+        goal = layers.goal(layers.task.goal if asked else one.goal, rule.most)
+        found.append(Aimed(layers.task.with_goal(goal, rule.facts), layers.original))
+    return found, paid, None
 
 
 def _beyond_rules(

@@ -1,6 +1,6 @@
 """What may happen in an epoch of one scenario: rules 1 to 3 of semantics 3.1, beside what robots do."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import Final, NamedTuple
 
@@ -60,10 +60,11 @@ class Moves:
     Args:
         call: of any of the scenarios.
         pay: units of cost as the search counts them.
+        original: by action of the task the one of the task that scenarios share; empty: they are the same.
     """
 
-    def __init__(self, call: ExaminedCall, pay: Callable[[int], int]) -> None:
-        self._task, self._call = call.task, call
+    def __init__(self, call: ExaminedCall, pay: Callable[[int], int], original: Sequence[int] = ()) -> None:
+        self._task, self._call, self._original = call.task, call, original
         self.bits = FactBits(range(len(call.task.facts)))
         of, team, deadline = self.bits.of, call.prices.team, call.effort.deadline
         self._operators = [
@@ -107,15 +108,19 @@ class Moves:
         others, tick = (tuple(i for i in ids if is_last(actions[i]) is last) for last in (False, True))
         return self._as_one(others), self._as_one(tick)
 
-    def _robots(self, state: int) -> tuple[BitOperator, ...]:
-        """All that robots can begin by themselves, as operators labelled by all actions, nothing first."""
+    def _robots(self, state: int) -> dict[tuple[int, ...], BitOperator]:
+        """All that robots can begin by themselves, by shared actions, labelled by the task's."""
         due = self._due(state)
         if due is None:
-            return ()
+            return {}
         candidates = sorted(op.label for op in self._own.applicable(state))
         going_on, strict = due[0].label, self._call.options.strict
         sets = sets_beside(self._task, going_on, candidates, self._call.effort.deadline, strict=strict)
-        return tuple(self._as_one(chosen[len(going_on) :]) for chosen in sets)
+        begun = (chosen[len(going_on) :] for chosen in sets)
+        return {self._shared(chosen): self._as_one(chosen) for chosen in begun}
+
+    def _shared(self, chosen: tuple[int, ...]) -> tuple[int, ...]:
+        return tuple(self._original[i] for i in chosen) if self._original else chosen
 
     def _as_one(self, chosen: tuple[int, ...]) -> BitOperator:
         add = delete = paid = 0

@@ -46,15 +46,25 @@ class PolicySearch:
 
     Args:
         calls: one for each scenario, with the human's plan in it, and the same horizon.
+        originals: by action of each scenario's task the one of the task that they share.
     """
 
-    def __init__(self, calls: Sequence[ExaminedCall], measure: Measure) -> None:
+    def __init__(
+        self, calls: Sequence[ExaminedCall], measure: Measure, originals: Sequence[Sequence[int]] = ()
+    ) -> None:
         self._measure, self._watching = measure, calls[0].options.policy == "watching"
         self._effort, self._horizon = calls[0].effort, int(calls[0].horizon)
-        self._moves = Moves(calls[0], measure.pay)
-        self._courses = [Course(call, self._moves, measure.pay, measure.epoch) for call in calls]
-        init = self._moves.bits.of(calls[0].task.init)
-        self._first = [Member(k, init, ahead=ahead) for k, ahead in enumerate(measure.ahead)]
+        moves: dict[int, Moves] = {}
+        for call, original in zip(calls, originals or [()] * len(calls), strict=True):
+            moves.setdefault(id(call.task.actions), Moves(call, measure.pay, original))
+        self._moves = [moves[id(call.task.actions)] for call in calls]
+        self._courses = [
+            Course(call, own, measure.pay, measure.epoch)
+            for call, own in zip(calls, self._moves, strict=True)
+        ]
+        starts = [own.bits.of(call.task.init) for call, own in zip(calls, self._moves, strict=True)]
+        each = zip(starts, measure.ahead, strict=True)
+        self._first = [Member(k, init, ahead=ahead) for k, (init, ahead) in enumerate(each)]
         self._known: dict[Group, tuple[int, bool]] = {}
         self._chosen: dict[Group, tuple[BitOperator, list[Group]]] = {}
         self._most: list[int] = []
@@ -124,25 +134,24 @@ class PolicySearch:
         for robots in self._robots(members):
             choices = []
             for k, at in enumerate(members):
-                found = list(self._choices(epoch + 1, at, robots, self._room(best, rests, k)))
+                found = list(self._choices(epoch + 1, at, robots[k], self._room(best, rests, k)))
                 if not found:
                     break
                 choices.append(sorted(found, key=lambda choice: choice.bound))
             else:
-                best = self._combined(group, robots, choices, best)
+                best = self._combined(group, robots[0], choices, best)
         return best if best < below else None
 
     def _room(self, below: int, rests: Sequence[int], k: int) -> int:
         return self._measure.room(below, [*rests[:k], *rests[k + 1 :]])
 
-    def _robots(self, members: Sequence[Member]) -> Sequence[BitOperator]:
-        """What robots may do by themselves in the whole group."""
-        first, *others = dict.fromkeys(at.state for at in members)
-        sets = self._moves.robots(first)
-        if any(at.phase == OVER for at in members):
-            return sets[:1]
-        possible = [set(self._moves.robots(state)) for state in others]
-        return [robots for robots in sets if all(robots in sets for sets in possible)]
+    def _robots(self, members: Sequence[Member]) -> Iterator[tuple[BitOperator, ...]]:
+        """What robots may do by themselves in the whole group, in each of its scenarios."""
+        possible = [self._moves[at.scenario].robots(at.state) for at in members]
+        idle = any(at.phase == OVER for at in members)
+        for shared in [()] if idle else possible[0]:
+            if all(shared in sets for sets in possible):
+                yield tuple(sets[shared] for sets in possible)
 
     def _choices(self, epoch: int, at: Member, robots: BitOperator, below: int) -> Iterator[_Choice]:
         """What a scenario may do in an epoch and still contribute less than so much."""

@@ -101,7 +101,7 @@ class ScenariosProof:
             return "proved", wording.EACH_ADDS_UP, None
         if self.effort.proof is not None:
             raise NoProgramError("scenarios whose best answers by themselves don't come to the answer")
-        better = PolicySearch(self._calls, measure).better(limit)
+        better = PolicySearch(self._calls, measure, [line.original for line in self.lines]).better(limit)
         if better is None:
             return "proved", wording.ALL_POLICIES, None
         objective, cost = measure.figures(better.value)

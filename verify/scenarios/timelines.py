@@ -5,9 +5,9 @@ from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
-from typing import Final
+from typing import Final, NamedTuple
 
-from serendipity.model import Condition, Deadline, Result, Task
+from serendipity.model import Deadline, Result, Task
 from serendipity.model.answers.result_parts import GoalAnswer
 from verify.base.beside_script import alone_of
 from verify.base.due import waited
@@ -39,11 +39,16 @@ _BY_CLAIM: Final = {
 
 @dataclass(frozen=True, slots=True)
 class Timeline:
-    """One scenario: its probability, and its own task and answer under examination."""
+    """One scenario: its probability, and its own task and answer under examination.
+
+    Attributes:
+        original: by action of that task the one of the task that scenarios share; empty: the same.
+    """
 
     name: str
     weight: Fraction
     case: Case
+    original: Sequence[int] = ()
 
     @property
     def task(self) -> Task:
@@ -57,25 +62,26 @@ class Timeline:
         return 1 if window is None else len(window)
 
 
+class Aimed(NamedTuple):
+    """A scenario's task, with what the human wants and what robots have to keep; see :class:`Timeline`."""
+
+    task: Task
+    original: Sequence[int] = ()
+
+
 def timelines(
-    task: Task,
-    result: Result,
-    goals: Sequence[tuple[Condition, Condition]],
-    served: Sequence[GoalAnswer],
-    deadline: Deadline,
+    aimed: Sequence[Aimed], result: Result, served: Sequence[GoalAnswer], deadline: Deadline
 ) -> list[Timeline]:
     """The timelines of an answer, with weights that add up to 1.
 
     Args:
-        goals: what the human wants in each of them, and what robots have to keep.
         served: what the answer says of each of them, in the same order.
     """
     weights = [weight(entry.probability) for entry in served]
     total = sum(weights, Fraction(0))
-    tasks = {pair: task.with_goal(*pair) for pair in goals}
-    alone = {goal: alone_of(own, deadline, result.options) for goal, own in tasks.items()}
+    alone = {id(task): alone_of(task, deadline, result.options) for task, _ in aimed}
     found = []
-    for goal, entry, share in zip(goals, served, weights, strict=True):
+    for (task, original), entry, share in zip(aimed, served, weights, strict=True):
         answer = replace(
             result,
             status="feasible",
@@ -87,7 +93,8 @@ def timelines(
             ties=None,
             malformed={},
         )
-        found.append(Timeline(entry.name, share / total, Case(tasks[goal], answer, alone[goal])))
+        case = Case(task, answer, alone[id(task)])
+        found.append(Timeline(entry.name, share / total, case, original))
     return found
 
 

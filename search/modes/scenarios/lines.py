@@ -1,6 +1,6 @@
 """What one scenario may do in an epoch beside robots: rules 1 to 3 of semantics 3.1 (semantics 11)."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -16,6 +16,7 @@ from search.modes.scenarios.measure import (
     Worths,
 )
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
+from search.modes.scenarios.variants import Variants
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option, together
 from search.packed.operators import Operator, applicable
@@ -48,12 +49,14 @@ class Guide:
         remainder: the plan.
         phase: of the window at that time.
         context: of the scenario's call.
+        variants: its actions.
     """
 
     scenario: int
     remainder: Remainder
     phase: int
     context: SearchContext
+    variants: Variants
 
     def at(self, epoch: int) -> tuple[JointAction, tuple[int, ...], int]:
         """What robots begin by themselves in an epoch, what the human does, and the phase after it."""
@@ -63,6 +66,7 @@ class Guide:
         for op in ops:
             if not op.agents & packed.human_bit and packed.counted(op.action):
                 robots = together(robots, as_option(op, self.context.weights.team(op)))
+        robots = robots._replace(actions=self.variants.shared(robots.actions))
         part = tuple(op.action for op in ops if op.agents & packed.human_bit)
         window = self.remainder.window
         if window is None or epoch < window.start:
@@ -84,6 +88,7 @@ class Line:
         context, options = scenario.context, scenario.context.options
         self.certain = Certain(scenario, worths)
         self.number = number
+        self.variants = scenario.variants
         self._acting = acting
         self._fits = acting.due.fits
         self._worths = worths
@@ -109,7 +114,8 @@ class Line:
             robots: what they begin by themselves.
             most: what can't be had for less, from here to the end, may be left out.
         """
-        beside = self._acting.with_due(robots, at.state)
+        own = self.variants.own(robots, at.state)
+        beside = None if own is None else self._acting.with_due(own, at.state)
         if beside is None:
             return
         if at.phase == OVER:
@@ -174,7 +180,16 @@ class Line:
 
     def possible(self, robots: JointAction, state: int) -> bool:
         """Whether what robots do by themselves is applicable."""
-        return all(applicable(self._context.packed.op(action), state) for action in robots.actions)
+        own = self.variants.own(robots, state)
+        return own is not None and all(applicable(self._context.packed.op(i), state) for i in own.actions)
+
+    def begun(self, state: int) -> Iterable[JointAction]:
+        """What robots may begin by themselves, cheapest first."""
+        return self.variants.offered(self._acting.begun(state))
+
+    def seen(self, way: Way) -> tuple[str | None, object]:
+        """What robots see of a way; other variants of a name may do other things."""
+        return self._acting.name(way.part), self.variants.seen(way.after.state)
 
     def _suffix_steps(self, tail: Tail) -> Sequence[tuple[Operator, JointAction]]:
         """What is left of a suffix; it is put together when it is asked for first."""
@@ -190,7 +205,7 @@ class Line:
         found = self.certain.remainder(at, epoch, deadline)
         if found.worth >= INFINITE_WORTH:
             return None
-        return Guide(self.number, found, at.phase, self._context)
+        return Guide(self.number, found, at.phase, self._context, self.variants)
 
     def floor(self, at: Member, epoch: int) -> int:
         """A bound on what is left to pay after an epoch, where it was asked for; else 0."""
@@ -222,9 +237,10 @@ class Line:
         before, after = self.certain.known(at, epoch - 1), way.after
         if before is None or after.phase == OVER:
             return
-        begun = {step.action for step in before.steps if step.epoch == epoch}
-        done, inside = {*way.part.actions, *robots.actions}, after.phase == INSIDE
-        as_planned = all(not self._acting.begins(action) for action in begun ^ done)
+        shared, inside = self.variants.shared, after.phase == INSIDE
+        begun = {*shared(step.action for step in before.steps if step.epoch == epoch)}
+        done = {*shared(way.part.actions), *robots.actions}
+        as_planned = all(not self.variants.begins(action) for action in begun ^ done)
         if as_planned and before.goes_on(epoch, inside=inside):
             self.certain.learn(after, epoch, before.after(way.paid))
 
@@ -252,13 +268,11 @@ class Question(NamedTuple):
     Attributes:
         lines: the scenarios' epochs.
         members: all scenarios, before the first epoch.
-        acting: what agents can do.
         measure: of worths.
     """
 
     lines: Sequence[Line]
     members: tuple[Member, ...]
-    acting: Successors
     measure: Measure
     horizon: int
     deadline: Deadline

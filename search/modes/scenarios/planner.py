@@ -14,6 +14,7 @@ from search.modes.scenarios.played import Played
 from search.modes.scenarios.policies import PolicySearch
 from search.modes.scenarios.remainder import Scenario
 from search.modes.scenarios.sequences import SequenceSearch
+from search.modes.scenarios.variants import Variants
 from search.packed.packings import asked_facts, human_facts
 from serendipity.model.answers.answer import Answer, ServedGoal, Status, saved
 from serendipity.model.errors import LIMITS
@@ -35,6 +36,8 @@ class Candidate:
         weight: the probability, more than 0.
         name: for people.
         kept: what else has to hold in the end: robots see to it.
+        own: a task of its own, by whose ids goals and plan are: the shared one under rules of help.
+        original: by action of that task the one of the shared task.
     """
 
     goal: Condition
@@ -42,6 +45,13 @@ class Candidate:
     weight: Fraction
     name: str = ""
     kept: Condition = field(default_factory=Condition)
+    own: PreparedTask | None = None
+    original: Sequence[int] = ()
+
+    @property
+    def shared(self) -> HumanPlan:
+        """The plan by ids of the shared task."""
+        return tuple(self.original[i] for i in self.plan) if self.original else self.plan
 
 
 def solve_scenarios(
@@ -56,7 +66,7 @@ def solve_scenarios(
     scenarios are told apart, and ``goals`` what happens in each.
 
     Args:
-        prepared: the task; its own goals play no part.
+        prepared: the task that they share; its own goals play no part.
         options: mode ``serendipity``; ``horizon`` None means the length of the longest plan.
         candidates: at least one; weights add up to 1.
 
@@ -96,6 +106,7 @@ class _ScenarioCall:
         self._options = options
         self._deadline = deadline
         self._candidates = _merged(candidates)
+        self._differ = any(one.own is not candidates[0].own for one in candidates)
         self._question: Question | None = None
         self._searches: list[SequenceSearch | PolicySearch] = []
         """Those that have begun."""
@@ -108,8 +119,8 @@ class _ScenarioCall:
         context = scenarios[0].context
         measure = measure_of(self._options.risk, [c.weight for c in self._candidates])
         self._worths = Worths(context.keys, measure.parts)
-        acting = context.successors()
-        lines = [Line(s, i, acting, self._worths) for i, s in enumerate(scenarios)]
+        acting = [one.context.successors() for one in (scenarios if self._differ else scenarios[:1])]
+        lines = [Line(s, i, acting[i % len(acting)], self._worths) for i, s in enumerate(scenarios)]
         known = (
             [line.certainly(line.first(), 0, deadline) for line in lines]
             if self._options.risk == "regret"
@@ -118,7 +129,7 @@ class _ScenarioCall:
         self.is_exact = all(least == worth for least, worth in known)
         ahead = [-least for least, _ in known]
         members = tuple(line.first()._replace(ahead=a) for line, a in zip(lines, ahead, strict=True))
-        question = Question(lines, members, acting, measure, self._horizon, deadline)
+        question = Question(lines, members, measure, self._horizon, deadline)
         self._question = question
         self._idle = question.value([line.certain.idle(deadline) for line in lines])
         sequences = SequenceSearch(question)
@@ -129,25 +140,29 @@ class _ScenarioCall:
         yield from self._searches[-1].run()
 
     def _scenarios(self) -> list[Scenario]:
-        """The task with each candidate's goal, packed with what any of them or its plan asks for."""
-        task = self._prepared.task
-        asked = asked_facts(task, (action for candidate in self._candidates for action in candidate.plan))
+        """The task with each candidate's goal, packed with what any of them or its plan asks for.
+
+        Where they have tasks that differ, with all facts of the shared one: robots may do the same in each.
+        """
         options = self._options.but(
             horizon=self._horizon, time_limit=None, policy="watching", risk="mean", ties="fixed"
         )
-        if options.preservation == "state":
-            asked |= human_facts(task)
-        goals = [(candidate.goal, candidate.kept) for candidate in self._candidates]
-        packed = self._prepared.with_goals(goals, asked, self._deadline)
-        return [
-            Scenario(
-                self._prepared.with_goal(candidate.goal, candidate.kept),
-                SearchContext(own, options, self._deadline),
-                candidate.plan,
-                self._horizon,
-            )
-            for own, candidate in zip(packed, self._candidates, strict=True)
-        ]
+        facts = len(self._prepared.task.facts) if self._differ else None
+        parts = [[one] for one in self._candidates] if self._differ else [self._candidates]
+        found = []
+        for part in parts:
+            prepared = part[0].own or self._prepared
+            asked = asked_facts(prepared.task, (action for one in part for action in one.plan))
+            asked |= frozenset(range(facts or 0))
+            if options.preservation == "state":
+                asked |= human_facts(prepared.task)
+            goals = [(one.goal, one.kept) for one in part]
+            for packed, one in zip(prepared.with_goals(goals, asked, self._deadline), part, strict=True):
+                context = SearchContext(packed, options, self._deadline)
+                variants = Variants(context, one.original, facts)
+                plain = prepared.with_goal(one.goal, one.kept)
+                found.append(Scenario(plain, context, one.plan, self._horizon, variants))
+        return found
 
     # -- the answer
 
@@ -180,7 +195,7 @@ class _ScenarioCall:
         if self._question is not None:
             alone = [line.certain.alone(line.first().state, 0) for line in self._question.lines]
             return self._figures(self._question.value(alone))[1]
-        costs = [(c.weight, self._prepared.task.cost_of(c.plan)) for c in self._candidates]
+        costs = [(c.weight, self._prepared.task.cost_of(c.shared)) for c in self._candidates]
         if self._options.risk == "mean":
             return sum((weight * cost for weight, cost in costs), Fraction(0))
         return max(cost for _, cost in costs)
@@ -244,7 +259,7 @@ class _ScenarioCall:
     def _begun(self, steps: Iterable[Step]) -> tuple[Step, ...]:
         """The human's actions of some steps; they wait, or go on with these, in the other epochs."""
         assert self._question is not None, "something is known to happen"
-        task, begins = self._prepared.task, self._question.acting.begins
+        task, begins = self._prepared.task, self._question.lines[0].variants.begins
         return tuple(
             s for s in steps if task.human in task.actions[s.action].participants and begins(s.action)
         )
@@ -253,17 +268,18 @@ class _ScenarioCall:
         """What happens in a scenario."""
         task = self._prepared.task
         number = next(i for i, c in enumerate(self._candidates) if _same(c, candidate))
-        as_planned = plan_steps(candidate.plan)
+        as_planned = plan_steps(candidate.shared)
         found = happens.get(number, Played(as_planned, None))
         discount = self._options.discount
         if happens and self._begun(found.steps) == self._begun(as_planned):
             found = Played(found.steps, None)  # a window in which they do as planned is none
         cost = sum((task.team_cost(task.actions[s.action], discount) for s in found.steps), Fraction(0))
-        return ServedGoal(candidate.name, candidate.weight, candidate.plan, found.steps, found.window, cost)
+        plan = candidate.shared
+        return ServedGoal(candidate.name, candidate.weight, plan, found.steps, found.window, cost)
 
 
 def _same(a: Candidate, b: Candidate) -> bool:
-    return (a.goal, a.plan) == (b.goal, b.plan)
+    return (a.goal, a.plan, a.kept, a.own) == (b.goal, b.plan, b.kept, b.own)
 
 
 def _merged(candidates: Sequence[Candidate]) -> list[Candidate]:

@@ -5,6 +5,7 @@ from typing import NamedTuple
 from search.engine.paths import plan_steps
 from search.modes.scenarios.lines import Line, Way
 from search.modes.scenarios.measure import OVER, Member
+from search.modes.scenarios.variants import Variants
 from search.packed.joint_actions import NOTHING, JointAction
 from serendipity.model.task.plans import Step, Window
 
@@ -19,13 +20,14 @@ class Played(NamedTuple):
 class Course:
     """A scenario as far as it has come."""
 
-    def __init__(self) -> None:
+    def __init__(self, variants: Variants) -> None:
+        self._shared = variants.shared
         self.steps: list[Step] = []
         self.start = self.end = 0
 
     def go_on(self, way: Way, at: Member, epoch: int, robots: JointAction = NOTHING) -> None:
         """An epoch from a place on."""
-        self.steps += [Step(epoch, action) for action in (*way.part.actions, *robots.actions)]
+        self.steps += [Step(epoch, action) for action in (*self._shared(way.part.actions), *robots.actions)]
         if way.opens:
             self.start = epoch
         if way.after.phase == OVER and at.phase != OVER:
@@ -35,11 +37,13 @@ class Course:
         """All that is left: the suffix, the ordinary call's plan, or the human's own."""
         rest = line.certain.known(at, epoch) if certain and at.phase != OVER else None
         if rest is not None:
-            self.steps += [step for step in rest.steps if step.epoch > epoch]
+            left = [step for step in rest.steps if step.epoch > epoch]
+            ids = self._shared(step.action for step in left)
+            self.steps += [Step(step.epoch, action) for step, action in zip(left, ids, strict=True)]
             if rest.window is not None:
                 self.start, self.end = self.start or rest.window.start, rest.window.end
         else:
-            self.steps += plan_steps(line.left_alone(at, epoch), epoch + 1)
+            self.steps += plan_steps(self._shared(line.left_alone(at, epoch)), epoch + 1)
 
     @property
     def played(self) -> Played:

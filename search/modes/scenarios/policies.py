@@ -77,7 +77,7 @@ class PolicySearch:
     """
 
     def __init__(self, question: Question, known: int) -> None:
-        self._lines, self._acting, self._measure = question.lines, question.acting, question.measure
+        self._lines, self._measure = question.lines, question.measure
         self._horizon, self._deadline = question.horizon, question.deadline
         self._groups: dict[tuple[int, tuple[Member, ...]], Group] = {}
         self._looked: set[Group] = set()
@@ -163,7 +163,8 @@ class PolicySearch:
         """What robots may begin by themselves, cheapest first."""
         if any(m.phase == OVER for m in group.members):
             return (NOTHING,)
-        return self._acting.begun(group.members[0].state)
+        first = group.members[0]
+        return self._lines[first.scenario].begun(first.state)
 
     def _combined(
         self, group: Group, each: Sequence[Sequence[Way]], bounds: Sequence[Sequence[int]]
@@ -190,10 +191,9 @@ class PolicySearch:
 
     def _choice(self, group: Group, robots: JointAction, ways: tuple[Way, ...]) -> Choice:
         """A choice, with the groups that it leads to."""
-        parts: dict[tuple[str | None, int], list[Way]] = {}
+        parts: dict[tuple[str | None, object], list[Way]] = {}
         for way in ways:
-            # Other variants of a name may do other things.
-            parts.setdefault((self._acting.name(way.part), way.after.state), []).append(way)
+            parts.setdefault(self._lines[way.after.scenario].seen(way), []).append(way)
         branches = []
         for together in parts.values():
             paid, after = self._measure.pay([w.after for w in together], [w.paid for w in together])
@@ -312,7 +312,7 @@ class PolicySearch:
     def played(self) -> dict[int, Played]:
         """What happens in each scenario under the best policy known."""
         root, lines = self.root, self._lines
-        courses = {m.scenario: Course() for m in root.members}
+        courses = {m.scenario: Course(lines[m.scenario].variants) for m in root.members}
         pending = [root]
         while pending:
             group = pending.pop()

@@ -16,6 +16,7 @@ from search.engine.best_first import Incumbent, Node, Progress, Space, best_firs
 from search.engine.dominance import ParetoFront
 from search.engine.paths import path_steps, plan_steps
 from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, Member, Worths
+from search.modes.scenarios.variants import Variants
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due
 from search.packed.operators import applicable
@@ -66,14 +67,16 @@ class Scenario:
 
     Attributes:
         plain: the task with the goal, packed by itself.
-        context: of the call, packed like those of the other scenarios.
+        context: of the call, packed like those of the other scenarios unless it has a task of its own.
         plan: the human's.
+        variants: its actions, and those of the task that scenarios share.
     """
 
     plain: PreparedTask
     context: SearchContext
     plan: HumanPlan
     horizon: int
+    variants: Variants
 
 
 class Certain:

@@ -128,10 +128,10 @@ class SequenceSearch:
 
     def _choices(self, node: _Sequence) -> Iterable[JointAction]:
         """Robots' action sets that are possible in some place of the scenario with the fewest."""
-        fewest = min(node.places, key=len)
+        line, fewest = min(zip(self._lines, node.places, strict=True), key=lambda pair: len(pair[1]))
         offered: dict[tuple[int, ...], JointAction] = {(): NOTHING}
         for state in sorted({m.state for m in fewest if m.phase != OVER}):
-            for option in self._question.acting.begun(state):
+            for option in line.begun(state):
                 offered.setdefault(option.actions, option)
         return offered.values()
 
@@ -184,12 +184,12 @@ class SequenceSearch:
     def played(self) -> dict[int, Played]:
         """What happens in each scenario beside the best sequence known."""
         if self._best is None:
-            alone = ((line.number, line.left_alone(line.first(), 0)) for line in self._lines)
-            return {number: Played(plan_steps(plan), None) for number, plan in alone}
+            alone = ((line, line.left_alone(line.first(), 0)) for line in self._lines)
+            return {line.number: Played(plan_steps(line.variants.shared(plan)), None) for line, plan in alone}
         found, own = {}, self._best.steps()
         for line, places in zip(self._lines, self._best.places, strict=True):
             best = min(places, key=lambda m: places[m].paid + line.least(m, self._horizon))
-            course, ways = Course(), []
+            course, ways = Course(line.variants), []
             at: tuple[Member, _Label] | None = (best, places[best])
             while at is not None and at[1].way is not None:
                 before = at[1].before
@@ -200,7 +200,8 @@ class SequenceSearch:
                 course.go_on(way, m, epoch)
             course.steps += own
             if best.tail is not None:
-                course.steps += plan_steps(line.left_alone(best, 0), self._horizon - best.tail.left + 1)
+                rest = line.variants.shared(line.left_alone(best, 0))
+                course.steps += plan_steps(rest, self._horizon - best.tail.left + 1)
             found[line.number] = course.played
         return found
 

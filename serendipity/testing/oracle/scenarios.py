@@ -15,9 +15,11 @@ from itertools import chain, product
 from typing import NamedTuple, Protocol
 
 from serendipity.model import Condition, HumanPlan, Options, Task, UsageError
-from serendipity.testing.oracle.epochs import holds
+from serendipity.model.task.leftovers import leftovers
+from serendipity.testing.oracle.disturbing import Disturbing
 from serendipity.testing.oracle.moments import Moment, World
 from serendipity.testing.oracle.nobody_pays import Rule, counts_everybody
+from serendipity.testing.oracle.noticing import Notices
 from serendipity.testing.oracle.plans import smallest_unit
 from serendipity.testing.oracle.suffixes import CanonicalSuffix
 
@@ -122,6 +124,8 @@ class _Situation(NamedTuple):
     """What they begin after the window, by epochs."""
     paid: Fraction = Fraction(0)
     """What the human has paid, where that is limited."""
+    disturbed: int = 0
+    """How much they have been disturbed, likewise."""
 
 
 _Group = tuple[_Situation, ...]
@@ -154,15 +158,25 @@ class _Policies:
         self.weight = int(options.window_weight * self.unit)
         self.world = World(task, strict=options.strict)
         self.starts = [dict(zip(task.starts_of(one.plan), one.plan, strict=True)) for one in scenarios]
-        self.suffixes = [
-            CanonicalSuffix(replace(task, goal=one.goal), options, one.plan, horizon) for one in scenarios
+        tasks = [replace(task, goal=one.goal) for one in scenarios]
+        notices = [
+            Notices(own, one.plan) if options.noticed else None
+            for own, one in zip(tasks, scenarios, strict=True)
         ]
+        self.worlds = [
+            World(own, strict=options.strict, notices=seen) for own, seen in zip(tasks, notices, strict=True)
+        ]
+        self.suffixes = [
+            CanonicalSuffix(own, options, one.plan, horizon, seen)
+            for own, one, seen in zip(tasks, scenarios, notices, strict=True)
+        ]
+        self.disturbing = Disturbing(self.world, options)
         self.own = [i for i, a in enumerate(task.actions) if robots and task.human not in a.participants]
         human = [i for i, a in enumerate(task.actions) if task.human in a.participants]
         self.parts: list[int | None] = [None, *(i for i in human if robots or not task.actions[i].joint)]
         self.rules: list[Rule] = []
         self.limited = counts_everybody(task, options)
-        if self.limited or options.leave_free is not None:
+        if self.limited or leftovers(options) is not None:
             self.rules = [Rule(self.world, options, one.plan, horizon) for one in scenarios]
         self.front, self.part, self.ways = cache(self._front), cache(self._part), cache(self._ways)
 
@@ -249,8 +263,9 @@ class _Policies:
     ) -> Iterator[_Way]:
         """The epoch in which the human begins an action, or none, if they can do that beside the robots."""
         begun = robots if his is None else (*robots, his)
-        moment = self.world.after(now.moment, epoch, begun)
-        if moment is not None:
+        moment, most = self.worlds[now.scenario].after(now.moment, epoch, begun), self.options.max_disturbance
+        disturbed = 0 if most is None else now.disturbed + self.disturbing.by(now.moment, begun)
+        if moment is not None and (most is None or disturbed <= self.disturbing.scale * most):
             costs = (self.task.team_cost(self.task.actions[i], self.options.discount) for i in begun)
             cost = int(sum(costs, Fraction(0)) * self.unit)
             seen = None if his is None else self.task.actions[his].name
@@ -259,26 +274,30 @@ class _Policies:
                 paid += self.task.actions[his].cost
                 if paid > self.task.cost_of(self.scenarios[now.scenario].plan):
                     return
-            yield _Way(seen, (cost, cost), _Situation(now.scenario, moment, since, rest, paid))
+            after = _Situation(now.scenario, moment, since, rest, paid, disturbed)
+            yield _Way(seen, (cost, cost), after)
 
     def _closed(self, epoch: int, inside: _Way) -> Iterator[_Way]:
         """The same epoch, as the last one of the window, by when robots have ended what they began."""
-        scenario, moment, since, _, paid = inside.now
+        scenario, moment, since, *_ = inside.now
         assert since is not None
         rest = None if self.world.others_busy(moment) else self.suffixes[scenario].plan(moment, since, epoch)
         if rest is not None:
-            yield inside._replace(now=_Situation(scenario, moment, None, rest, paid))
+            yield inside._replace(now=inside.now._replace(since=None, rest=rest))
 
     def _end(self, now: _Situation) -> Units | None:
         """What comes on top after ``T``; None where it can't end like this."""
-        if self.rules and not self.rules[now.scenario].keeps(now.moment):
-            return None
+        price = 0
+        if self.rules:
+            rule = self.rules[now.scenario]
+            if not rule.keeps(now.moment):
+                return None
+            price = int(rule.price(now.moment) * self.unit)
         if now.rest is not None:
-            return (0, 0)
+            return (price, price)
         ends = self.world.plan_is_over(now.moment) and now.since is None
-        return (
-            (self.weight, 0) if ends and holds(self.scenarios[now.scenario].goal, now.moment.state) else None
-        )
+        reached = ends and self.worlds[now.scenario].reached(now.moment)
+        return (self.weight + price, price) if reached else None
 
 
 def _undominated(vectors: set[Vector]) -> Vectors:

@@ -10,6 +10,7 @@ from serendipity.testing.oracle.alone import Alone
 from serendipity.testing.oracle.epochs import State, after, holds, usable
 from serendipity.testing.oracle.labels import Front, Label, front, plus
 from serendipity.testing.oracle.moments import Moment, World
+from serendipity.testing.oracle.noticing import Notices
 
 
 class SuffixPrices(Protocol):
@@ -160,11 +161,19 @@ class CanonicalSuffix:
         options: which rule is in force.
         human_plan: ``pi_H``.
         last: ``T``.
+        notices: what the human notices, where that counts.
     """
 
-    def __init__(self, task: Task, options: Options, human_plan: HumanPlan, last: int) -> None:
+    def __init__(
+        self,
+        task: Task,
+        options: Options,
+        human_plan: HumanPlan,
+        last: int,
+        notices: Notices | None = None,
+    ) -> None:
         self.task, self.options, self.human_plan, self.last = task, options, human_plan, last
-        self.alone = Alone(task, strict=options.strict)
+        self.alone = Alone(task, strict=options.strict, notices=notices)
         self.expected = _states(self.alone.world, human_plan)
         self.plan = cache(self._plan)
 
@@ -197,7 +206,7 @@ class CanonicalSuffix:
             reached: Moment | None = now
             for following in range(free + 1, self.last + 1):
                 reached = None if reached is None else world.alone(reached, following, begun.get(following))
-            if reached is not None and holds(self.task.goal, reached.state):
+            if reached is not None and world.reached(reached):
                 return tuple(begun.get(following) for following in range(epoch + 1, end + 1))
         return None
 

@@ -126,7 +126,7 @@ def test_a_doctored_answer_is_refuted() -> None:
 
 
 def test_what_is_not_settled_is_refused() -> None:
-    with pytest.raises(UsageError, match="waiting_cost: a human who replans waits for free"):
+    with pytest.raises(UsageError, match="waiting_cost: beside a human who sees what is near"):
         serendipity.plan(kitchen(), human_model="local", waiting_cost=1)
     with pytest.raises(UsageError, match="visible: is not known where actions take time"):
         serendipity.plan(kitchen(), human_model="local", visible=lambda *_: True)

@@ -1,0 +1,157 @@
+"""Rules of help over scenarios (semantics 11 to 14): answers as brute force has them, and proved."""
+
+from dataclasses import replace
+from fractions import Fraction
+from itertools import islice
+from typing import Any
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import serendipity
+from search.modes.scenarios import Candidate
+from serendipity import Condition, Result, Task, UsageError
+from serendipity.testing.builders import task as build
+from serendipity.testing.oracle import human_plans
+from serendipity.testing.oracle.scenarios import best_policy
+from tests.facade.rooms import rooms
+from tests.search.modes.scenarios.strategies import options_over, scenarios
+from tests.search.modes.scenarios.test_in_time import library
+
+_FREE = st.sampled_from([None, None, "at *"])
+_PLAIN = {"suffix": "replan", "preservation": "kernel", "interference": "paper"}
+_RULES: dict[str, st.SearchStrategy[dict[str, Any]]] = {
+    "noticed": st.fixed_dictionaries({"noticed": st.just(True), "leave_free": _FREE}).map(_PLAIN.__or__),
+    "disturbance": st.fixed_dictionaries(
+        {
+            "max_disturbance": st.sampled_from([0, "0.5", 1, 2]),
+            "disturbance": st.sampled_from([None, "ask=2", "sight=1", "meet=1, ask=0.5"]),
+            "leave_free": _FREE,
+            "interference": st.just("paper"),
+        }
+    ),
+    "leftovers": st.fixed_dictionaries(
+        {
+            "leave_price": st.sampled_from(["*=0.31", "at *=0.17, lit *=0.53, *=2.9", "*0*=0.07, *=1.13"]),
+            "leave_free": st.sampled_from([None, "at r*"]),
+            "risk": st.just("mean"),
+        }
+    ),
+}
+
+
+@st.composite
+def in_rooms(draw: st.DrawFn) -> tuple[Task, list[Candidate]]:
+    """Somebody who may go to one of some rooms, or work."""
+    task, found = draw(rooms(timed=False)), []
+    shares = draw(st.sampled_from([(1, 1), (1, 2), (9, 1), (1, 2, 3)]))
+    wanted = [fact for fact in task.facts if fact.startswith("at h") or fact == "done"]
+    for number, share in enumerate(shares):
+        goal = Condition((task.facts.index(draw(st.sampled_from(wanted))),))
+        ways = [*islice(human_plans(replace(task, goal=goal)), 3)]
+        assume(ways)
+        plan = draw(st.sampled_from(ways))
+        found.append(Candidate(goal, plan, Fraction(share, sum(shares)), f"s{number}"))
+    return task, found
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("rule", sorted(_RULES))
+@given(st.one_of(in_rooms(), in_rooms(), scenarios()), st.data())
+@settings(max_examples=25)
+def test_answers_are_those_of_brute_force(
+    rule: str, asked: tuple[Task, list[Candidate]], data: st.DataObject
+) -> None:
+    task, candidates = asked
+    assume(len(candidates) > 1)
+    options = data.draw(options_over(candidates)).but(**data.draw(_RULES[rule]))
+    if (options.suffix, options.preservation) == ("replan", "kernel"):
+        options = options.but(nobody_pays=data.draw(st.sampled_from([None, None, True])))
+    horizon = int(options.horizon or max(len(one.plan) for one in candidates))
+    assume(horizon <= 4 and len(task.actions) * horizon <= 60)
+    expected = best_policy(task, options, candidates, horizon)
+    given_options = {name: getattr(options, name) for name in options.__dataclass_fields__}
+    answer = serendipity.plan(task, plans=library(task, candidates), **given_options)
+    assert answer.status == "optimal"
+    if answer.saving_alone and not answer.statistics.get("rule_binds"):
+        return  # beside plans that are not optimal the answer without the rule comes first
+    assert (answer.objective, answer.cost) == pytest.approx((float(expected.objective), float(expected.cost)))
+    assert answer.opportunity == expected.opportunity
+    verdict = serendipity.verify(task, answer).verdict
+    assert verdict == "proved" or (verdict == "undecided" and rule == "leftovers")
+
+
+def two_doors() -> Task:
+    """The human turns left or right, and a robot can open the door there beforehand, or light the hall."""
+    actions = {"walk h": "a -> b !a @ 0"}
+    for way in ("left", "right"):
+        actions |= {
+            f"turn-{way} h": f"b -> {way} !b @ 0",
+            f"force h {way}": f"{way} -> out-{way} @ 9",
+            f"pass h {way}": f"{way} open-{way} -> out-{way} @ 0",
+            f"open r {way}": f" -> open-{way} @ 1",
+        }
+    return build(agents="h r", init="a", goal="out-left", actions=actions)
+
+
+def _plans(**shares: str) -> list[dict[str, Any]]:
+    return [
+        {
+            "name": way,
+            "probability": share,
+            "goal": [f"out-{way}"],
+            "plan": ["walk h", f"turn-{way} h", f"force h {way}"],
+        }
+        for way, share in shares.items()
+    ]
+
+
+def asked(**options: Any) -> Result:
+    plans = _plans(left="0.75", right="0.25")
+    return serendipity.plan(two_doors(), plans=plans, discount="0", window_weight=0, horizon=4, **options)
+
+
+def test_what_is_left_costs_in_each_scenario() -> None:
+    """Each door that is open costs 2: with the work of opening it 3 of the 9 that forcing it takes."""
+    answer = asked(leave_price="open*=2, *=0")
+    assert (answer.cost, answer.human_cost) == (3.0, 9.0)
+    assert answer.statistics["left"] == {"open-left": 1.5, "open-right": 0.5}
+    assert [one.cost for one in answer.goals or ()] == [3.0, 3.0]
+    assert not asked(leave_price="open*=8, *=0").opportunity
+
+
+@pytest.mark.parametrize(("name", "by"), [("cost", 0.5), ("objective", 0.5), ("saving", 0.5)])
+def test_edited_figures_are_refuted(name: str, by: float) -> None:
+    answer = asked(leave_price="open*=2, *=0")
+    told = replace(answer, **{name: getattr(answer, name) + by})
+    task = two_doors()
+    assert serendipity.verify(task, told).verdict == serendipity.check(task, told).verdict == "refuted"
+
+
+def test_help_that_costs_more_by_what_it_leaves_is_refuted() -> None:
+    answer = asked(leave_price="open*=2, *=0")
+    dear = answer.options.but(leave_price="open*=8.5, *=0")
+    goals = tuple(replace(one, cost=9.5) for one in answer.goals or ())
+    told = replace(answer, options=dear, goals=goals, cost=9.5, objective=9.5, lower_bound=9.5, saving=-0.5)
+    assert serendipity.verify(two_doors(), told).verdict == "refuted"
+
+
+def test_prices_go_with_the_mean_only() -> None:
+    with pytest.raises(UsageError, match="leave_price: with several goals or plans, it goes with risk mean"):
+        asked(leave_price="*=1", risk="worst")
+
+
+def test_each_scenario_is_held_to_what_may_disturb_in_it() -> None:
+    task = serendipity.example("room2")
+    goals = [
+        {"name": "triage", "goal": ["conducted_triage commx room1"]},
+        {"name": "home", "goal": ["at commx hall1"]},
+    ]
+    free = serendipity.plan(task, goals=goals, discount="0.9", window_weight=0)
+    calm = serendipity.plan(task, goals=goals, discount="0.9", window_weight=0, max_disturbance=0)
+    assert free.opportunity
+    assert (free.cost or 0) <= (calm.cost or 0)
+    assert serendipity.verify(task, calm).verdict == "proved"
+    told = replace(free, options=calm.options)
+    assert "scenario 'triage': disturbance (semantics 13)" in str(serendipity.verify(task, told))
