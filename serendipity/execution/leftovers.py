@@ -1,10 +1,17 @@
 """Robots that tidy up: what they leave has to be as it would be without them, but for some facts."""
 
 from collections.abc import Iterable
+from glob import escape
 
 from serendipity.facade.kept import with_goals
 from serendipity.model import Condition, GroundAction, Options, Task
 from serendipity.model.task.leftovers import leftovers
+
+
+def about_robots(task: Task) -> str:
+    """Patterns of the facts that name a robot, which it may leave changed unless somebody says otherwise."""
+    names = (escape(task.agents[robot]) for robot in task.robots)
+    return ", ".join(f"*[ _]{name}[ _]*, *[ _]{name}, {name}[ _]*" for name in names)
 
 
 def tidying(task: Task, free: str) -> Task:

@@ -13,6 +13,7 @@ from search import PreparedTask
 from search.kernel.library import library
 from serendipity.execution.adapters import AdapterChoice, Faults, Maker
 from serendipity.execution.execution import Execution, own_goals
+from serendipity.execution.leftovers import about_robots
 from serendipity.execution.log import log_lines
 from serendipity.execution.persons import Person, Persona, moment_of, persona_from, recorded_actions
 from serendipity.execution.robot_policy import RobotPolicy
@@ -98,7 +99,9 @@ def execute(
         jobs: processes.
         on_progress: called with the number of runs that are over, and of all.
         **options: ``discount``, ``deadline``, ``setup``, ``beta``, ``noise``, ``mode``,
-            ``interference`` and ``leave_free`` of :class:`Execution`.
+            ``interference`` and ``leave_free`` of :class:`Execution`; without the last robots that have no
+            goals of their own may leave changed only what names them, or people may change, where they know
+            the person's goal (``"*"``: anything).
 
     Raises:
         UsageError: an argument is wrong.
@@ -129,6 +132,8 @@ def execute(
         raise UsageError("human_model: with plans only 'omniscient' is possible")
     adapters = AdapterChoice(adapter, faults, durations, epoch_seconds)
     alone = plan(task, mode="individual")
+    if options.get("leave_free") is None and goals is None and plans is None and not task.robot_goal:
+        options["leave_free"] = about_robots(task)
     series = _Series(
         task=task,
         persona=persona,

@@ -22,7 +22,8 @@ def test_in_random_runs(human: str, faults: str | None, seeds: range) -> None:
         task = random_call(seed).task
         oracle = Oracle(task, OptimalPlans(task))
         discount = ("0.5", "0.9")[seed % 2]
-        runs = serendipity.execute(task, human, seed=seed, discount=discount, faults=faults, epochs=30)
+        options = {"discount": discount, "faults": faults, "epochs": 30, "leave_free": "*"}
+        runs = serendipity.execute(task, human, seed=seed, **options)
         assert not list(untrue(task, runs.logs[0], oracle.cost)), f"random_call({seed})"
         kinds |= {event["decision"]["because"]["kind"] for event in runs.logs[0][1:] if "decision" in event}
     assert kinds >= {"pays", "done", "no-help"}

@@ -7,7 +7,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity import Task, UsageError
+from serendipity import Condition, Task, UsageError
 from serendipity.testing import strategies
 
 
@@ -28,10 +28,17 @@ def test_the_cart_is_brought_back() -> None:
     task = serendipity.example("parcels")
     runs = {
         free: serendipity.execute(task, "omniscient", discount="0.9", leave_free=free).rows[0]
-        for free in (None, "at *", "nothing")
+        for free in ("*", "at *", None, "nothing")
     }
-    assert [float(f"{run.cost:.6g}") for run in runs.values()] == [8.5, 8.6, 8.8]
+    assert [float(f"{run.cost:.6g}") for run in runs.values()] == [8.5, 8.6, 8.7, 8.8]
     assert {run.human_cost for run in runs.values()} == {8}
+
+
+def test_robots_with_goals_of_their_own_leave_what_these_ask_for() -> None:
+    task = serendipity.example("parcels")
+    own = task.with_goal(task.goal, Condition((task.facts.index("at cart mill"),)))
+    (run,) = serendipity.execute(own, "omniscient", discount="0.9").rows
+    assert run.reached
 
 
 @pytest.mark.parametrize(

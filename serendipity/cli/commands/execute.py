@@ -48,7 +48,14 @@ def execute(
         ),
     ] = None,
     interference: Annotated[str | None, planning.told("interference")] = None,
-    leave_free: Annotated[str | None, planning.told("leave_free")] = None,
+    leave_free: Annotated[
+        str | None,
+        option(
+            "--leave-free PATTERNS",
+            "Only facts that fit, or that people may change, may be left changed; '*': all. By default, "
+            "without --goals, --plans and goals of robots' own, facts that name a robot.",
+        ),
+    ] = None,
     goals: planning.Goals = None,
     plans: planning.Plans = None,
     beta: planning.Beta = None,
