@@ -38,7 +38,7 @@ from serendipity.model.task.metered import Metered
 from serendipity.model.task.noticed import Noticed
 
 _SHARE: Final = 0.5
-"""The share of the time for the call without the rule."""
+"""The share of the time for the call without the rule, where its best answer breaks it."""
 
 Solve = Callable[[Request, HumanPlan | None], Iterator[Answer]]
 """Answers a call beside a plan of the human's, or the predicted one, without the rule."""
@@ -70,7 +70,8 @@ def answers(call: Request, plan: HumanPlan | None, solve: Solve) -> Iterator[Ans
         asked = OnePlan(call, rule)
         return priced(call.options, asked, lambda literals: _keeping(call, free, rule, solve, literals))
 
-    return _disturbing(call, _answers(call, solve(_soon(call), plan), keeps, keeping))
+    soon = _soon(call)
+    return _disturbing(call, _answers(call, soon, solve(soon, plan), keeps, keeping))
 
 
 def over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[Answer]:
@@ -113,7 +114,8 @@ def over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[A
     if call.options.risk == "regret":  # what it compares with keeps the rule, too
         found = (answer._replace(is_bound=True) for answer in keeping(Answer("unknown")))
         return _disturbing(call, found)
-    return _disturbing(call, _answers(call, _solved(_soon(call), candidates), keeps, keeping))
+    soon = _soon(call)
+    return _disturbing(call, _answers(call, soon, _solved(soon, candidates), keeps, keeping))
 
 
 def _disturbing(call: Request, found: Iterator[Answer]) -> Iterator[Answer]:
@@ -137,23 +139,30 @@ def _soon(call: Request) -> Request:
 
 def _answers(
     call: Request,
+    soon: Request,
     found: Iterable[Answer],
     keeps: Callable[[Answer], bool],
     keeping: Callable[[Answer], Iterator[Answer]],
 ) -> Iterator[Answer]:
     """The answers without the rule that keep it; and where the last one does not, those with it.
 
+    The call without it has all the time that there is, until its best answer is one that breaks it.
+
     Args:
         call: the call.
-        found: answers without the rule.
+        soon: the one without the rule, which has a share of the time.
+        found: answers without the rule, no better than which is any with it.
         keeps: whether one keeps it.
         keeping: answers with it, given the last one without.
     """
-    free, best = Answer("unknown"), None
+    free, best, share = Answer("unknown"), None, soon.deadline.within()
+    soon.deadline.renew(call.deadline)
     for free in found:
-        if free.cost is not None and keeps(free):
+        is_kept = free.cost is not None and keeps(free)
+        if is_kept:
             best = _on_the_way(call.options, free)
             yield best
+        soon.deadline.renew(call.deadline if is_kept else share)
     if free.cost is None:
         yield free
         return
@@ -166,6 +175,7 @@ def _answers(
             is_worse = answer.cost is None or (best is not None and _order(best) < _order(answer))
             if best is not None and is_worse and answer.status not in ("optimal", "infeasible"):
                 answer = best
+            answer = _at_least(answer, free)
             yield answer._replace(without_rule=None if least is None else free.cost, is_bound=True)
     except LIMITS as limit:
         yield best or Answer("unknown", human_plan=free.human_plan, reason=limit_reason(limit))
@@ -179,9 +189,17 @@ def _refuse_infinite(options: Options) -> None:
 def _on_the_way(options: Options, answer: Answer) -> Answer:
     """An answer that may not be the best, with a bound for those without a window, too."""
     least = answer.lower_bound or Fraction(0)
-    if options.windowed:
+    if options.windowed and not answer.opportunity:
         least = max(Fraction(0), least - options.window_weight)
     return answer._replace(status="feasible", lower_bound=least)
+
+
+def _at_least(answer: Answer, free: Answer) -> Answer:
+    """An answer with the rule, bounded by one without it of the same kind."""
+    if answer.cost is None or answer.status != "feasible" or answer.opportunity is not free.opportunity:
+        return answer
+    least = max(answer.lower_bound or Fraction(0), free.lower_bound or Fraction(0))
+    return answer._replace(lower_bound=least, status="optimal" if least == answer.objective else "feasible")
 
 
 def _keeping(

@@ -1,5 +1,6 @@
 """Help that costs nobody anything, and leaves little behind (semantics 12): as brute force has it."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity import Condition, PlanError, Result, Script, Task, UsageError
+from serendipity.facade import one_plan
 from serendipity.testing.builders import task as build
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
@@ -235,3 +237,21 @@ def test_it_goes_with_few_options_where_payments_are_counted() -> None:
     )
     with pytest.raises(UsageError, match="it goes with suffix replan only; nobody_pays=False"):
         serendipity.plan(shop, nobody_pays=True, suffix="subplan")
+
+
+@pytest.mark.parametrize(("task", "all_of_it"), [(serendipity.example("room2"), True), (tea(), False)])
+def test_the_call_without_the_rule_has_all_the_time_while_its_answer_keeps_it(
+    task: Task, all_of_it: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    left: list[float] = []
+    solve = one_plan._without_rule
+
+    def watched(call: Any, plan: Any) -> Iterator[Any]:
+        for answer in solve(call, plan):
+            yield answer
+            left.append(call.deadline.left())
+
+    monkeypatch.setattr(one_plan, "_without_rule", watched)
+    with_idle = serendipity.plan(task, discount="0.9", time_limit=1000, nobody_pays=True)
+    assert with_idle.opportunity
+    assert (min(left) > 900) is all_of_it
