@@ -178,11 +178,6 @@ class Line:
         """What a set of robots' actions is worth."""
         return self._worths.of_key(robots.weight)
 
-    def possible(self, robots: JointAction, state: int) -> bool:
-        """Whether what robots do by themselves is applicable."""
-        own = self.variants.own(robots, state)
-        return own is not None and all(applicable(self._context.packed.op(i), state) for i in own.actions)
-
     def begun(self, state: int) -> Iterable[JointAction]:
         """What robots may begin by themselves, cheapest first."""
         return self.variants.offered(self._acting.begun(state))

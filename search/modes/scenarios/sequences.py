@@ -150,8 +150,7 @@ class SequenceSearch:
                     if not robots.actions:
                         ended.append((label.paid + line.least(m, epoch), m, label))
                     continue
-                possible = line.possible(robots, m.state)
-                for way in line.ways(m, epoch, robots, limit - label.paid) if possible else ():
+                for way in line.ways(m, epoch, robots, limit - label.paid):
                     paid = label.paid + way.paid
                     total, found = paid + line.least(way.after, epoch), _Label(paid, way, (m, label))
                     if way.after.phase == OVER:

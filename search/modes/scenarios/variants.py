@@ -43,16 +43,15 @@ class Variants:
 
     def own(self, robots: JointAction, state: int) -> JointAction | None:
         """What robots begin, by ids of the scenario; None where its state does not allow it."""
-        if not self._original:
-            return robots
         packed, found = self._context.packed, NOTHING
         for action in robots.actions:
-            ops = (packed.op(i) for i in self._ids[action])
+            ops = (packed.op(i) for i in (self._ids[action] if self._original else (action,)))
             op = next((op for op in ops if applicable(op, state)), None)
             if op is None:
                 return None
-            found = together(found, as_option(op, self._context.weights.team(op)))
-        return found
+            if self._original:
+                found = together(found, as_option(op, self._context.weights.team(op)))
+        return found if self._original else robots
 
     def seen(self, state: int) -> object:
         """What scenarios that are not told apart have in common of a state."""
