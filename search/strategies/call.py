@@ -1,5 +1,6 @@
 """One planning call beside ``pi_H``: its incumbents, and what is proved of them (semantics 3)."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -8,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from search.bounds.first_interaction import no_team_bound
 from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node, Progress, Space
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.spaces.factory import free_space, window_space
 from search.spaces.fixed_human_plan import follow_plan
 from search.strategies.warm_start import WarmStart
@@ -38,6 +39,7 @@ class Call:
     Args:
         given: ``pi_H``, already replayed, or None to predict it.
         least_alone: what an optimal plan of the human's costs; None to find out.
+        most: key that a plan beside a given ``pi_H`` has to beat; None where any will do.
 
     Attributes:
         plan: ``pi_H``; None where there is none, or before it is known.
@@ -68,6 +70,7 @@ class Call:
         given: HumanPlan | None,
         warm: WarmStart,
         least_alone: Fraction | None = None,
+        most: Callable[[CostLayout], int] | None = None,
     ) -> None:
         self.context = context
         self.task = context.task
@@ -76,6 +79,7 @@ class Call:
         self.given = given
         self.warm = warm
         self.least_alone = least_alone
+        self._most = most
         self.plan: HumanPlan | None = None
         self.is_planned = False
         self.epochs: int | None = None
@@ -162,6 +166,8 @@ class Call:
             self.baseline = found  # what savings are counted from has to be the least there is
         self.idle = replace(self.baseline, key=self.baseline.key + self.window_of_nothing)
         self.best = self.unhelped()
+        if self._most is not None and self._most(self.keys) < self.best.key:
+            self.best = Incumbent(self._most(self.keys))
 
     @property
     def window_of_nothing(self) -> int:

@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
-from search.packed.cost_vector import INFINITE_KEY
+from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.strategies import conditions as calls
 from search.strategies.call import Allowance, Call
 from search.strategies.human_plan import first_bound, first_plan, known_plan, optimal_plan, plan_alone, saving
@@ -149,6 +149,7 @@ def best_plan(
     human_plan: HumanPlan,
     deadline: Deadline,
     turns: Sequence[Turn] = TURNS,
+    most: Callable[[CostLayout], int] | None = None,
 ) -> Call | None:
     """A call at its end: its best plan counts, be it an opportunity or not; None where it could not begin.
 
@@ -156,9 +157,10 @@ def best_plan(
         options: options in force.
         human_plan: ``pi_H``, which works.
         turns: those that may be taken; of these, those that the options name.
+        most: key that a plan has to beat, by the layout of keys; None: any plan will do.
     """
     try:
-        call = Call(SearchContext(prepared, options, deadline), human_plan, WarmStart())
+        call = Call(SearchContext(prepared, options, deadline), human_plan, WarmStart(), most=most)
     except LIMITS:
         return None
     for _ in _improved(call, chosen(options.strategy_names, turns), predicts=True):

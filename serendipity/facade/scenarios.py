@@ -10,7 +10,7 @@ from fractions import Fraction
 from itertools import islice
 from typing import Final, NamedTuple
 
-from search import canonical_human_plan, first_answer, optimal_human_plans
+from search import PreparedTask, canonical_human_plan, first_answer, optimal_human_plans
 from search.modes.goals import Explainer
 from search.modes.scenarios import Candidate
 from serendipity.facade import ties
@@ -152,9 +152,14 @@ def _beside_some_plans(call: Request, candidates: Sequence[CandidateGoal]) -> _S
         return None
     known, late = [], call.deadline.part(_SOON)
     try:
-        for number, one in enumerate(candidates):
+        if len(candidates) == 1:
+            packed = [call.prepared.with_goal(candidates[0].goal)]
+        else:  # together: each takes time that grows with the files
+            wanted = [(one.goal, Condition()) for one in candidates]
+            packed = call.prepared.with_goals(wanted, frozenset(), late)
+        for number, (one, prepared) in enumerate(zip(candidates, packed, strict=True)):
             part = late.part(1 / (len(candidates) - number))
-            if one.prior and (idle := _beside_some_plan(call, one, part)) is not None:
+            if one.prior and (idle := _beside_some_plan(prepared, call.options, part)) is not None:
                 known.append((Candidate(one.goal, idle.human_plan or (), one.prior, one.name), idle))
     except LIMITS:
         return None
@@ -168,15 +173,14 @@ def _beside_some_plans(call: Request, candidates: Sequence[CandidateGoal]) -> _S
     return _about(call, found[0], None), _certain(found[0], None, own, known[0][1])
 
 
-def _beside_some_plan(call: Request, one: CandidateGoal, deadline: Deadline) -> Answer | None:
-    """Idle robots beside a plan to a goal; None where there is none that fits.
+def _beside_some_plan(prepared: PreparedTask, options: Options, deadline: Deadline) -> Answer | None:
+    """Idle robots beside a plan to the goal; None where there is none that fits.
 
     Raises:
         LimitReachedError: a limit came first.
     """
-    prepared = call.prepared.with_goal(one.goal)
-    known = first_answer(prepared, call.options, deadline)
-    plan = known.plan or canonical_human_plan(prepared, deadline, call.options)
+    known = first_answer(prepared, options, deadline)
+    plan = known.plan or canonical_human_plan(prepared, deadline, options)
     if plan is None:
         return None
     if (found := known.beside(plan)) is None:

@@ -10,6 +10,7 @@ import pytest
 import serendipity
 from search import PreparedTask, first_answer
 from search.kernel.library import library
+from search.packed.packed_task import PackedTask
 from serendipity import LimitReachedError, Task
 from serendipity.cli.text.answers import plan_report
 from serendipity.model import Deadline, Options, Result
@@ -165,3 +166,19 @@ def test_what_was_told_on_the_way_is_not_taken_back(options: dict[str, Any]) -> 
         told = answers[-1].cost is not None
         assert told or all(answer.cost is None for answer in answers)
         assert before or not told
+
+
+def test_several_goals_are_packed_once_before_the_first_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It took as long as the files for each of them: 0.7 s for four goals in 84 rooms."""
+    packings, answers = list[int](), list[int]()
+    build_packing = PackedTask._build
+
+    def counted(self: PackedTask, task: Task, *rest: Any) -> None:
+        packings.append(len(answers))
+        build_packing(self, task, *rest)
+
+    monkeypatch.setattr(PackedTask, "_build", counted)
+    serendipity.plan(
+        _switches(), time_limit=60, on_improvement=lambda _: answers.append(1), **_goals(1, 2, 3)
+    )
+    assert packings.count(0) == 1

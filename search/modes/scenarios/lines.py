@@ -105,7 +105,14 @@ class Line:
 
     # -- what may happen
 
-    def ways(self, at: Member, epoch: int, robots: JointAction, most: int = INFINITE_WORTH) -> Iterator[Way]:
+    def ways(
+        self,
+        at: Member,
+        epoch: int,
+        robots: JointAction,
+        most: int = INFINITE_WORTH,
+        only: tuple[int, ...] | None = None,
+    ) -> Iterator[Way]:
         """What may happen in an epoch, counted from 1, in which robots begin so much by themselves.
 
         Args:
@@ -113,6 +120,7 @@ class Line:
             epoch: its number.
             robots: what they begin by themselves.
             most: what can't be had for less, from here to the end, may be left out.
+            only: in a window, the actions of the human's that are looked at; None: all.
         """
         own = self.variants.own(robots, at.state)
         beside = None if own is None else self._acting.with_due(own, at.state)
@@ -132,7 +140,7 @@ class Line:
         opens = at.phase == FOLLOWING
         start = epoch if opens and self._tells_starts else at.start
         for part in self._acting.free(at.state):
-            if self._fits(part, beside):
+            if only in (None, part.actions) and self._fits(part, beside):
                 inside = at._replace(start=start, phase=INSIDE)
                 yield from self._within(inside, epoch, part, beside, opens, most)
 
@@ -197,7 +205,7 @@ class Line:
 
     def guide(self, at: Member, epoch: int, deadline: Deadline) -> Guide | None:
         """The best plan known for what is left, if this is what the human does for certain."""
-        found = self.certain.remainder(at, epoch, deadline)
+        found = self.certain.remainder(at, epoch, deadline, again=False)
         if found.worth >= INFINITE_WORTH:
             return None
         return Guide(self.number, found, at.phase, self._context, self.variants)
@@ -239,21 +247,22 @@ class Line:
         if as_planned and before.goes_on(epoch, inside=inside):
             self.certain.learn(after, epoch, before.after(way.paid))
 
-    def certainly(self, at: Member, epoch: int, deadline: Deadline, *, again: bool = True) -> tuple[int, int]:
+    def certainly(
+        self, at: Member, epoch: int, deadline: Deadline, most: int = INFINITE_WORTH, *, again: bool = True
+    ) -> tuple[int, int]:
         """Bound and worth of what is left, if this is what the human does for certain.
 
         Args:
             at: after the epoch.
             epoch: its number.
             deadline: what is known by then is returned.
+            most: what is worth as much or more need not be told apart.
             again: whether to go on where a deadline came before.
         """
         if at.phase == OVER or epoch == self._horizon:
             rest = self.least(at, epoch)
             return rest, rest
-        found = None if again else self.certain.known(at, epoch)
-        if found is None:
-            found = self.certain.remainder(at, epoch, deadline)
+        found = self.certain.remainder(at, epoch, deadline, most, again=again)
         return found.least, found.worth
 
 

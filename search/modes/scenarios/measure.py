@@ -82,8 +82,16 @@ class Worths:
         if worth >= INFINITE_WORTH:
             return INFINITE_KEY
         objective = worth >> self._bits
-        cost = min(worth - (objective << self._bits), (1 << self._keys.cost_bits) - 1)
+        cost = worth - (objective << self._bits)
+        if cost >> self._keys.cost_bits:  # more than any cost is
+            return objective + 1 << self._keys.objective_shift
         return (objective << self._keys.objective_shift) + (cost << self._keys.cost_shift)
+
+    def above(self, worth: int) -> int:
+        """A key below which every plan with a smaller objective is, and every one with the same."""
+        if worth >= INFINITE_WORTH:
+            return INFINITE_KEY
+        return (worth >> self._bits) + 1 << self._keys.objective_shift
 
     def figures(self, value: int) -> tuple[Fraction, Fraction]:
         """Objective and cost of a value, which counts parts of worths."""
@@ -127,6 +135,16 @@ class Mean:
         others = self.value(members, [0 if i == one else rest for i, rest in enumerate(rests)])
         return -((others - value) // self._shares[members[one].scenario])
 
+    def branch(self, most: int, paid: int, value: int, lower: int) -> int:
+        """The least value of a branch with which a choice is worth at least so much.
+
+        Args:
+            most: so much.
+            paid: before the branch begins.
+            value: of the choice, where the branch is worth ``lower``.
+        """
+        return most - value + lower if most < INFINITE_WORTH else INFINITE_WORTH
+
 
 class Greatest:
     """The greatest of worths; members begin with what they are ahead of each other."""
@@ -152,6 +170,10 @@ class Greatest:
     def limit(self, members: Sequence[Member], rests: Sequence[int], one: int, value: int) -> int:
         """See :class:`Mean`."""
         return value - members[one].ahead if value < INFINITE_WORTH else INFINITE_WORTH
+
+    def branch(self, most: int, paid: int, value: int, lower: int) -> int:
+        """See :class:`Mean`."""
+        return most - paid if most < INFINITE_WORTH else INFINITE_WORTH
 
 
 Measure = Mean | Greatest

@@ -80,7 +80,7 @@ class PolicySearch:
         self._lines, self._measure = question.lines, question.measure
         self._horizon, self._deadline = question.horizon, question.deadline
         self._groups: dict[tuple[int, tuple[Member, ...]], Group] = {}
-        self._looked: set[Group] = set()
+        self._looked: dict[Group, int] = {}
         self.root = self._group(0, question.members)
         self.root.offer(known, None)
         self.expanded = self.generated = 0
@@ -99,7 +99,7 @@ class PolicySearch:
         """Bring the bounds of the root together, to a limit; yield whenever they have changed much."""
         self._look(self.root)
         yield
-        for scenario in (None, *(line.number for line in self._lines)):
+        for scenario in (*(line.number for line in self._lines), None):
             if not self.root.is_settled:
                 self._probe(self.root, None if scenario is None else self._guide(self.root, scenario))
                 yield
@@ -116,22 +116,28 @@ class PolicySearch:
                 known.upper = known.lower
         return known
 
-    def _look(self, group: Group) -> bool:
-        """Bound a group by its scenarios one by one; whether only one is left, which settles it."""
-        single, deadline = len(group.members) == 1, self._deadline
-        if group not in self._looked:
-            self._looked.add(group)
-            deadline = deadline.part(_SHARE)
-        elif not single:
+    def _look(self, group: Group, most: int = INFINITE_WORTH, share: float = 1) -> bool:
+        """Bound a group by its scenarios one by one; whether only one is left, of which no more is known.
+
+        Args:
+            most: what is worth as much or more need not be told apart.
+            share: of the time that is left, for one that goes on for certain.
+        """
+        members, epoch, single = group.members, group.epoch, len(group.members) == 1
+        most = min(most, group.upper)
+        if not single and self._looked.get(group, 0) >= most:
             return False
-        found = [
-            self._lines[m.scenario].certainly(m, group.epoch, deadline, again=single) for m in group.members
-        ]
-        least, worths = zip(*found, strict=True)
-        group.lower = max(group.lower, self._measure.value(group.members, least))
-        if not single:
-            worths = tuple(self._alone(m, group.epoch) for m in group.members)
-        group.offer(self._measure.value(group.members, worths), None)
+        first = group not in self._looked
+        self._looked[group] = most
+        deadline = self._deadline.part(_SHARE if first else share)
+        least = [self._lines[m.scenario].least(m, epoch) for m in members]
+        worth = INFINITE_WORTH
+        for i, m in enumerate(members):
+            limit = self._measure.limit(members, least, i, most)
+            least[i], worth = self._lines[m.scenario].certainly(m, epoch, deadline, limit, again=single)
+        worths = [worth] if single else [self._alone(m, epoch) for m in members]
+        group.lower = max(group.lower, self._measure.value(members, least))
+        group.offer(self._measure.value(members, worths), None)
         return single
 
     def _alone(self, at: Member, epoch: int) -> int:
@@ -212,18 +218,22 @@ class PolicySearch:
     def _probe(self, group: Group, guide: Guide | None) -> None:
         """Value the policy that helps one scenario, or nobody, as long as others are possible."""
         trail: list[tuple[Group, Choice]] = []
-        pending = [(group, guide)]
+        pending = [(group, guide, self.root.upper)]
         try:
             while pending:
-                at, followed = pending.pop()
-                if at.is_settled or self._look(at):
+                at, followed, most = pending.pop()
+                if at.is_settled or self._look(at, most, _SHARE) or at.lower >= most:
                     continue
                 if followed is not None and followed.scenario not in {m.scenario for m in at.members}:
                     followed = self._guide(at, at.members[0].scenario)
                 choice = self._guided(at, followed)
                 if choice is not None:
                     trail.append((at, choice))
-                    pending += [(after, followed) for _, after in choice.branches]
+                    value = self._lower(choice)
+                    pending += [
+                        (after, followed, self._measure.branch(most, paid, value, after.lower))
+                        for paid, after in choice.branches
+                    ]
         finally:
             for at, choice in reversed(trail):
                 at.offer(self._upper(choice), choice)
@@ -231,7 +241,11 @@ class PolicySearch:
     def _guide(self, group: Group, scenario: int) -> Guide | None:
         """The best plan for one of a group, were it the only one."""
         at = next(m for m in group.members if m.scenario == scenario)
-        return None if at.phase == OVER else self._lines[scenario].guide(at, group.epoch, self._deadline)
+        return (
+            None
+            if at.phase == OVER
+            else self._lines[scenario].guide(at, group.epoch, self._deadline.part(_SHARE))
+        )
 
     def _guided(self, group: Group, guide: Guide | None) -> Choice | None:
         """The next epoch of a group, all but the guided one left alone; None where that is impossible."""
@@ -240,15 +254,16 @@ class PolicySearch:
         ways = []
         for m in group.members:
             line = self._lines[m.scenario]
-            found = line.ways(m, epoch, robots)
-            if guide is not None and m.scenario == guide.scenario:
+            is_guided = guide is not None and m.scenario == guide.scenario
+            found = line.ways(m, epoch, robots, only=part if is_guided else None)
+            if is_guided:
                 wanted = (w for w in found if w.part.actions == part and w.after.phase == phase)
             else:
                 wanted = (w for w in found if w.after.phase == m.phase and not w.opens)
             way = next(wanted, None)
             if way is None:
                 return None
-            if guide is not None and m.scenario == guide.scenario:
+            if is_guided:
                 line.learn(m, epoch, way, robots)
             ways.append(way)
         return self._choice(group, robots, tuple(ways))
@@ -257,40 +272,47 @@ class PolicySearch:
 
     def _search(self) -> Iterator[None]:
         """Look at the most promising choice of each group first, until the root is settled."""
-        stack = [(self.root, INFINITE_WORTH)]
+        stack = [(self.root, INFINITE_WORTH, INFINITE_WORTH)]
         try:
             while stack:
-                group, limit = stack[-1]
-                after = self._next(group, limit)
+                after = self._next(*stack[-1])
                 if after is None:
                     stack.pop()
                     yield
                 else:
                     stack.append(after)
         finally:
-            for group, _ in reversed(stack):
+            for group, *_ in reversed(stack):
                 self._raise(group)
 
-    def _next(self, group: Group, limit: int) -> tuple[Group, int] | None:
-        """The group to look at next for the sake of this one, and the bound up to which that matters."""
+    def _next(self, group: Group, limit: int, most: int) -> tuple[Group, int, int] | None:
+        """The group to look at next for the sake of this one, and the bounds up to which that matters.
+
+        Args:
+            limit: beyond it something else is more promising.
+            most: beyond it nothing is better than the policy that is known.
+        """
         self._deadline.check()
-        if group.lower >= min(limit, group.upper):
+        most, limit = min(most, group.upper), min(limit, most, group.upper)
+        if group.lower >= limit:
             return None
         if group.choices is None:
-            if self._look(group) or group.lower >= min(limit, group.upper):
+            if self._look(group, most) or group.lower >= min(limit, group.upper):
                 return None
             self.expanded += 1
             choices = [(self._lower(c), n, c) for n, c in enumerate(self._choices(group))]
             group.choices = [entry for entry in choices if entry[0] < group.upper]
             heapify(group.choices)
         self._raise(group)
-        if group.lower >= min(limit, group.upper):
+        limit = min(limit, group.upper)
+        if group.lower >= limit:
             return None
         assert group.choices, "a group without choices is settled"
         value, _, best = group.choices[0]
-        _, after = max((b for b in best.branches if not b[1].is_settled), key=lambda b: b[0] + b[1].upper)
+        paid, after = max((b for b in best.branches if not b[1].is_settled), key=lambda b: b[0] + b[1].upper)
         second = min((entry[0] for entry in group.choices[1:3]), default=INFINITE_WORTH)
-        return after, after.lower + max(min(second, limit, group.upper) - value, 0) + 1
+        most = self._measure.branch(min(most, group.upper), paid, value, after.lower)
+        return after, after.lower + max(min(second, limit) - value, 0) + 1, most
 
     def _raise(self, group: Group) -> None:
         """Bring the bounds of a group up to date with those of its most promising choices."""

@@ -61,6 +61,9 @@ class Remainder(NamedTuple):
         return self._replace(least=self.least - paid, worth=self.worth - paid)
 
 
+_UNKNOWN: Final = Remainder(0, INFINITE_WORTH)
+
+
 @dataclass(frozen=True, slots=True)
 class Scenario:
     """A plan of the human's that the robots hold possible.
@@ -103,29 +106,51 @@ class Certain:
         self._facts = [(fact, *found) for fact, found in enumerate(bits) if found is not None]
         self._others = frozenset(fact for fact in task.init if bits[fact] is None)
         self._known: dict[tuple[int, int, int], Remainder] = {}
+        self._asked: dict[tuple[int, int, int], int] = {}
         self.expanded = self.generated = 0
 
     def known(self, at: Member, epoch: int) -> Remainder | None:
         """A remainder that was asked for before."""
         return self._known.get(_beginning(at, epoch))
 
-    def remainder(self, at: Member, epoch: int, deadline: Deadline) -> Remainder:
-        """The remainder after an epoch, its suffix not begun, or what is known of it at the deadline."""
-        found = self.known(at, epoch)
-        if found is None or found.least < found.worth:
-            beginning = _beginning(at, epoch)
-            found = self._known[beginning] = self._find(*beginning, deadline)
-        return found
+    def remainder(
+        self,
+        at: Member,
+        epoch: int,
+        deadline: Deadline,
+        most: int = INFINITE_WORTH,
+        *,
+        again: bool = True,
+    ) -> Remainder:
+        """The remainder after an epoch, its suffix not begun, or what is known of it at the deadline.
+
+        Args:
+            most: what is worth as much or more need not be told apart.
+            again: whether to go on where a deadline came before.
+        """
+        beginning = _beginning(at, epoch)
+        known = self._known.get(beginning, _UNKNOWN)
+        if known.least < min(known.worth, most) and (again or self._asked.get(beginning, 0) < most):
+            self._asked[beginning] = most
+            found = self._find(*beginning, deadline, min(known.worth, most))
+            best = min(known, found, key=lambda one: one.worth)
+            known = best._replace(least=min(max(known.least, found.least), best.worth))
+            self._known[beginning] = known
+        return known
 
     def learn(self, at: Member, epoch: int, found: Remainder) -> None:
         """Note a remainder that follows from another one."""
         self._known.setdefault(_beginning(at, epoch), found)
 
-    def _find(self, epoch: int, state: int, start: int, deadline: Deadline) -> Remainder:
+    def _find(self, epoch: int, state: int, start: int, deadline: Deadline, most: int) -> Remainder:
+        """The remainder, if it is worth less than so much; else that nothing is."""
         if start:
-            return self._in_space(state, epoch, start, deadline)
+            return self._in_space(state, epoch, start, deadline, most)
         if not self.follows(state, epoch):  # robots are in the way
-            found = self._in_space(state, epoch, 0, deadline), self._mended(state, epoch, deadline)
+            found = (
+                self._in_space(state, epoch, 0, deadline, most),
+                self._mended(state, epoch, deadline, most),
+            )
             best = min(found, key=lambda one: one.worth)
             return best._replace(least=min(one.least for one in found))
         if epoch >= len(self.steps):
@@ -133,14 +158,15 @@ class Certain:
             return Remainder(alone, alone)
         all_are_free = self._packed.at_rest.holds(state) and self._due.human(state) is None  # but bystanders
         if self._ordinary and all_are_free:
-            helped, alone = self._by_strategies(state, epoch, deadline), self.alone(state, epoch)
+            alone = self.alone(state, epoch)
+            helped = self._by_strategies(state, epoch, deadline, most)
             if alone >= helped.worth:
                 return helped
             left = plan_steps(self._scenario.plan[epoch:], epoch + 1)  # which no strategy counts beside G_R
             return Remainder(min(helped.least, alone), alone, left)
-        return self._in_space(state, epoch, 0, deadline)
+        return self._in_space(state, epoch, 0, deadline, most)
 
-    def _mended(self, state: int, epoch: int, deadline: Deadline) -> Remainder:
+    def _mended(self, state: int, epoch: int, deadline: Deadline, most: int) -> Remainder:
         """The human follows their plan to its end, and robots make that possible again."""
         context = self._scenario.context.under(deadline)
         space = FixedHumanPlan(
@@ -151,10 +177,10 @@ class Certain:
             successors=context.successors(),
             begins=epoch,
         )
-        best = Incumbent(INFINITE_KEY)
+        window = self._worths.epoch
+        best = Incumbent(self._worths.key(max(most - window, 0)))
         least, worth = self._searched(space, best, deadline)
         steps = path_steps(best.node) if best.node is not None else ()
-        window = self._worths.epoch
         return Remainder(min(least + window, INFINITE_WORTH), min(worth + window, INFINITE_WORTH), steps)
 
     def _searched(
@@ -168,7 +194,8 @@ class Certain:
         self.expanded += progress.expanded
         self.generated += progress.generated
         least = min(progress.bound, best.key)  # equal at its end
-        return self._worths.of_key(least), self._worths.of_key(best.key)
+        worth = INFINITE_WORTH if best.node is None else self._worths.of_key(best.key)
+        return self._worths.of_key(least), worth
 
     def follows(self, state: int, epoch: int) -> bool:
         """Whether the rest of their plan works, and reaches the goal, if nobody does anything else."""
@@ -197,39 +224,46 @@ class Certain:
         space = self._space(scenario.context.under(deadline), self._packed.init, 0, 0, idle=True)
         return min(alone, self._worths.of_key(solve_space(space, best, deadline).key))
 
-    def _by_strategies(self, state: int, epoch: int, deadline: Deadline) -> Remainder:
+    def _by_strategies(self, state: int, epoch: int, deadline: Deadline, most: int) -> Remainder:
         scenario = self._scenario
         facts = self._others.union(fact for fact, mask, value in self._facts if state & mask == value)
         prepared = scenario.plain if not epoch and state == self._packed.init else scenario.plain.at(facts)
         options = self._options.but(horizon=scenario.horizon - epoch)
-        call = best_plan(prepared, options, scenario.plan[epoch:], deadline, _TURNS)
+        scale = self._worths.scale
+        plan, limit = scenario.plan[epoch:], lambda keys: Worths(keys, scale).above(most)
+        call = best_plan(prepared, options, plan, deadline, _TURNS, limit)
         if call is None:
             return Remainder(0, INFINITE_WORTH)
         self.expanded += call.progress.expanded
         self.generated += call.progress.generated
-        worths, best = Worths(call.keys, self._worths.scale), call.best
-        worth = worths.of_key(best.key)
+        worths, best = Worths(call.keys, scale), call.best
+        worth = most if best.node is None else worths.of_key(best.key)
         is_best = call.is_done or call.is_settled
         least = worth if is_best else min(worth, worths.of_key(call.progress.bound))
-        if best.key >= INFINITE_KEY:
-            return Remainder(least, worth)
-        window = Window(best.node.start + epoch, best.end + epoch) if best.node and best.end else None
+        if best.node is None:
+            return Remainder(least, INFINITE_WORTH)
+        window = Window(best.node.start + epoch, best.end + epoch) if best.end else None
         steps = tuple(Step(step.epoch + epoch, step.action) for step in steps_of(call, best))
         return Remainder(least, worth, steps, window)
 
-    def _in_space(self, state: int, epoch: int, start: int, deadline: Deadline) -> Remainder:
+    def _in_space(self, state: int, epoch: int, start: int, deadline: Deadline, most: int) -> Remainder:
         context = self._scenario.context.under(deadline)
         space = self._space(context, state, epoch, start)
-        best = Incumbent(INFINITE_KEY)
+        best = Incumbent(self._worths.key(most))
+        is_left_alone = False
         if not start and self.follows(state, epoch):
-            best.key = self._left_alone(state, epoch) + context.keys.epoch_weight
-            best.key += context.keys.of_start(len(self.steps), space.horizon)
-        bounds = self._searched(space, best, deadline)
-        if best.node is None:  # left alone, or no plan at all
-            left = self._scenario.plan[epoch:] if best.key < INFINITE_KEY else ()
-            return Remainder(*bounds, plan_steps(left, epoch + 1))
-        steps = path_steps(best.node) + plan_steps(best.tail, best.end)
-        return Remainder(*bounds, steps, Window(best.node.start, best.end))
+            alone = self._left_alone(state, epoch) + context.keys.epoch_weight
+            alone += context.keys.of_start(len(self.steps), space.horizon)
+            is_left_alone = alone < best.key
+            best.key = min(alone, best.key)
+        least, worth = self._searched(space, best, deadline)
+        if best.node is not None:
+            steps = path_steps(best.node) + plan_steps(best.tail, best.end)
+            return Remainder(least, worth, steps, Window(best.node.start, best.end))
+        if is_left_alone:
+            worth = self._worths.of_key(best.key)
+            return Remainder(least, worth, plan_steps(self._scenario.plan[epoch:], epoch + 1))
+        return Remainder(least, worth)
 
     def _space(
         self, context: SearchContext, state: int, epoch: int, start: int, *, idle: bool = False

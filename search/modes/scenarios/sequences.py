@@ -16,6 +16,8 @@ from search.modes.scenarios.lines import Question, Way
 from search.modes.scenarios.measure import INFINITE_WORTH, OVER, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
+from serendipity.model.errors import LimitReachedError
+from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.plans import Step
 
 
@@ -86,20 +88,24 @@ class SequenceSearch:
             guide = line.guide(line.first(), 0, deadline)
             if guide is not None:
                 epochs = range(1, self._horizon + 1)
-                self._offer({epoch: guide.at(epoch)[0] for epoch in epochs})
+                self._offer({epoch: guide.at(epoch)[0] for epoch in epochs}, deadline)
             yield
-        self._offer({})
+        self._offer({}, self._deadline.part(_SHARE / 2))
         yield
 
     def _root(self) -> _Sequence:
         places = tuple({line.first(): _Label(0)} for line in self._lines)
         return _Sequence(0, places, NOTHING, 0, None)
 
-    def _offer(self, robots: dict[int, JointAction]) -> None:
-        """Play a sequence against every scenario."""
+    def _offer(self, robots: dict[int, JointAction], deadline: Deadline) -> None:
+        """Play a sequence against every scenario, if there is time."""
         node: _Sequence | None = self._root()
-        while node is not None and node.epoch < self._horizon:
-            node = self._child(node, robots.get(node.epoch + 1, NOTHING))
+        try:
+            while node is not None and node.epoch < self._horizon:
+                node = self._child(node, robots.get(node.epoch + 1, NOTHING), deadline)
+        except LimitReachedError:
+            self._deadline.check()
+            return
         if node is not None:
             self._complete(node)
 
@@ -113,7 +119,7 @@ class SequenceSearch:
             self._deadline.check()
             self.expanded += 1
             for robots in self._choices(node):
-                child = self._child(node, robots)
+                child = self._child(node, robots, self._deadline)
                 if child is None or not _is_new(child, seen):
                     continue
                 bound = self._bound(child)
@@ -135,7 +141,7 @@ class SequenceSearch:
                 offered.setdefault(option.actions, option)
         return offered.values()
 
-    def _child(self, node: _Sequence, robots: JointAction) -> _Sequence | None:
+    def _child(self, node: _Sequence, robots: JointAction, deadline: Deadline) -> _Sequence | None:
         """The sequence an epoch later; None if some scenario has no place left."""
         question, epoch, after = self._question, node.epoch + 1, []
         self.generated += 1
@@ -145,7 +151,7 @@ class SequenceSearch:
             # What it pays at which the sequence is no better than the best one known.
             limit = question.measure.limit(question.members, self._floors, i, self.upper)
             for m, label in node.places[i].items():
-                self._deadline.tick()
+                deadline.tick()
                 if m.phase == OVER:  # the suffix goes on, as long as robots are idle
                     if not robots.actions:
                         ended.append((label.paid + line.least(m, epoch), m, label))

@@ -1,9 +1,16 @@
-"""What is known of a scenario that goes on for certain is handed on with its epochs, where it does go on."""
+"""What is known of a scenario that goes on for certain: handed on with its epochs, as far as it matters."""
+
+from fractions import Fraction
 
 import pytest
 
-from search.modes.scenarios.remainder import Remainder
+from search import PreparedTask
+from search.call.context import SearchContext
+from search.modes.scenarios.measure import FOLLOWING, Member, Worths
+from search.modes.scenarios.remainder import Certain, Remainder, Scenario
+from serendipity.model import Deadline, Options
 from serendipity.model.task.plans import Step, Window
+from tests.search.modes.scenarios.test_policies_equal_brute_force import lifted
 
 
 @pytest.mark.parametrize(
@@ -25,3 +32,33 @@ def test_only_a_window_that_is_where_the_scenario_is_goes_on(
     assert found.goes_on(1, inside=inside) == goes_on
     if goes_on:
         assert found.after(2) == Remainder(3, 3, found.steps, window)
+
+
+def _certain() -> tuple[Certain, Member, Worths]:
+    """The first of the two scenarios of :func:`lifted` by itself, from the start."""
+    task, candidates = lifted()
+    options = Options(horizon=3, window_weight=Fraction(1))
+    prepared = PreparedTask(task).with_goal(candidates[0].goal)
+    context = SearchContext(prepared, options, Deadline())
+    worths = Worths(context.keys, 1)
+    certain = Certain(Scenario(prepared, context, candidates[0].plan, 3), worths)
+    return certain, Member(0, context.packed.init, FOLLOWING, 0, None, 0), worths
+
+
+def test_what_is_worth_too_much_is_not_told_apart() -> None:
+    whole, start, worths = _certain()
+    best = whole.remainder(start, 0, Deadline())
+    assert best.least == best.worth
+    certain, start, _ = _certain()
+    most = best.worth - worths.epoch
+    dearer = certain.remainder(start, 0, Deadline(), most)
+    assert most <= dearer.least < best.worth < dearer.worth
+    assert certain.remainder(start, 0, Deadline(), dearer.least) is dearer
+    assert certain.remainder(start, 0, Deadline()) == best
+
+
+def test_a_key_is_not_worth_less_than_it_is_asked_for() -> None:
+    """The key of a cost that is beyond all costs was worth less."""
+    _, _, worths = _certain()
+    for worth in (0, 7, 1 << 40, 1 << 70, worths.epoch + (1 << 70)):
+        assert worths.of_key(worths.key(worth)) >= worth
