@@ -159,7 +159,8 @@ def _beside_some_plans(call: Request, candidates: Sequence[CandidateGoal]) -> _S
             packed = call.prepared.with_goals(wanted, frozenset(), late)
         for number, (one, prepared) in enumerate(zip(candidates, packed, strict=True)):
             part = late.part(1 / (len(candidates) - number))
-            if one.prior and (idle := _beside_some_plan(prepared, call.options, part)) is not None:
+            asked = prepared, call.options, part
+            if one.prior and (idle := _beside_some_plan(*asked, alone=len(packed) == 1)) is not None:
                 known.append((Candidate(one.goal, idle.human_plan or (), one.prior, one.name), idle))
     except LIMITS:
         return None
@@ -173,14 +174,20 @@ def _beside_some_plans(call: Request, candidates: Sequence[CandidateGoal]) -> _S
     return _about(call, found[0], None), _certain(found[0], None, own, known[0][1])
 
 
-def _beside_some_plan(prepared: PreparedTask, options: Options, deadline: Deadline) -> Answer | None:
+def _beside_some_plan(
+    prepared: PreparedTask, options: Options, deadline: Deadline, *, alone: bool
+) -> Answer | None:
     """Idle robots beside a plan to the goal; None where there is none that fits.
+
+    None, too, where it is the only goal, and its optimal plan is found as soon: so is the answer to it.
 
     Raises:
         LimitReachedError: a limit came first.
     """
     known = first_answer(prepared, options, deadline)
-    plan = known.plan or canonical_human_plan(prepared, deadline, options)
+    plan = known.plan
+    if plan is None and not alone:
+        plan = canonical_human_plan(prepared, deadline, options)
     if plan is None:
         return None
     if (found := known.beside(plan)) is None:

@@ -134,6 +134,8 @@ class PolicySearch:
         worth = INFINITE_WORTH
         for i, m in enumerate(members):
             limit = self._measure.limit(members, least, i, most)
+            if limit <= least[i]:
+                break
             least[i], worth = self._lines[m.scenario].certainly(m, epoch, deadline, limit, again=single)
         worths = [worth] if single else [self._alone(m, epoch) for m in members]
         group.lower = max(group.lower, self._measure.value(members, least))
