@@ -221,12 +221,12 @@ class Line:
             if not at.tail.done:
                 return self._worths.of_key(self._suffix.key(*at.tail[:3], INFINITE_KEY))
             return sum(self._worths.of_key(part.weight) for _, part in self._suffix_steps(at.tail))
+        if epoch == self._horizon:  # exact, whatever bound was handed on
+            done = at.phase == FOLLOWING and all(goal.holds(at.state) for goal in self._context.goals)
+            return self._worths.epoch if done else INFINITE_WORTH
         known = self.certain.known(at, epoch)
         if known is not None:
             return known.least
-        if epoch == self._horizon:
-            done = at.phase == FOLLOWING and all(goal.holds(at.state) for goal in self._context.goals)
-            return self._worths.epoch if done else INFINITE_WORTH
         rest = self._worths.of_key(self._context.bound(at.state))
         return min(rest + self._worths.epoch, INFINITE_WORTH)
 

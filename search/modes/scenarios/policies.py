@@ -137,10 +137,17 @@ class PolicySearch:
             if limit <= least[i]:
                 break
             least[i], worth = self._lines[m.scenario].certainly(m, epoch, deadline, limit, again=single)
-        worths = [worth] if single else [self._alone(m, epoch) for m in members]
         group.lower = max(group.lower, self._measure.value(members, least))
-        group.offer(self._measure.value(members, worths), None)
+        if single:
+            group.offer(self._measure.value(members, [worth]), None)
+        else:
+            self._leave_alone(group)
         return single
+
+    def _leave_alone(self, group: Group) -> None:
+        """Offer that nobody in a group is helped any more."""
+        worths = [self._alone(m, group.epoch) for m in group.members]
+        group.offer(self._measure.value(group.members, worths), None)
 
     def _alone(self, at: Member, epoch: int) -> int:
         """What a scenario is worth from here with idle robots and no window to come."""
@@ -224,8 +231,12 @@ class PolicySearch:
         try:
             while pending:
                 at, followed, most = pending.pop()
-                if at.is_settled or self._look(at, most, _SHARE) or at.lower >= most:
+                if at.lower >= min(most, at.upper):
                     continue
+                if len(at.members) == 1:
+                    self._look(at, most, _SHARE)
+                    continue
+                self._leave_alone(at)
                 if followed is not None and followed.scenario not in {m.scenario for m in at.members}:
                     followed = self._guide(at, at.members[0].scenario)
                 choice = self._guided(at, followed)

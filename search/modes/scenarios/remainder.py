@@ -58,7 +58,7 @@ class Remainder(NamedTuple):
 
     def after(self, paid: int) -> "Remainder":
         """What is left once its first epoch has been paid."""
-        return self._replace(least=self.least - paid, worth=self.worth - paid)
+        return self._replace(least=max(self.least - paid, 0), worth=self.worth - paid)
 
 
 _UNKNOWN: Final = Remainder(0, INFINITE_WORTH)
@@ -178,7 +178,7 @@ class Certain:
             begins=epoch,
         )
         window = self._worths.epoch
-        best = Incumbent(self._worths.key(max(most - window, 0)))
+        best = Incumbent(self._worths.key(most if most >= INFINITE_WORTH else max(most - window, 0)))
         least, worth = self._searched(space, best, deadline)
         steps = path_steps(best.node) if best.node is not None else ()
         return Remainder(min(least + window, INFINITE_WORTH), min(worth + window, INFINITE_WORTH), steps)

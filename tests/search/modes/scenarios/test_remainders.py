@@ -6,6 +6,7 @@ import pytest
 
 from search import PreparedTask
 from search.call.context import SearchContext
+from search.modes.scenarios.lines import Line
 from search.modes.scenarios.measure import FOLLOWING, Member, Worths
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
 from serendipity.model import Deadline, Options
@@ -55,6 +56,16 @@ def test_what_is_worth_too_much_is_not_told_apart() -> None:
     assert most <= dearer.least < best.worth < dearer.worth
     assert certain.remainder(start, 0, Deadline(), dearer.least) is dearer
     assert certain.remainder(start, 0, Deadline()) == best
+
+
+def test_at_the_horizon_no_bound_is_handed_on() -> None:
+    """After a limit it was taken for what is left, and a policy for better than it was."""
+    certain, start, worths = _certain()
+    context = certain._scenario.context
+    line, task = Line(certain._scenario, 0, context.successors(), worths), context.task
+    done = start._replace(state=context.packed.pack(task.init.union(task.goal.positive)))
+    line.certain.learn(done, 3, Remainder(0, 2 * worths.epoch))
+    assert line.least(done, 3) == worths.epoch
 
 
 def test_a_key_is_not_worth_less_than_it_is_asked_for() -> None:
