@@ -42,9 +42,7 @@ NEEDS_OPTIMISER: Final = "not examined: the rules alone can't prove it"
 NEEDS_MORE_THAN_A_WALK: Final = (
     "not examined: it takes more than a walk through the policy; verify looks at it"
 )
-NOT_IN_TIME: Final = (
-    "not examined in time: suffixes of pi_H and preserved states over scenarios"
-)
+NOT_IN_TIME: Final = "not examined in time: suffixes of pi_H and preserved states over scenarios"
 NOTHING_TO_EXAMINE: Final = "there is no answer to examine"
 RESULT_BREAKS_RULE: Final = "the result breaks a rule already"
 ANSWER_BREAKS_RULE: Final = "the answer breaks a rule already"

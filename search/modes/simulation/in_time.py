@@ -110,7 +110,7 @@ class HumanInTime(Human):
         """See :class:`.Human`; whether waiting is paid for is only known when they begin something."""
         own = None if look.best is None else look.intention.op
         if own is not None and own.action in self.packed.idling:
-            return HumanStep(NOTHING, belief, look.intention.rest, False)
+            return HumanStep(NOTHING, self.expects(belief, NOTHING), look.intention.rest, False)
         return super().goes_on(belief, state, look)
 
     def paid(self, part: JointAction, waited: int) -> tuple[JointAction, int]:
