@@ -85,6 +85,14 @@ BOUNDS: Final = (
         "the kernel's A*",
     ),
     LowerBound(
+        "symbolic bidirectional search",
+        "search.classical.symbolic:cheapest_plan",
+        "Torralba, Alcazar, Kissmann and Edelkamp 2017",
+        "as LM-cut",
+        "the extra `symbolic`; a process, once a question has taken long",
+        "as the kernel's A*, whose place it takes for a while",
+    ),
+    LowerBound(
         "relaxed timeline of one robot",
         "search.short_windows.independent.timeline:RobotLayers",
         "decoupled search, Gnad and Hoffmann 2018: other robots provide for nothing what they can",

@@ -21,7 +21,10 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
     left = planner.cheapest(state, deadline)
     if left >= INFINITE_KEY:
         return None
-    rest = in_order(operators, planner.known_plan(state, deadline) or (), deadline)
+    known = planner.known_plan(state, deadline)
+    if planner.is_canonical(state):
+        return known
+    rest = in_order(operators, known or (), deadline)
     amounts = [planner.problem.amount(weight) for weight in planner.problem.weights]
     plan: list[int] = []
     refuted: set[int] = set()

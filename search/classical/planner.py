@@ -8,6 +8,7 @@ alone; tables of projections follow once a question turns out to be worth them.
 import ctypes
 from array import array
 from collections.abc import Callable, Iterable
+from math import inf
 from typing import Final
 
 from search.classical.encoded_problem import EncodedProblem, memory_for
@@ -30,6 +31,12 @@ _MANY: Final = 2_000
 
 _SHARE: Final = 0.25
 """What of the time that is left they may take."""
+
+_MUCH_WORK: Final = 100_000_000
+"""Evaluations times operators, two to four seconds, after which symbolic search has its turn."""
+
+_SYMBOLIC_SHARE: Final = 0.5
+"""What of the time that is left it may take."""
 
 _MOST_STATES: Final = 10_000
 _MOST_TRANSITIONS: Final = 3_000_000
@@ -97,11 +104,15 @@ class ClassicalPlanner:
         self._planner = self._kernel.planner_new(ctypes.byref(self.told.spec))
         if not self._planner:
             raise LimitReachedError("memory-limit")
-        self._tables = False
+        self._tables, self._tried = False, 0.0
         self._asked: int | None = None
         self._most = INFINITE_KEY
+        self._floor = 0
+        """What symbolic search says that no plan of the last question weighs less than."""
         self._plans: dict[int, list[int]] = {}
-        """Those that cost more than the kernel can add up, by the state where they begin."""
+        """Those that the kernel does not know, by the state where they begin."""
+        self._canonical: set[int] = set()
+        """States of which these are canonical."""
         self._is_open = False
 
     @property
@@ -128,7 +139,7 @@ class ClassicalPlanner:
         """
         kernel, planner = self._kernel, self._planner
         row, most = self.told.row(state), self.problem.limit(limit)
-        self._asked, self._is_open, self._most = state & self._mask, False, limit
+        self._asked, self._is_open, self._most, self._floor = state & self._mask, False, limit, 0
         self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
         self._is_open = True
         return self.go_on(deadline, on_bound)
@@ -149,9 +160,48 @@ class ClassicalPlanner:
             if on_bound is not None:
                 on_bound(self.least)
             self.prepare(deadline)
+            if self._is_settled_symbolically(deadline, on_bound):
+                break
         found = self._unbounded(deadline) if outcome == _UNFIT else self.least
         self._is_open = False
         return found
+
+    def _is_settled_symbolically(self, deadline: Deadline, on_bound: Callable[[int], None] | None) -> bool:
+        """Ask a symbolic search, if it is worth its time by now; whether it has settled the question.
+
+        Where time was short it is asked again once there is twice as much.
+        """
+        part = deadline.part(_SYMBOLIC_SHARE)
+        seconds = inf if (left := part.left()) is None else left
+        work = self.counts()[2] * len(self.problem.operators)
+        if work < _MUCH_WORK or seconds < 2 * self._tried or self._tried == inf:
+            return False
+        self._tried = seconds
+        from search.classical import symbolic  # only here: few calls need it
+
+        if not symbolic.is_installed():
+            self._tried = inf
+            return False
+
+        def noted(weight: int) -> None:
+            self._floor = weight
+            if on_bound is not None:
+                on_bound(self.least)
+
+        start = self._asked
+        assert start is not None, "a search is under way"
+        try:
+            plan = symbolic.cheapest_plan(self.problem, start, self.problem.limit(self._most), part, noted)
+        except (MemoryError, OSError):
+            self._tried = inf
+            return False
+        except LimitReachedError:
+            deadline.check()
+            return False
+        if plan is not None:
+            self._plans[start] = plan
+            self._canonical.add(start)
+        return True
 
     def _unbounded(self, deadline: Deadline) -> int:
         """:meth:`cheapest` in Python, whose integers have no end: plans may cost more than it adds up."""
@@ -177,7 +227,7 @@ class ClassicalPlanner:
     @property
     def least(self) -> int:
         """The amount that no plan from the state of the last :meth:`cheapest` is below, finished or not."""
-        return self.problem.amount(self._kernel.planner_least(self._planner))
+        return self.problem.amount(max(self._floor, self._kernel.planner_least(self._planner)))
 
     def bound(self, state: int, deadline: Deadline) -> int:
         """An amount that no plan from a packed state is below; ``INFINITE_KEY`` where there is none.
@@ -220,6 +270,10 @@ class ClassicalPlanner:
         found = self.cheapest(state, deadline, limit, on_bound)
         return self.known_plan(state, deadline) if found < limit else None
 
+    def is_canonical(self, state: int) -> bool:
+        """Whether :meth:`known_plan` is the canonical one anyway."""
+        return state & self._mask in self._canonical
+
     def amount(self, numbers: Iterable[int]) -> int:
         """The amount of operators, one after another."""
         weights = self.problem.weights
@@ -247,7 +301,7 @@ class ClassicalPlanner:
         has come across, finished or not, or else a cheapest one, if it is put together soon.
         """
         kernel, planner = self._kernel, self._planner
-        if self._asked == state & self._mask:
+        if self._asked == state & self._mask and self._asked not in self._plans:
             best = self._numbers(lambda *to: kernel.planner_best_way(planner, *to))
             if best is not None:
                 return best

@@ -20,7 +20,7 @@ _ACTIONS: Final = (1 << ACTIONS_BITS) - 1
 MOST_WEIGHT: Final = 1 << 61
 """``MOST_COST`` of ``search/kernel/values.h``: where the kernel's sums end."""
 
-_INFINITE_WEIGHT: Final = 2**63 - 1
+INFINITE_WEIGHT: Final = 2**63 - 1
 """``INFINITE_COST`` there."""
 
 
@@ -49,7 +49,7 @@ class ClassicalProblem:
 
     def amount(self, weight: int) -> int:
         """A sum of weights with the cost in units of 1; ``INFINITE_KEY`` where the kernel has none."""
-        if weight == _INFINITE_WEIGHT:
+        if weight == INFINITE_WEIGHT:
             return INFINITE_KEY
         return ((weight >> ACTIONS_BITS) * self.unit << ACTIONS_BITS) + (weight & _ACTIONS)
 
@@ -58,7 +58,7 @@ class ClassicalProblem:
         cost, actions = amount >> ACTIONS_BITS, amount & _ACTIONS
         whole, part = divmod(cost, self.unit)
         weight = whole + 1 << ACTIONS_BITS if part else (whole << ACTIONS_BITS) + actions
-        return weight if weight <= MOST_WEIGHT else _INFINITE_WEIGHT
+        return weight if weight <= MOST_WEIGHT else INFINITE_WEIGHT
 
 
 def classical_problem(
