@@ -9,6 +9,7 @@ from search.call.context import SearchContext
 from search.modes.scenarios.lines import Line
 from search.modes.scenarios.measure import FOLLOWING, Member, Worths
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
+from search.modes.scenarios.variants import Variants
 from serendipity.model import Deadline, Options
 from serendipity.model.task.plans import Step, Window
 from tests.search.modes.scenarios.test_policies_equal_brute_force import lifted
@@ -42,7 +43,8 @@ def _certain() -> tuple[Certain, Member, Worths]:
     prepared = PreparedTask(task).with_goal(candidates[0].goal)
     context = SearchContext(prepared, options, Deadline())
     worths = Worths(context.keys, 1)
-    certain = Certain(Scenario(prepared, context, candidates[0].plan, 3), worths)
+    scenario = Scenario(prepared, context, candidates[0].plan, 3, Variants(context, (), None))
+    certain = Certain(scenario, worths)
     return certain, Member(0, context.packed.init, FOLLOWING, 0, None, 0), worths
 
 
