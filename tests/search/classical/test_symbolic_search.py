@@ -33,7 +33,8 @@ def test_costs_and_plans_are_those_of_enumeration(task: Task, seed: int) -> None
     problem = planner.problem
     for state in (packed.init, random.choice([*costs])):
         cost = costs[state]
-        limit = random.choice([INFINITE_WEIGHT, problem.limit(cost), problem.limit(cost) + 1])
+        above = min(problem.limit(cost) + 1, INFINITE_WEIGHT)
+        limit = random.choice([INFINITE_WEIGHT, problem.limit(cost), above])
         search = Bidirectional(problem, state & problem.mask, limit)
         bounds = [*search.bounds()]
         assert bounds == sorted(bounds)
