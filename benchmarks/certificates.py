@@ -115,6 +115,8 @@ def main(
         rows.append({"group": group, "mode": mode, "discount": discount, **row})
         if not proofs and row["verdict"] != "proved":
             print(f"{source} {mode} {discount}: {row['verdict']}: {row['reason']}", flush=True)
+    if not rows:
+        raise SystemExit("nothing to verify: name a folder of tasks, --buildings or --suite that has answers")
     print(as_markdown(_proofs(rows) if proofs else [_certificates(rows)]), end="")
 
 
