@@ -12,6 +12,7 @@ from search.bounds.achiever_costs import AchieverCosts
 from search.bounds.first_interaction import FirstInteraction, no_team_bound
 from search.bounds.prefix_bounds import FirstInteractionOnTheWay
 from search.call.context import SearchContext
+from search.classical.planner import ClassicalPlanner
 from search.human.pattern_database import PatternDatabase
 from search.kernel.library import library
 
@@ -41,6 +42,7 @@ BOUNDS: Final[dict[str, tuple[type, tuple[str, ...], Any]]] = {
     "achiever automata": (AchieverCosts, ("__call__",), _nothing),
     "first interaction": (FirstInteraction, ("__call__",), _nothing),
     "first interaction on the way": (FirstInteractionOnTheWay, ("opening_after", "later"), _nothing),
+    "symbolic search": (ClassicalPlanner, ("_is_settled_symbolically",), _nothing),
     "LM-cut of the team": (SearchContext, ("team_bound",), property(_no_team_bound)),
 }
 """By name the class that works a bound out, its methods, and what stands for them without it."""
