@@ -10,8 +10,9 @@ import serendipity
 from serendipity import Explanation, Task
 from serendipity.explanation.person import Played
 from serendipity.model import Deadline, PlanError, UsageError
-from serendipity.testing.builders import Builder, task
+from serendipity.testing.builders import Builder
 from serendipity.testing.generator.in_time import random_call_in_time
+from tests.explanation.meal import meal
 
 
 def told(found: Explanation, topic: str) -> list[str]:
@@ -74,17 +75,7 @@ def test_why_nothing_helps() -> None:
 
 
 def test_somebody_gets_up() -> None:
-    meal = task(
-        init="far",
-        goal="full",
-        actions={
-            "fetch h": " -> food @ 3",
-            "eat h": "food -> full @ 1",
-            "come r": "far -> near !far @ 1",
-            "bring r": "near -> food @ 10",
-        },
-    )
-    found = serendipity.explain(meal, discount="0.9", head_start=2, human_model="observant")
+    found = serendipity.explain(meal(), discount="0.9", head_start=2, human_model="observant")
     assert told(found, "person") == [
         "In epoch 3, at 2, h gets up, finds food (after 'bring r'), and replans: "
         "1 from here instead of 4; left out: fetch h."

@@ -13,6 +13,7 @@ from serendipity.model import TimedPlan
 from serendipity.testing.builders import task
 from serendipity.testing.call import Call
 from serendipity.testing.strategies import bystander_tasks, calls_in_time, corridor_tasks, scripted_tasks
+from tests.explanation.meal import meal
 
 
 def told(found: Explanation) -> list[str]:
@@ -61,24 +62,13 @@ def test_a_morning() -> None:
 
 
 def test_a_head_start_and_what_it_is_worth() -> None:
-    """As in worked case 5 of semantics 10.5: a robot two moves away brings what somebody would fetch."""
-    meal = task(
-        init="far",
-        goal="full",
-        actions={
-            "fetch h": " -> food @ 3",
-            "eat h": "food -> full @ 1",
-            "come r": "far -> near !far @ 1",
-            "bring r": "near -> food @ 10",
-        },
-    )
-    found = serendipity.explain(meal, discount="0.9", head_start=2)
+    found = serendipity.explain(meal(), discount="0.9", head_start=2)
     assert told(found) == [
         "h: 'fetch h' begins in epoch 3, at 2, and no sooner: the head start is over at 2.",
         "Without the head start help would save 0 instead of 1.9.",
     ]
-    assert not serendipity.plan(meal, discount="0.9").opportunity
-    again = serendipity.explain(meal, found.answer)
+    assert not serendipity.plan(meal(), discount="0.9").opportunity
+    again = serendipity.explain(meal(), found.answer)
     assert again.sentences == found.sentences
 
 

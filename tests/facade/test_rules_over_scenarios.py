@@ -14,10 +14,9 @@ from search.modes.scenarios import Candidate
 from serendipity import Condition, Result, Task, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import human_plans
-from serendipity.testing.oracle.scenarios import best_policy
+from tests.facade.over_scenarios import as_brute_force_has_it
 from tests.facade.rooms import rooms
 from tests.search.modes.scenarios.strategies import options_over, scenarios
-from tests.search.modes.scenarios.test_in_time import library
 
 _FREE = st.sampled_from([None, None, "at *"])
 _PLAIN = {"suffix": "replan", "preservation": "kernel", "interference": "paper"}
@@ -70,14 +69,9 @@ def test_answers_are_those_of_brute_force(
         options = options.but(nobody_pays=data.draw(st.sampled_from([None, None, True])))
     horizon = int(options.horizon or max(len(one.plan) for one in candidates))
     assume(horizon <= 4 and len(task.actions) * horizon <= 60)
-    expected = best_policy(task, options, candidates, horizon)
-    given_options = {name: getattr(options, name) for name in options.__dataclass_fields__}
-    answer = serendipity.plan(task, plans=library(task, candidates), **given_options)
-    assert answer.status == "optimal"
-    if answer.saving_alone and not answer.statistics.get("rule_binds"):
-        return  # beside plans that are not optimal the answer without the rule comes first
-    assert (answer.objective, answer.cost) == pytest.approx((float(expected.objective), float(expected.cost)))
-    assert answer.opportunity == expected.opportunity
+    answer = as_brute_force_has_it(task, options, candidates, horizon)
+    if answer is None:
+        return
     verdict = serendipity.verify(task, answer).verdict
     assert verdict == "proved" or (verdict == "undecided" and rule == "leftovers")
 
