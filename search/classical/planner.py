@@ -171,10 +171,11 @@ class ClassicalPlanner:
 
         Where time was short it is asked again once there is twice as much.
         """
+        if self._tried == inf or self.counts()[2] * len(self.problem.operators) < _MUCH_WORK:
+            return False
         part = deadline.part(_SYMBOLIC_SHARE)
         seconds = inf if (left := part.left()) is None else left
-        work = self.counts()[2] * len(self.problem.operators)
-        if work < _MUCH_WORK or seconds < 2 * self._tried or self._tried == inf:
+        if seconds < 2 * self._tried:
             return False
         self._tried = seconds
         from search.classical import symbolic  # only here: few calls need it

@@ -5,9 +5,7 @@ from collections.abc import Sequence
 from typing import IO, Any, Final
 
 from serendipity.model import Deadline
-
-_LOOK: Final = 0.02
-"""Seconds between two looks at the deadline."""
+from serendipity.model.resources.child import ended
 
 _READING: Final = 0.03
 """Share of the time left that is kept for reading a solution back."""
@@ -35,13 +33,4 @@ def run(
         LimitReachedError: the deadline came first; the process has been killed.
     """
     process = subprocess.Popen(command, stdin=stdin, stdout=stdout, stderr=subprocess.DEVNULL)
-    try:
-        while True:
-            try:
-                return process.wait(_LOOK)
-            except subprocess.TimeoutExpired:
-                deadline.check_child(process.pid)
-    finally:
-        if process.poll() is None:
-            process.kill()
-            process.wait()
+    return ended(process, deadline)

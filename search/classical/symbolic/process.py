@@ -5,17 +5,13 @@ import pickle
 import subprocess
 import sys
 from collections.abc import Callable
-from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Final
 
 from search.classical.problem import ClassicalProblem
+from serendipity.model.resources.child import ended
 from serendipity.model.resources.deadline import Deadline
-
-_LOOK: Final = 0.02
-"""Seconds between two looks at the deadline, and at what the process says."""
 
 
 def is_installed() -> bool:
@@ -47,16 +43,7 @@ def cheapest_plan(
                 stderr=subprocess.DEVNULL,
                 env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
             )
-        try:
-            while child.poll() is None:
-                deadline.check_child(child.pid)
-                on_bound(_last(said)[0])
-                with suppress(subprocess.TimeoutExpired):
-                    child.wait(_LOOK)
-        finally:
-            child.kill()
-            child.wait()
-        if child.returncode:
+        if ended(child, deadline, lambda: on_bound(_last(said)[0])):
             raise MemoryError("too many nodes in decision diagrams")
         weight, *plan = _last(said)
         on_bound(weight)
