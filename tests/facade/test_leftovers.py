@@ -106,3 +106,29 @@ def test_what_a_given_plan_wastes_is_told_where_something_is_put_back(mode: str)
     assert answer.statistics["left"] == {"open": 0.5}
     assert (answer.cost, answer.saving, answer.saving_alone) == (2.5, 6.5, 1)
     assert serendipity.verify(task, answer).verdict == "proved"
+
+
+def messy() -> Task:
+    """The human's plan is dearer than a way that leaves a mess; what a robot opens makes possible a third."""
+    return build(
+        goal="done",
+        actions={
+            "long h": " -> done @ 9",
+            "short h": " -> done mess @ 8",
+            "quick h": "open -> done @ 8.2",
+            "open r": " -> open @ 0",
+        },
+    )
+
+
+def test_what_the_human_would_do_alone_has_no_price() -> None:
+    """They gain 1 alone, whatever they leave then; help that costs 8.7 is no match for that."""
+    options = Options(discount="1", window_weight=0, leave_price="mess=3, *=0.5")
+    answer = serendipity.plan(
+        messy(), human_plan=["long h"], discount="1", window_weight=0, leave_price="mess=3, *=0.5"
+    )
+    assert (answer.cost, answer.opportunity, answer.saving_alone) == (9, False, 1)
+    plan = (next(i for i, action in enumerate(messy().actions) if action.name == "long h"),)
+    expected = best(messy(), options, plan)
+    assert (expected.cost, expected.opportunity, expected.saving_alone) == (9, False, 1)
+    assert serendipity.verify(messy(), answer).verdict == "proved"

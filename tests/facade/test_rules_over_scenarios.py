@@ -11,12 +11,15 @@ from hypothesis import strategies as st
 
 import serendipity
 from search.modes.scenarios import Candidate
-from serendipity import Condition, Result, Task, UsageError
+from serendipity import Condition, Options, Result, Task, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import human_plans
+from serendipity.testing.oracle.scenarios import best_policy
 from tests.facade.over_scenarios import as_brute_force_has_it
 from tests.facade.rooms import rooms
+from tests.facade.test_leftovers import messy
 from tests.search.modes.scenarios.strategies import options_over, scenarios
+from tests.search.modes.scenarios.test_in_time import library
 
 _FREE = st.sampled_from([None, None, "at *"])
 _PLAIN = {"suffix": "replan", "preservation": "kernel", "interference": "paper"}
@@ -129,6 +132,27 @@ def test_help_that_costs_more_by_what_it_leaves_is_refuted() -> None:
     goals = tuple(replace(one, cost=9.5) for one in answer.goals or ())
     told = replace(answer, options=dear, goals=goals, cost=9.5, objective=9.5, lower_bound=9.5, saving=-0.5)
     assert serendipity.verify(two_doors(), told).verdict == "refuted"
+
+
+def test_what_the_human_would_do_alone_has_no_price() -> None:
+    """Of two likely goals one is a detour, by which they gain 1 alone; help that costs 8.7 there is none."""
+    task = messy()
+    plan = (next(i for i, action in enumerate(task.actions) if action.name == "long h"),)
+    candidates = [
+        Candidate(task.goal, plan, Fraction(1, 2), "done"),
+        Candidate(Condition(), (), Fraction(1, 2), "nothing"),
+    ]
+    options = Options(discount="1", window_weight=0, leave_price="mess=3, *=0.5")
+    answer = serendipity.plan(
+        task,
+        plans=library(task, candidates),
+        discount="1",
+        window_weight=0,
+        leave_price="mess=3, *=0.5",
+    )
+    assert (answer.cost, answer.opportunity, answer.saving_alone) == (4.5, False, 0.5)
+    expected = best_policy(task, options, candidates, 1)
+    assert (expected.cost, expected.opportunity, expected.idle) == (Fraction(9, 2), False, (4, 4))
 
 
 def test_prices_go_with_the_mean_only() -> None:

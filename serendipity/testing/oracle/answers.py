@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from serendipity.model import HumanPlan, Options, Task, TimedPlan, Window
 from serendipity.testing.oracle.labels import Label
+from serendipity.testing.oracle.nobody_pays import unpriced
 from serendipity.testing.oracle.plans import Plans, WindowPlan
 
 
@@ -119,7 +120,7 @@ class Solver:
         plan: HumanPlan = tuple(own.index(i) for i in given)
         if isinstance(given, TimedPlan):
             plan = TimedPlan(plan, given.starts, given.length)
-        alone = Solver(task, self.options, plan, given=False)
+        alone = Solver(task, unpriced(self.options), plan, given=False)
         alone.plans.unit = self.plans.unit
         return alone
 

@@ -100,6 +100,13 @@ class Rule:
         return state, tuple(sorted(left)), disturbed
 
 
+def unpriced(options: Options) -> Options:
+    """The options by which nothing is paid for what is left: what people do alone is not priced."""
+    rest = leftovers(options)
+    free = ", ".join(f"{pattern}=0" for pattern, _ in rest.priced) if rest is not None else ""
+    return options.but(leave_price=free or None)
+
+
 def _idle(world: World, plan: HumanPlan, last: int) -> Moment | None:
     """The moment after ``T`` if the human follows a plan, and robots do nothing; None if that can't be."""
     begun = dict(zip(world.task.starts_of(plan), plan, strict=True))

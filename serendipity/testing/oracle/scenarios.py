@@ -18,7 +18,7 @@ from serendipity.model import Condition, HumanPlan, Options, Task, UsageError
 from serendipity.model.task.leftovers import leftovers
 from serendipity.testing.oracle.disturbing import Disturbing
 from serendipity.testing.oracle.moments import Moment, World
-from serendipity.testing.oracle.nobody_pays import Rule, counts_everybody
+from serendipity.testing.oracle.nobody_pays import Rule, counts_everybody, unpriced
 from serendipity.testing.oracle.noticing import Notices
 from serendipity.testing.oracle.plans import smallest_unit
 from serendipity.testing.oracle.suffixes import CanonicalSuffix
@@ -106,7 +106,8 @@ def best_policy(
         return sum((a for a, _ in weighed), Fraction(0)), sum((b for _, b in weighed), Fraction(0))
 
     least = min(map(worth, _Policies(task, options, scenarios, last).vectors()))
-    idle = min(map(worth, _Policies(task, options, scenarios, last, robots=False).vectors()))
+    alone = _Policies(task, unpriced(options), scenarios, last, robots=False)
+    idle = min(map(worth, alone.vectors()))
     baseline = worth(kept)[1]
     if least[1] < idle[1]:
         return PolicyOptimum(*least, True, baseline, idle, least)
