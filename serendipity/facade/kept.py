@@ -1,6 +1,6 @@
 """What help has to leave as it would be without it (semantics 12)."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -8,11 +8,10 @@ from serendipity.facade.call import Request
 from serendipity.model import Condition, HumanPlan, Options, Step, Task
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.numbers import total
-from serendipity.model.task.actions import GroundAction, apply
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.gate import nobody_pays
 from serendipity.model.task.leftovers import leftovers
-from serendipity.model.task.unit_steps import CLOCK
+from serendipity.model.task.single_epochs import after, due, epochs
 
 Literal = tuple[int, bool]
 """A fact, and whether it is to be true."""
@@ -135,44 +134,12 @@ def _literals(condition: Condition) -> _Literals:
     return {*((fact, True) for fact in condition.positive), *((fact, False) for fact in condition.negative)}
 
 
-def _due(task: Task, state: frozenset[int]) -> list[GroundAction]:
-    """What goes on in a state whatever is chosen: of each action the variant that can, or the first."""
-    found = []
-    for fact in sorted(state.intersection(task.due_for)):
-        for variants in task.due_for[fact]:
-            actions = [task.actions[i] for i in variants]
-            found.append(next((one for one in actions if one.applicable(state)), actions[0]))
-    return found
-
-
-def _after(task: Task, state: frozenset[int], actions: Iterable[GroundAction]) -> frozenset[int]:
-    """The state after an epoch; the script comes last."""
-    clock = task.agents.index(CLOCK) if CLOCK in task.agents else -1
-    each = list(actions)
-    state = apply(state, *(one for one in each if clock not in one.participants))
-    return apply(state, *(one for one in each if clock in one.participants))
-
-
 def _played(task: Task, steps: Iterable[Step], last: int) -> frozenset[int]:
     """The state after an epoch if these things are done, and what goes on by itself."""
     state = task.init
     for before, actions in epochs(task, steps, last):
-        state = _after(task, before, actions)
+        state = after(task, before, actions)
     return state
-
-
-def epochs(
-    task: Task, steps: Iterable[Step], last: int
-) -> Iterator[tuple[frozenset[int], list[GroundAction]]]:
-    """Epochs up to one, as far as anything happens in them: the state before, and what does."""
-    begun: dict[int, list[GroundAction]] = {}
-    for step in steps:
-        begun.setdefault(step.epoch, []).append(task.actions[step.action])
-    state = task.init
-    for epoch in range(1, last + 1) if task.due else sorted(begun):
-        actions = {id(one): one for one in (*begun.get(epoch, ()), *_due(task, state))}
-        yield state, list(actions.values())
-        state = _after(task, state, actions.values())
 
 
 def _undisturbed(task: Task, state: frozenset[int]) -> _Literals:
@@ -191,15 +158,15 @@ def _undisturbed(task: Task, state: frozenset[int]) -> _Literals:
         return {one for one in literals if one[0] not in touched} if condition.holds(state) else None
 
     ends = {agent: ask(goals.get(agent, Condition())) for agent in people}
-    while due := _due(task, state):
-        own = [(agent, one) for one in due for agent in one.participants if agent in people]
+    while going := due(task, state):
+        own = [(agent, one) for one in going for agent in one.participants if agent in people]
         for agent, action in own:
             needed = ask(action.precondition)
             if needed is None:
                 disturbed.add(agent)
             asked[agent] |= needed or set()
-        state = _after(task, state, due)
-        touched.update(fact for one in due for fact in (*one.add, *one.delete))
+        state = after(task, state, going)
+        touched.update(fact for one in going for fact in (*one.add, *one.delete))
         for agent, _ in own:
             ends[agent] = ask(goals.get(agent, Condition()))
     found: _Literals = set()

@@ -15,7 +15,6 @@ from serendipity.facade.call import Request
 from serendipity.facade.kept import (
     Kept,
     Literal,
-    epochs,
     is_kept,
     kept,
     kept_by,
@@ -36,6 +35,7 @@ from serendipity.model.task.horizon import common_horizon
 from serendipity.model.task.leftovers import leftovers
 from serendipity.model.task.metered import Metered
 from serendipity.model.task.noticed import Noticed
+from serendipity.model.task.single_epochs import epochs
 
 _SHARE: Final = 0.5
 """The share of the time for the call without the rule, where its best answer breaks it."""
@@ -60,7 +60,8 @@ def answers(call: Request, plan: HumanPlan | None, solve: Solve) -> Iterator[Ans
         if answer.horizon == INFINITE:
             _refuse_infinite(call.options)
             return True
-        known, rule = _is_known(call, call.task, answer), kept_by(call, answer)
+        known = _is_known(call, call.task, answer, int(answer.horizon or 0))
+        rule = kept_by(call, answer)
         return known and is_kept(call.task, rule, answer) and not left(call, rule, answer)
 
     def keeping(free: Answer) -> Iterator[Answer]:
@@ -96,7 +97,7 @@ def over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[A
     def keeps(answer: Answer) -> bool:
         return all(
             is_kept(call.task, rule, served, last)
-            and _is_known(call, call.task.with_goal(one.goal), served)
+            and _is_known(call, call.task.with_goal(one.goal), served, last)
             and not left_by(call.task, rule, served.steps or (), last)
             for one, served, rule in zip(candidates, answer.goals or (), rules, strict=True)
         )
@@ -321,18 +322,19 @@ def _order(answer: Answer) -> tuple[bool, Fraction, Fraction]:
 # -- what an answer keeps
 
 
-def _is_known(call: Request, task: Task, answer: Answer | ServedGoal) -> bool:
+def _is_known(call: Request, task: Task, answer: Answer | ServedGoal, last: int) -> bool:
     """Whether an answer disturbs the human no more than it may, and they see what they leave their plan for.
 
     Args:
         task: of the answer.
+        last: ``T``.
     """
     most, plan = call.options.max_disturbance, answer.human_plan
     if most is not None and disturbance_of(call, answer) > most:
         return False
     if not call.options.noticed or plan is None:
         return True
-    return Noticed(task, plan, call.original or call.task).allows(answer.steps or ())
+    return Noticed(task, plan, call.original or call.task).allows(answer.steps or (), last)
 
 
 def disturbance_of(call: Request, answer: Answer | ServedGoal) -> Fraction:

@@ -4,7 +4,9 @@ from fractions import Fraction
 
 from hypothesis import strategies as st
 
-from serendipity import Condition, GroundAction, Task, Timing
+from serendipity import Condition, GroundAction, Script, Task, Timing
+from serendipity.testing.generator.in_time import with_durations
+from serendipity.testing.strategies.tasks import DICE
 
 _PLACED = tuple(f"{what} p{i}" for what in ("at h", "at r", "lit") for i in range(3))
 _FACTS = (*_PLACED, "done")
@@ -46,3 +48,12 @@ def rooms(draw: st.DrawFn, *, timed: bool = True) -> Task:
     start = frozenset({_IDS[f"at h p{draw(st.integers(0, 2))}"], _IDS[f"at r p{draw(st.integers(0, 2))}"]})
     actions = tuple(sorted(found, key=lambda each: each.key))
     return Task("rooms", ("h", "r"), 0, _FACTS, start, Condition((_IDS["done"],)), actions)
+
+
+@st.composite
+def rooms_in_time(draw: st.DrawFn) -> Task:
+    """The same, where anything may take its time, and lamps go on and off by themselves."""
+    task = with_durations(draw(DICE), draw(rooms()), (1, 1, 1, 2))
+    lamps = st.sampled_from([f"{true}lit p{room}" for true in ("", "!") for room in range(3)])
+    changes = draw(st.dictionaries(st.integers(1, 5), lamps, max_size=2))
+    return task.with_script(Script(facts=changes.items()))

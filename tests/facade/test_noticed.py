@@ -8,10 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity import Options, Task, UsageError
+from serendipity import Condition, Options, Script, Task, UsageError
 from serendipity.testing import strategies
+from serendipity.testing.builders import Builder
 from serendipity.testing.oracle import best
-from tests.facade.rooms import rooms
+from serendipity.testing.strategies.time import tasks_in_time
+from tests.facade.rooms import rooms, rooms_in_time
 
 _OPTIONS = st.builds(
     Options,
@@ -25,6 +27,23 @@ _OPTIONS = st.builds(
 @pytest.mark.long
 @given(st.one_of(rooms(timed=False), strategies.tasks()), _OPTIONS)
 def test_answers_are_those_of_brute_force(task: Task, options: Options) -> None:
+    as_brute_force_has_it(task, options)
+
+
+_IN_TIME = st.fixed_dictionaries(
+    {"head_start": st.sampled_from([0, 0, 0, 1, 2]), "waiting_cost": st.sampled_from(["0", "0", "0.5"])}
+)
+
+
+@pytest.mark.long
+@given(st.one_of(rooms(), rooms_in_time(), rooms_in_time(), tasks_in_time()), _OPTIONS, _IN_TIME)
+def test_answers_in_time_are_those_of_brute_force(task: Task, options: Options, more: dict[str, Any]) -> None:
+    robots = task.with_goal(task.goal, Condition())
+    as_brute_force_has_it(robots, options.but(**more))
+
+
+def as_brute_force_has_it(task: Task, options: Options) -> None:
+    """Answer a call as brute force does, and prove it."""
     expected = best(task, options)
     answer = serendipity.plan(task, **{name: getattr(options, name) for name in options.to_dict()})
     figures = (answer.status, answer.cost, answer.objective, answer.opportunity)
@@ -47,6 +66,41 @@ def test_they_do_not_go_for_what_is_brought_elsewhere_at_that_moment() -> None:
         assert "noticed (semantics 14): the human has not seen" in str(certificate)
 
 
+def _lit(epochs: int) -> Task:
+    """Work is quick by the lamp of p0, where Ann is until her walk begins; to light it takes some epochs."""
+    made = Builder(("ann", "bot"))
+    made.named("walk ann p0 p1", (0,), "at_ann_p0", "!at_ann_p0 / at_ann_p1", "1", 2)
+    made.named("walk ann p1 p0", (0,), "at_ann_p1", "!at_ann_p1 / at_ann_p0", "1", 2)
+    made.named("work ann p1", (0,), "at_ann_p1", "done", "5")
+    made.named("work-lit ann p1", (0,), "at_ann_p1 lit_p0", "done", "1")
+    made.named("light bot p0", (1,), "", "lit_p0", "1", epochs)
+    return made.task("at_ann_p0", "done")
+
+
+@pytest.mark.parametrize(("epochs", "cost"), [(1, 2.5), (2, 6)])
+def test_they_see_what_ends_before_their_walk_begins(epochs: int, cost: float) -> None:
+    task = _lit(epochs)
+    free = serendipity.plan(task, discount="0.5", window_weight=0)
+    bound = serendipity.plan(task, discount="0.5", window_weight=0, noticed=True)
+    assert (free.cost, bound.cost) == (2.5, cost)
+    told = replace(free, options=bound.options)
+    verdict = "proved" if epochs == 1 else "refuted"
+    assert serendipity.verify(task, told).verdict == serendipity.check(task, told).verdict == verdict
+
+
+def test_what_the_script_changes_is_no_news() -> None:
+    """The lamp of p0 goes on by itself, which they know; so it is part of their plan alone."""
+    task = _lit(2).with_script(Script(facts=[(2, "lit_p0")]))
+    answer = serendipity.plan(task, discount="0.5", window_weight=0, noticed=True)
+    assert (answer.human_cost, answer.cost) == (2, 2)
+
+
+def test_who_is_moved_by_others_is_refused() -> None:
+    task = _lit(2).with_script(Script(facts=[(1, "!at_ann_p0"), (1, "at_ann_p1")]))
+    with pytest.raises(UsageError, match="noticed: where somebody else moves the human"):
+        serendipity.plan(task, discount="0.5", window_weight=0, noticed=True)
+
+
 def test_what_is_handed_over_needs_no_notice() -> None:
     answer = serendipity.plan(serendipity.example("room2"), discount="0.9", noticed=True)
     assert (answer.cost, answer.statistics["rule_binds"]) == (11.4, False)
@@ -58,7 +112,6 @@ def test_what_is_handed_over_needs_no_notice() -> None:
         ({"mode": "composite"}, "noticed: goes with mode serendipity only"),
         ({"suffix": "subplan"}, "noticed: goes with suffix replan only"),
         ({"interference": "strict"}, "noticed: does not go with interference strict"),
-        ({"head_start": 3}, "noticed: waiting_cost and head_start are given, which is not known here yet"),
     ],
 )
 def test_what_it_does_not_go_with_is_refused(options: dict[str, Any], message: str) -> None:

@@ -11,8 +11,7 @@ from serendipity.pictures import build_scene, draw
 from serendipity.pictures.picture.timeline_picture import column
 from serendipity.testing.builders import task
 from serendipity.testing.call import Call
-from serendipity.testing.oracle.epochs import after
-from serendipity.testing.oracle.moments import parts_of
+from serendipity.testing.oracle.epochs import after, parts_of
 from serendipity.testing.strategies import calls_in_time
 from tests.facade.test_results_tell_times import answered
 from tests.show.drawn import SVG

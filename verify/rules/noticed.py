@@ -5,11 +5,13 @@ It follows the plan epoch by epoch, with the facts that robots have changed and 
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from serendipity.model import Deadline, GroundAction, HumanPlan, Result, Task
+from serendipity.model.task.script import UNDER_WAY
 from serendipity.model.task.visibility import Surroundings, surroundings
 from verify.base import wording
-from verify.base.execution import State
+from verify.base.execution import State, idling, unchosen
 from verify.rules.replay import Replay, replay
 
 
@@ -23,7 +25,8 @@ def unnoticed(
     found = replay(task, result.plan or (), deadline, strict=False)
     if not result.options.noticed or plan is None or result.plan is None or found.fault is not None:
         return None
-    watch = _Watch(task, [task.actions[i].name for i in plan], surroundings(original))
+    begun = [task.actions[i].name for i in plan if i not in unchosen(task)]
+    watch = _Watch(task, begun, surroundings(original))
     for what in watch.asked(found):
         return wording.UNNOTICED.format(task.facts[what])
     return None
@@ -48,40 +51,61 @@ class _Watch:
         """Facts that the human would have had to notice, as the plan unfolds."""
         for epoch in sorted(found.sets):
             before, after = found.state_after(epoch - 1), found.state_after(epoch)
-            chosen = [self.task.actions[i] for i in found.sets[epoch]]
-            his = next((one for one in chosen if self.task.human in one.participants), None)
-            yield from self._epoch(before, after, his, [one for one in chosen if one is not his])
+            his, others = None, list[GroundAction]()
+            for i in found.sets[epoch]:
+                if self.task.human in self.task.actions[i].participants:
+                    his = None if i in idling(self.task) else i
+                elif i not in self.task.of_bystanders:
+                    others.append(self.task.actions[i])
+            yield from self._epoch(before, after, his, others)
         yield from (fact for fact in self._wanted() if fact in self.hidden)
 
     def _epoch(
-        self, before: State, after: State, his: GroundAction | None, others: Iterable[GroundAction]
+        self, before: State, after: State, number: int | None, others: Iterable[GroundAction]
     ) -> Iterator[int]:
-        looks = not self.left
+        looks, his = not self.left, None if number is None else self.task.actions[number]
         if looks:
             self.hidden = {fact for fact in self.hidden if not self._sees(fact, before)}
-        arrives = False
-        if his is not None:
-            arrives = looks and bool(self.steps) and self.steps[0] == his.name
-            self.left = not arrives
-            if arrives:
-                self.steps = self.steps[1:]
-            elif not his.joint:
-                yield from (fact for fact in (*his.pre, *his.neg) if fact in self.hidden)
+        if his is not None and number not in self.going_on:
+            planned = looks and bool(self.steps) and self.steps[0] == his.name and not his.joint
+            self.left = not planned
+            self.steps = self.steps[1:] if planned else self.steps
+        arrives = his is not None and not self.left
+        if number is not None and his is not None and self.left and not his.joint:
+            yield from (fact for fact in self._asks(number) if fact in self.hidden)
         goals = {f for f in self._wanted() if arrives and self._sees(f, after) and not self._sees(f, before)}
         own = set() if his is None else {*his.add, *his.delete}
-        news = {fact for other in others for fact in (*other.add, *other.delete) if fact in self._matters()}
+        news = {fact for other in others for fact in (*other.add, *other.delete) if fact in self.matters}
         if looks:
             news = {fact for fact in news if not self._sees(fact, before)}
         yield from news & (own | goals)
         self.hidden = (self.hidden | news) - own - goals
 
-    def _wanted(self) -> tuple[int, ...]:
-        return (*self.task.goal.positive, *self.task.goal.negative)
+    def _wanted(self) -> set[int]:
+        wanted = {*self.task.goal.positive, *self.task.goal.negative}
+        return wanted.intersection(range(len(self.around.parts)))
 
-    def _matters(self) -> set[int]:
+    @cached_property
+    def going_on(self) -> frozenset[int]:
+        """What goes on whatever is chosen."""
+        return frozenset(i for _, i in self.task.due)
+
+    @cached_property
+    def matters(self) -> set[int]:
         """The facts that the human's own actions, or their goal, ask for."""
-        own = (self.task.actions[i] for i in self.task.human_actions)
-        return {*self._wanted(), *(fact for action in own for fact in (*action.pre, *action.neg))}
+        own = {fact for i in self.task.human_actions for fact in self._asks(i)}
+        return self._wanted() | own.intersection(range(len(self.around.parts)))
+
+    def _asks(self, number: int) -> set[int]:
+        """What an action asks for, and what goes on after its start asks for over all, or at end."""
+        action, timed = self.task.actions[number], self.task.in_time
+        asked = {*action.pre, *action.neg}
+        if number not in self.going_on or timed is None:
+            return asked
+        name = action.name.removeprefix(f"{UNDER_WAY} ").rpartition(" ")[0]
+        alike = [timed.actions[i] for i in timed.named.get(name, ())]
+        parts = [one for a in alike if a.timing for one in (a.timing.over_all, a.timing.at_end)]
+        return asked & {fact for one in parts for fact in (*one.positive, *one.negative)}
 
     def _sees(self, fact: int, state: State) -> bool:
         """Whether a fact is about the human, or their place; without places all are seen."""

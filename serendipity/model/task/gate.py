@@ -61,8 +61,6 @@ def require_metered(task: "Task", options: Options, *, scenarios: int = 1) -> No
         raise UsageError("leave_price: with several goals or plans, it goes with risk mean only")
     if options.leave_price is not None and task.robot_goal:
         raise UsageError("leave_price: is for robots without goals of their own")
-    if options.noticed and needs_time(task, options=options):
-        raise UsageError(f"noticed: {needs_time(task, options=options)}, which is not known here yet")
     if not nobody_pays(task, options) or (not task.robot_goal and scenarios == 1):
         return
     for name, value in _METERED.items():

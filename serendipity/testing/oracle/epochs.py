@@ -36,3 +36,23 @@ def compatible(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
             if set(one.delete) & set(other.pre) or set(one.add) & set(other.neg):
                 return False
     return True
+
+
+def parts_of(action: GroundAction) -> tuple[GroundAction, ...]:
+    """What an action asks and does in each of its epochs, as actions of one epoch."""
+    timing = action.timing
+    if timing is None:
+        return (action,)
+
+    def part(pre: set[int], neg: set[int], add: Iterable[int], delete: Iterable[int]) -> GroundAction:
+        asked, refused = tuple(sorted(pre)), tuple(sorted(neg))
+        return GroundAction(action.name, action.participants, asked, refused, tuple(add), tuple(delete))
+
+    inside, last = timing.over_all, timing.at_end
+    over, over_neg = set(inside.positive), set(inside.negative)
+    middle = part(over, over_neg, (), ())
+    return (
+        part(set(action.pre), set(action.neg), timing.start_add, timing.start_delete),
+        *[middle] * (timing.duration - 2),
+        part(over | set(last.positive), over_neg | set(last.negative), action.add, action.delete),
+    )

@@ -10,8 +10,8 @@ from itertools import combinations
 from typing import NamedTuple
 
 from serendipity.model import GroundAction, Task
-from serendipity.testing.oracle.epochs import State, after, compatible, holds, usable
-from serendipity.testing.oracle.noticing import FRESH, Notices, Noticing
+from serendipity.testing.oracle.epochs import State, after, compatible, holds, parts_of, usable
+from serendipity.testing.oracle.noticing import FRESH, Happening, Notices, Noticing
 
 Going = tuple[tuple[int, int], ...]
 """What is under way, ascending: numbers of actions, each with how many of its parts are over."""
@@ -31,26 +31,6 @@ class Moment(NamedTuple):
     going: Going = ()
     retired: bool = False
     noticing: Noticing = FRESH
-
-
-def parts_of(action: GroundAction) -> tuple[GroundAction, ...]:
-    """What an action asks and does in each of its epochs, as actions of one epoch."""
-    timing = action.timing
-    if timing is None:
-        return (action,)
-
-    def part(pre: set[int], neg: set[int], add: Iterable[int], delete: Iterable[int]) -> GroundAction:
-        asked, refused = tuple(sorted(pre)), tuple(sorted(neg))
-        return GroundAction(action.name, action.participants, asked, refused, tuple(add), tuple(delete))
-
-    inside, last = timing.over_all, timing.at_end
-    over, over_neg = set(inside.positive), set(inside.negative)
-    middle = part(over, over_neg, (), ())
-    return (
-        part(set(action.pre), set(action.neg), timing.start_add, timing.start_delete),
-        *[middle] * (timing.duration - 2),
-        part(over | set(last.positive), over_neg | set(last.negative), action.add, action.delete),
-    )
 
 
 class World:
@@ -202,8 +182,9 @@ class World:
         going = tuple(sorted((i, k + 1) for i, k in happening if k + 1 < len(self._parts[i])))
         noticing: Noticing | None = moment.noticing
         if self._notices is not None:
-            begun = [i for i, _ in happening]
-            noticing = self._notices.after(moment.state, moment.noticing, begun, state)
+            begun = len(self.task.actions)
+            parts = [Happening(self._parts[i][k], not k and i < begun, i >= begun) for i, k in happening]
+            noticing = self._notices.after(moment.state, moment.noticing, parts, state)
         return None if noticing is None else Moment(state, going, moment.retired, noticing)
 
 

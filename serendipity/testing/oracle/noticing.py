@@ -1,10 +1,11 @@
 """What is news to the human, and what they may do in spite of it, by brute force (semantics 14)."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
+from typing import NamedTuple
 
-from serendipity.model import HumanPlan, Task
+from serendipity.model import GroundAction, HumanPlan, Task
 from serendipity.model.task.visibility import surroundings
-from serendipity.testing.oracle.epochs import State
+from serendipity.testing.oracle.epochs import State, parts_of
 
 Noticing = tuple[int, frozenset[int]]
 """How many steps of their plan the human has done, -1 once they have left it; and the facts that are news."""
@@ -13,53 +14,65 @@ FRESH: Noticing = (0, frozenset())
 """At first."""
 
 
+class Happening(NamedTuple):
+    """What an action asks and does in an epoch, whether it begins in it, and whether it is known to all."""
+
+    part: GroundAction
+    begins: bool
+    known: bool
+
+
 class Notices:
     """Keeps up what is news.
 
     Args:
-        task: without time.
+        task: the task.
         plan: the human's.
     """
 
     def __init__(self, task: Task, plan: HumanPlan) -> None:
         self._task, self._seen = task, surroundings(task)
         self._plan = [task.actions[i].name for i in plan]
-        goal = {*task.goal.positive, *task.goal.negative}
-        own = [task.actions[i] for i in task.human_actions]
-        self._goal, self._asked = goal, goal.union(*({*action.pre, *action.neg} for action in own))
+        self._goal = {*task.goal.positive, *task.goal.negative}
+        own = [part for i in task.human_actions for part in parts_of(task.actions[i])]
+        self._asked = self._goal.union(*({*part.pre, *part.neg} for part in own))
 
     def in_goal(self, noticing: Noticing) -> bool:
         """Whether something that the human wants is news to them."""
         return not self._goal.isdisjoint(noticing[1])
 
-    def after(self, state: State, noticing: Noticing, begun: Sequence[int], then: State) -> Noticing | None:
-        """After an epoch in which some actions are done; None where they may not be.
+    def after(
+        self, state: State, noticing: Noticing, happening: Iterable[Happening], then: State
+    ) -> Noticing | None:
+        """After an epoch in which some actions begin, or go on; None where they may not.
 
         Args:
             state: before it.
             noticing: before it.
-            begun: the actions.
+            happening: of what bystanders do, or others are at from the start, all is known.
             then: the state after it.
         """
         task, (step, news) = self._task, noticing
-        actions = [task.actions[i] for i in begun]
-        theirs = [action for action in actions if task.human in action.participants]
-        watching, onward = step >= 0, step
+        seen, watching, onward = self._visible(state), step >= 0, step
         if watching:
-            news = news - self._visible(state)
-        for action in theirs:
-            planned = watching and step < len(self._plan) and self._plan[step] == action.name
-            onward = step + 1 if planned else -1
-            if not planned and not action.joint and not news.isdisjoint({*action.pre, *action.neg}):
+            news = news - seen
+        theirs = [one for one in happening if task.human in one.part.participants]
+        for part, begins, _ in theirs:
+            if begins:
+                planned = (
+                    watching and self._plan[step : step + 1] == [part.name] and len(part.participants) == 1
+                )
+                onward = step + 1 if planned else -1
+            if onward < 0 and len(part.participants) == 1 and not news.isdisjoint({*part.pre, *part.neg}):
                 return None
-        touched = {fact for action in theirs for fact in (*action.add, *action.delete)}
-        robots = [action for action in actions if task.human not in action.participants]
-        changed = {fact for action in robots for fact in (*action.add, *action.delete)} & self._asked
-        unseen = changed - self._visible(state) if watching else changed
-        reached = self._visible(then) - self._visible(state) if onward > step else frozenset()
-        if not unseen.isdisjoint(touched) or not unseen.isdisjoint(reached & self._goal):
+        touched = {fact for part, *_ in theirs for fact in (*part.add, *part.delete)}
+        robots = [part for part, _, known in happening if not known and task.human not in part.participants]
+        unseen = {fact for part in robots for fact in (*part.add, *part.delete)} & self._asked
+        unseen = unseen - seen if watching else unseen
+        reached = (self._visible(then) - seen) & self._goal if theirs and onward >= 0 else frozenset()
+        if not unseen.isdisjoint(touched) or not unseen.isdisjoint(reached):
             return None  # what the human does, or comes to see, nobody else does at the same time
-        return onward, (news | unseen) - touched - (reached & self._goal)
+        return onward, (news | unseen) - touched - reached
 
     def _visible(self, state: State) -> frozenset[int]:
         """The facts about the human, or the place where they are; all where there are no places."""
