@@ -17,7 +17,8 @@ def about_robots(task: Task) -> str:
 def tidying(task: Task, free: str) -> Task:
     """The task in which that is a goal of the robots' (semantics 12).
 
-    What people may change, what goes on, and what the script changes, is left as these leave it.
+    What people may change, what goes on, and what the script changes, is left as these leave it, and what
+    goals are about as these ask.
 
     Args:
         task: where things stand.
@@ -30,10 +31,16 @@ def tidying(task: Task, free: str) -> Task:
     assert rest is not None, "some facts are free"
     script, robots = task.script, (a for i, a in enumerate(task.actions) if i not in task.of_bystanders)
     anyway = [*(task.actions[i] for i in task.human_actions), *(a for d in script.deeds for a in d.variants)]
-    others = _changed(anyway).union(one.fact for one in script.facts)
+    others = _changed(anyway).union((one.fact for one in script.facts), _aims(task))
     kept = sorted(f for f in _changed(robots) - others if rest.price(task.facts[f]) is None)
     true, false = (tuple(f for f in kept if (f in task.init) is wanted) for wanted in (True, False))
     return with_goals(task, Condition(true, false))
+
+
+def _aims(task: Task) -> set[int]:
+    """The facts that goals ask for, with all that can't be true beside them."""
+    wanted = {fact for goal in (task.goal, task.robot_goal) for fact in (*goal.positive, *goal.negative)}
+    return {fact for one in task.variables if not wanted.isdisjoint(one.facts) for fact in one.facts}
 
 
 def _changed(actions: Iterable[GroundAction]) -> set[int]:

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity import Condition, Task, UsageError
 from serendipity.testing import strategies
+from serendipity.testing.builders import task as build
 
 
 @pytest.mark.long
@@ -39,6 +40,18 @@ def test_robots_with_goals_of_their_own_leave_what_these_ask_for() -> None:
     own = task.with_goal(task.goal, Condition((task.facts.index("at cart mill"),)))
     (run,) = serendipity.execute(own, "omniscient", discount="0.9").rows
     assert run.reached
+
+
+def test_what_somebody_wants_is_not_put_back() -> None:
+    """Goals were contradictory: the crate brought and at home, or a cup that only a robot gives, and not."""
+    fetch = {"go h": "a -> b !a", "fetch r": "home -> crate !home", "back r": "crate -> home !crate"}
+    give = {"give h r": "desk -> cup", "drop r": "tray -> floor !tray", "pick r": "floor -> tray !floor"}
+    for task in (
+        build(agents="h r", human="h", init="a home", goal="b", robot_goal="crate", actions=fetch),
+        build(agents="h r", human="h", init="desk tray", goal="cup", actions=give),
+    ):
+        (run,) = serendipity.execute(task, "omniscient", discount="0.9", leave_free="nothing").rows
+        assert (run.reached, run.left) == (True, 0)
 
 
 @pytest.mark.parametrize(
