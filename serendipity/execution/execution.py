@@ -112,7 +112,7 @@ class Execution(Tabular):
             _require_alone(task, goals, mode)
         if task.needs_time:
             several = goals is not None or plans is not None
-            require_known(task, several=several, noise=noise, human_model=human_model, mode=mode)
+            require_known(task, several=several, noise=noise, mode=mode)
         if leave_free is not None:
             if goals is not None or plans is not None:
                 raise UsageError("leave_free: goes with a known goal only")

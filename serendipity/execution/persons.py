@@ -319,15 +319,13 @@ class Persona:
     def _in_time(self, task: Task, dice: Random, *, drawn: bool) -> Person:
         from serendipity.execution.clock import persons  # only here: most tasks have no time
 
-        if self.name == "local":
-            raise UsageError("human: in time, 'local' is not known: what is noticed of what goes on")
         if self.name == "omniscient":
             return persons.Told(task)
         if self.name == "noisy":
             return persons.Unsteady(task, self.probability, dice, drawn=drawn)
         if self.name == "recorded":
             return persons.Record(task, self.actions)
-        return persons.Free(task, dice if drawn else None)
+        return persons.Free(task, dice if drawn else None, local=self.name == "local")
 
 
 def persona_from(task: Task, text: str) -> Persona:

@@ -165,7 +165,6 @@ def _costs_nothing(task: Task, human: str, dice: Random, **asked: Any) -> None:
     [
         ({"goals": [UP], "noise": "miss=0.1"}, "noise: in time"),
         ({"goals": [UP], "told": True, "mode": "communication"}, "goals and plans: in time"),
-        ({"goals": [UP], "human_model": "local"}, "local: in time"),
     ],
 )
 def test_what_goals_in_time_go_without(asked: dict[str, Any], message: str) -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.execution import Execution, log_lines, moment_of, person_of, replay
-from serendipity.model import Condition, Script, Task, UsageError
+from serendipity.model import Condition, Script, Task
 from serendipity.robot import Epoch, Report, Simulated
 from serendipity.testing.builders import Builder
 from serendipity.testing.oracle import human_plans
@@ -192,13 +192,6 @@ def test_a_robot_that_drops_out_leaves_what_it_is_at() -> None:
     for _ in range(3):
         run.step(None)
     assert "above" not in run.facts
-
-
-def test_what_is_not_known_in_time_is_refused() -> None:
-    with pytest.raises(UsageError, match="in time"):
-        Execution(_box(), human_model="local")
-    with pytest.raises(UsageError):
-        person_of(_box(), "local")
 
 
 @pytest.mark.long

@@ -13,7 +13,7 @@ from serendipity.testing.call import Call
 from serendipity.testing.strategies import calls_in_time
 
 
-class _Stubborn:
+class Stubborn:
     """Robots that do their part of a plan, whatever the person does."""
 
     goals: Mapping[str, float] = {}
@@ -53,7 +53,7 @@ def test_it_goes_as_in_an_execution(call: Call) -> None:
     if result.plan is None or result.human_plan is None:
         return
     trace = serendipity.simulate(task, result)
-    run = Execution(task, discount=call.options.discount, robots=_Stubborn(result.plan, result.human))
+    run = Execution(task, discount=call.options.discount, robots=Stubborn(result.plan, result.human))
     person = person_of(task)
     while not run.done and run.epoch <= len(trace.epochs):
         run.step(person.choose(moment_of(run)))

@@ -1,13 +1,17 @@
 """People who can be plugged into an execution in time (see :mod:`serendipity.execution.persons`)."""
 
 from collections.abc import Sequence
+from fractions import Fraction
 from random import Random
 from typing import TYPE_CHECKING
 
+from serendipity.execution.clock.world import WorldInTime
 from serendipity.facade.person.follower import Follower
+from serendipity.facade.person.sight import Sight
 from serendipity.facade.person.ways import Ways
 from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Task, UsageError
 from serendipity.model.task.course import BrokenPlanError
+from serendipity.model.task.execution import variant_named
 from serendipity.model.task.passing import at_work, epoch_later
 from serendipity.model.task.task import canonical_name
 
@@ -21,12 +25,13 @@ class Free:
     Args:
         task: where they begin.
         dice: draw which of their optimal plans they follow; None: the canonical one.
+        local: whether they see only what is where they are, and may be wrong about the rest.
     """
 
-    def __init__(self, task: Task, dice: Random | None = None) -> None:
+    def __init__(self, task: Task, dice: Random | None = None, *, local: bool = False) -> None:
         self._task = task
         self._ways = Ways(Options())
-        self._mind = Follower(self._ways, dice)
+        self._mind = Follower(self._ways, dice, Sight(task) if local else None)
 
     @property
     def plan(self) -> HumanPlan | None:
@@ -35,11 +40,21 @@ class Free:
 
     def choose(self, moment: "Moment") -> str | None:
         """See :class:`serendipity.execution.Person`."""
-        choice = self._mind.choose(_now(moment), moment.offers, Deadline())
+        now, mind = _now(moment), self._mind
+        choice = mind.choose(now, moment.offers, Deadline())
         if isinstance(choice, PlanStep):
-            self._mind.joined()
+            mind.joined()
+            joint = variant_named(now, choice.action, choice.agents, now.init)
+            mind.expects([now.actions[joint]])
             return choice.action
-        self._mind.passed(choice)
+        world = WorldInTime(now, Fraction(0), strict=False)
+        own = None if choice is None else world.his(choice)
+        if own is not None and mind.sight is not None and not world.applicable(own):
+            mind.failed(now.actions[own], now)
+            mind.expects(())
+            return choice
+        mind.passed(choice)
+        mind.expects(() if own is None else (now.actions[own],))
         return choice
 
 

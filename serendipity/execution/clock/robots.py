@@ -23,7 +23,7 @@ _TIME_TO_PLAN: Final = 0.6
 """The share of the time for plans to several goals; the rest is for what they mean with each of them."""
 
 
-def require_known(task: Task, *, several: bool, noise: object, human_model: str, mode: str) -> None:
+def require_known(task: Task, *, several: bool, noise: object, mode: str) -> None:
     """Return if an execution in time knows all that is asked for.
 
     Args:
@@ -32,8 +32,6 @@ def require_known(task: Task, *, several: bool, noise: object, human_model: str,
     Raises:
         UsageError: it does not.
     """
-    if human_model == "local":
-        raise UsageError("human_model local: in time, which is not known here yet")
     if several and (task.robot_goal or mode != "serendipity"):
         raise UsageError("goals and plans: in time they go without robots' own goals, and communication")
     if several and noise is not None:
@@ -150,6 +148,8 @@ class RobotsInTime:
         return self._history.told(self._decided(outlook, deadline), outlook.running)
 
     def _decided(self, outlook: Outlook, deadline: Deadline) -> Decided:
+        for one in self._supposed:
+            one.looks_up(outlook.world.now)
         now = self._able(outlook.world.now)
         if self._gone.issuperset(self._task.robots):
             gone = tuple(self._task.agents[i] for i in sorted(self._gone))

@@ -3,16 +3,17 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations
 from typing import Final
 
 from search.modes.simulation.simulator import Simulation
 from serendipity.execution.advice import Advice
 from serendipity.execution.clock.course import Course, Help, after_going_on, after_helping
+from serendipity.execution.clock.spoiling import Spoiling, begun_of
 from serendipity.execution.clock.world import WorldInTime
 from serendipity.execution.why import Why
 from serendipity.facade.person.follower import Follower
 from serendipity.facade.person.played import played_in_time
+from serendipity.facade.person.sight import Sight
 from serendipity.facade.person.ways import Entries, Way, Ways, entries_of
 from serendipity.facade.session import Session
 from serendipity.model import (
@@ -29,9 +30,8 @@ from serendipity.model import (
 from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.numbers import as_written, total
 from serendipity.model.task.actions import GroundAction
-from serendipity.model.task.course import BrokenPlanError
-from serendipity.model.task.execution import actions_named, variant_named
-from serendipity.model.task.passing import at_work, epoch_later
+from serendipity.model.task.execution import actions_named, steps_named, variant_named
+from serendipity.model.task.passing import at_work
 
 _TIME_TO_PLAN: Final = 0.6
 """The share of the time for plans; the rest is for what they mean for somebody who is not told."""
@@ -58,12 +58,13 @@ class Supposed:
     def __init__(self, task: Task, options: Options, *, told: bool, surely: bool) -> None:
         self.task = self._begun = task
         self.ways = Ways(options)
-        self.theirs = Follower(self.ways)
+        self.theirs = Follower(self.ways, sight=Sight(task) if options.human_model == "local" else None)
         self.way: Way | None = None
         self.session: Session | None = None
         self._course: Course | None = None
         self._is_sure = False
         """Whether it is proved that no help pays."""
+        self._stood = task
         self._options = options
         self._told = told
         self._surely = surely
@@ -81,12 +82,19 @@ class Supposed:
         else:
             self.theirs.passed(None if own is None else actions[own].name)
         if tried is not None:
-            self.theirs.rest = None
+            self.theirs.failed(actions[tried], self._stood)
+        self.theirs.expects(actions[i] for i in executed if self._begun.human in actions[i].participants)
         if self.session is not None:
             try:
                 self.session.execute([actions[i].name for i in executed])
             except UsageError:
                 self.session = None  # something did not go on
+
+    def looks_up(self, now: Task) -> None:
+        """An epoch is to come, and they see where things stand as far as they do."""
+        self._stood = now
+        if self.theirs.sight is not None:
+            self.theirs.believed(now.with_goal(self.task.goal))
 
     def help(self, now: Task, deadline: Deadline, *, busy: bool) -> tuple[Help | None, Why, Way | None]:
         """What robots follow from here, or why they follow nothing, and what the person does alone.
@@ -116,9 +124,13 @@ class Supposed:
 
     def look(self, now: Task, deadline: Deadline) -> Way | None:
         """What the person does alone from here; if they are free, they look up."""
-        self.task, self.way = now, self.ways.of(now, deadline)
+        self.task = now
         if now.human not in at_work(now):
             self.theirs.look(now, deadline)
+        if not self.theirs.knows(now):
+            self.way = self._left_alone(deadline)
+            return self.way
+        self.way = self.ways.of(now, deadline)
         kept = self.theirs.working(now) if self.theirs.faithful else None
         if kept is not None:
             self.way = Way(entries_of(now, kept), now.cost_of(kept))
@@ -132,22 +144,40 @@ class Supposed:
     @property
     def meant(self) -> Entries:
         """What they mean to begin from here."""
-        kept = self.theirs.working(self.task)
+        kept = self.theirs.working(self.task) if self.theirs.knows(self.task) else None
         if kept is not None:
             return entries_of(self.task, kept)
         return () if self.way is None else self.way.plan
 
     def played(self, part: Sequence[Step], deadline: Deadline) -> Simulation:
         """What becomes of what robots do, beside this person."""
-        mind = self.theirs.copy()
-        return played_in_time(self.task, self._options, (), part, horizon=None, deadline=deadline, mind=mind)
+        now, mind = self.task.with_goal(self.task.goal, Condition()), self.theirs.copy()
+        played = played_in_time(now, self._options, (), part, horizon=None, deadline=deadline, mind=mind)
+        if played.limit is not None:
+            raise LimitReachedError(played.limit)
+        return played
+
+    def _left_alone(self, deadline: Deadline) -> Way | None:
+        """What becomes of somebody who is wrong about how things stand, if robots begin nothing."""
+        played = self.played((), deadline)
+        if not played.goals_hold:
+            return None
+        names = ((step.epoch, self.task.actions[step.action].name) for step in played.steps)
+        return Way(tuple(names), played.cost)
 
     def spoilt(self, plan: Sequence[PlanStep], deadline: Deadline) -> bool:
         """Whether what robots begin now by a plan may spoil something that the person is on the way to."""
         first, now, alone = [step for step in plan if step.epoch == 1], self.task, self.alone
-        robots = [self._variant(now, step) for step in first if self._human not in step.agents]
-        offers = [self._variant(now, s) for s in first if self._human in s.agents and len(s.agents) > 1]
-        return bool(robots) and alone is not None and self._spoils(now, robots, offers, alone, deadline)
+        robots = [step for step in first if self._human not in step.agents]
+        offers = [step for step in first if self._human in step.agents and len(step.agents) > 1]
+        if alone is None or not (robots or offers):
+            return False
+        teams = begun_of(robots, surely=self._surely)
+        if self.theirs.sight is not None and self._misleads(teams, offers, alone, deadline):
+            return True
+        guard = Spoiling(now, self.theirs, self.ways, strict=self._options.strict, deadline=deadline)
+        begun = [[self._variant(now, step) for step in team] for team in teams if team]
+        return bool(robots) and guard.spoils(begun, [self._variant(now, step) for step in offers], alone)
 
     def advice(self, deadline: Deadline) -> Advice | None:
         """The best plan of the mode with this goal; None where none pays."""
@@ -214,6 +244,8 @@ class Supposed:
         rest = self._rest(session, None if works else alone)
         if alone is None or over:
             answer = session.plan(mode="composite", horizon=INFINITE, deadline=deadline)
+        elif self.theirs.sight is not None:
+            answer = session.plan(human_model="local", deadline=deadline)
         elif works and not self._told:
             answer = session.plan(human_model="observant", deadline=deadline)
         else:
@@ -268,6 +300,9 @@ class Supposed:
 
     def _outcome(self, now: Task, plan: Sequence[PlanStep], deadline: Deadline) -> Fraction | None:
         """What the team will pay if robots do their part of a plan, as far as that goes; None: no end."""
+        if self.theirs.sight is not None:
+            played = self.played(steps_named(now, plan), deadline)
+            return played.cost if played.goals_hold else None
         world = WorldInTime(now, self._options.discount, strict=self._options.strict)
         person, spent = self.theirs.copy(), Fraction(0)
         is_news = True  # nobody changes their mind while robots do nothing
@@ -300,61 +335,28 @@ class Supposed:
         left = self.ways.of(world.now, deadline)
         return None if left is None else spent + left.cost
 
-    def _spoils(
+    def _misleads(
         self,
-        now: Task,
-        robots: Sequence[GroundAction],
-        offers: Sequence[GroundAction],
+        teams: Iterable[Sequence[PlanStep]],
+        offers: Sequence[PlanStep],
         least: Fraction,
         deadline: Deadline,
     ) -> bool:
-        """Whether what robots begin may make a way dearer that the person is on, whichever it is."""
-        sizes = (len(robots),) if self._surely else range(1, len(robots) + 1)
-        teams = [team for size in sizes for team in combinations(robots, size)]
-        for own in self._next_steps(now, offers):
-            try:
-                left = self.ways.of(epoch_later(now, own, strict=self._options.strict), deadline)
-            except BrokenPlanError:
-                continue
-            if left is None or sum((a.cost for a in own), left.cost) > least:
-                continue
-            if any(self._worse(now, [*own, *team], left, deadline) for team in teams):
-                return True
-        return self.theirs.faithful and any(self._breaks(now, team) for team in teams)
+        """Whether somebody who may be wrong pays more if what begins now is all that robots ever do."""
+        outcomes = (self.played(steps_named(self.task, [*team, *offers]), deadline) for team in teams)
+        return any(not played.goals_hold or self._paid(played) > least for played in outcomes)
 
-    def _breaks(self, now: Task, team: Sequence[GroundAction]) -> bool:
-        """Whether somebody who keeps to what they mean to do can't, if robots begin something."""
-        mind, name = self.theirs.copy(), self.theirs.next
-        mind.passed(name)
-        ids = () if name is None else actions_named(now, name, [self._human])
-        own = [action for action in (now.actions[i] for i in ids) if action.applicable(now.init)][:1]
-        try:
-            if mind.working(epoch_later(now, own, strict=self._options.strict)) is None:
-                return False
-            return mind.working(epoch_later(now, [*own, *team], strict=self._options.strict)) is None
-        except BrokenPlanError:
-            return True
-
-    def _next_steps(self, now: Task, offers: Sequence[GroundAction]) -> Iterable[Sequence[GroundAction]]:
-        """What the person may do in the epoch that is to come: go on or wait, or begin something."""
-        yield ()
-        if now.human not in at_work(now):
-            own = (now.actions[i] for i in now.human_actions)
-            yield from ([action] for action in (*own, *offers) if action.applicable(now.init))
-
-    def _worse(self, now: Task, begun: Sequence[GroundAction], left: Way, deadline: Deadline) -> bool:
-        try:
-            then = self.ways.of(epoch_later(now, begun, strict=self._options.strict), deadline)
-        except BrokenPlanError:
-            return True
-        return then is None or then.cost > left.cost
+    def _paid(self, played: Simulation) -> Fraction:
+        """What the person pays, undiscounted."""
+        actions = (self.task.actions[step.action] for step in played.steps)
+        return total(action.cost for action in actions if self.task.human in action.participants)
 
     def _variant(self, now: Task, step: PlanStep) -> GroundAction:
         return now.actions[variant_named(now, step.action, step.agents, now.init)]
 
     def _onward_alone(self, now: Task, alone: Way) -> Course | None:
         """What stands after an epoch in which the person goes on with their plan, and no help pays."""
-        if not self._is_sure:
+        if not (self._is_sure and self.theirs.knows(now)) or self.theirs.held:
             return None
         name = None if now.human in at_work(now) else self.theirs.next
         return after_going_on(now, self._options, alone, name)

@@ -44,16 +44,16 @@ def played_in_time(
         plan: their plan at the beginning, with its epochs; empty where they have none.
         steps: the plan, by ids; what it wants the person to do alone is not looked at.
         horizon: ``T``, or None for any.
-        mind: what they mean to do, instead of a plan.
-        local: whether they see only what is where they are.
+        mind: what they mean to do and believe, instead of a plan.
+        local: whether they see only what is where they are, where there is no ``mind``.
 
     Raises:
         LimitReachedError: the deadline ran out in the first epoch.
     """
     if mind is None:
-        mind = Follower(Ways(options))
+        mind = Follower(Ways(options), sight=Sight(task) if local else None)
         mind.rest = entries_of(task, task.plan_from_names(plan)) if plan else ()
-    game = _Game(task, options, mind, steps, deadline, Sight(task) if local else None)
+    game = _Game(task, options, mind, steps, deadline)
     epochs: list[SimulatedEpoch] = []
     limit = None
     while not game.over(len(epochs)) and (horizon is None or len(epochs) < horizon):
@@ -74,15 +74,8 @@ class _Game:
     """The task as it stands, and the person's mind."""
 
     def __init__(
-        self,
-        task: Task,
-        options: Options,
-        mind: Follower,
-        steps: Iterable[Step],
-        deadline: Deadline,
-        sight: Sight | None,
+        self, task: Task, options: Options, mind: Follower, steps: Iterable[Step], deadline: Deadline
     ) -> None:
-        self._sight = sight
         self._now, self._options, self._deadline = task, options, deadline
         self._mind, self._ways = mind, mind.ways
         self._left: dict[int, list[int]] = defaultdict(list)
@@ -112,12 +105,11 @@ class _Game:
         offered = sorted(self._left.pop(number, ()))
         joint = [i for i in offered if now.human in now.actions[i].participants]
         busy = now.human in at_work(now) or number <= self._options.head_start  # when they are not up yet
-        if self._sight is not None:
-            self._saw = () if busy else self._sight.look(now)
-        saw, believed = self._saw, now if self._sight is None else self._sight.believed
+        if mind.sight is not None:
+            self._saw = () if busy else mind.sight.look(now)
+        saw, believed = self._saw, now if mind.sight is None else mind.sight.believed
         before = mind.working(believed)
-        possible = [i for i in joint if self._sight is None or self._why_not(i, None) == REFUSED]
-        choice = None if busy else mind.choose(believed, self._steps(possible), self._deadline)
+        choice = None if busy else mind.choose(now, self._steps(joint), self._deadline)
         best = mind.working(believed) if busy else self._plan(believed)
         plan, accepted, own = mind.plan(now) or (), None, None
         if isinstance(choice, PlanStep):
@@ -128,15 +120,15 @@ class _Game:
         his = [i for i in (accepted, own) if i is not None]
         if all(now.actions[i].applicable(now.init) for i in his):
             broken += self._broken_off(his)
-        elif self._sight is not None:
-            self._sight.learn(now.actions[his[0]], now)
+        elif mind.sight is not None:
+            mind.failed(now.actions[his[0]], now)
         failed = self._later(his) is None
         taken = [] if failed else his
         skipped = [Skipped(i, CONFLICT) for i in broken]
         refused = joint if accepted is None else [i for i in joint if self._name(i) != self._name(accepted)]
         skipped += [Skipped(i, self._why_not(i, accepted)) for i in refused]
         robots = self._robots([i for i in offered if i not in joint], taken, skipped)
-        if accepted is not None or (failed and self._sight is not None):
+        if accepted is not None or (failed and mind.sight is not None):
             mind.joined()  # or will try again
         else:
             mind.passed(None if failed or own is None else now.actions[own].name)
@@ -201,8 +193,7 @@ class _Game:
         assert later is not None, "what is begun was tried before"
         alone = later.init if expected is None else expected.init
         self._saw = tuple((fact, fact in later.init) for fact in sorted(alone ^ later.init))
-        if self._sight is not None:
-            self._sight.passed(self._now.actions[i] for i in his)
+        self._mind.expects(self._now.actions[i] for i in his)
         self._now = later
 
     def _later(self, begun: Iterable[int]) -> Task | None:

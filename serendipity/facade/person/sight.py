@@ -32,6 +32,12 @@ class Sight:
         found = self.believed.init
         return tuple((fact, fact in found) for fact in sorted(expected ^ found))
 
+    def is_right(self, now: Task) -> bool:
+        """Whether a task stands as they believe."""
+        mine, true = self.believed.script, now.script
+        same_work = frozenset(mine.deeds) == frozenset(true.deeds)
+        return self.believed.init == now.init and mine.facts == true.facts and same_work
+
     def learn(self, tried: GroundAction, now: Task) -> None:
         """They have tried something in vain: they know whether what it asks for holds."""
         asked = {*tried.pre, *tried.neg}
