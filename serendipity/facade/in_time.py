@@ -208,8 +208,6 @@ def _require_known(call: Request) -> None:
         raise UsageError("mode: 'assistance' takes turns, which have no length: not where actions take time")
     if call.visible is not None:
         raise UsageError("visible: is not known where actions take time")
-    if options.human_model == "local" and options.waiting_cost:
-        raise UsageError("waiting_cost: beside a human who sees what is near waiting is free, expected 0")
 
 
 def _later(units: UnitSteps, answer: Answer, epochs: int) -> Answer:

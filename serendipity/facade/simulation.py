@@ -70,8 +70,6 @@ def simulate(
 
         if visible is not None:
             raise UsageError("visible: is not known where actions take time")
-        if result.options.waiting_cost:
-            raise UsageError("waiting_cost: a simulation counts no price of waiting, expected 0")
         entries = result.human_entries or ()
         local = human_model == "local"
         simulated = played_in_time(

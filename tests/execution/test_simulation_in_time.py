@@ -7,7 +7,7 @@ from hypothesis import assume, given
 
 import serendipity
 from serendipity.execution import Decided, Execution, Outlook, moment_of, person_of
-from serendipity.model import Condition, Deadline, PlanStep, Task, UsageError
+from serendipity.model import Condition, Deadline, PlanStep, UsageError
 from serendipity.testing.builders import task
 from serendipity.testing.call import Call
 from serendipity.testing.strategies import calls_in_time
@@ -70,12 +70,6 @@ def test_the_talk_is_realised_and_told() -> None:
     assert trace.realised and (trace.cost, trace.promised_cost) == (30, 30)
     told = trace.text()
     assert "eve replans: 8 instead of 16" in told and "eve: goes on with ride eve lobby landing" in told
-
-
-def test_what_is_not_known_in_time_is_refused() -> None:
-    task: Task = serendipity.example("morning")
-    with pytest.raises(UsageError, match="waiting_cost"):
-        serendipity.simulate(task, serendipity.plan(task, waiting_cost=1))
 
 
 def test_somebody_without_a_plan_waits_until_robots_give_them_one() -> None:

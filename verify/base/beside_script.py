@@ -6,7 +6,7 @@ from typing import Final
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
 from verify.base.due import going_on, onward, waited
-from verify.base.execution import State, applicable, due, idling, is_calm
+from verify.base.execution import State, applicable, awake, due, idling, is_calm
 from verify.base.individual import IndividualOptimum
 from verify.base.shortest_paths import PathSearch
 from verify.base.undecided import TooManyStatesError, during
@@ -35,8 +35,10 @@ class AloneBesideScript(IndividualOptimum):
 
     @property
     def start(self) -> State | None:
-        """See :class:`IndividualOptimum`."""
-        return waited(self._task, self._task.init, self._head_start, strict=self._strict)
+        """See :class:`IndividualOptimum`; nobody pays for a head start who gets by resting what they want."""
+        state = waited(self._task, self._task.init, self._head_start, strict=self._strict)
+        rest = state - awake(self._task) if state is not None and self.head_start_cost else None
+        return state if rest is None or self.weight(rest) is None else rest
 
     def moves(self, state: State) -> Iterator[tuple[int, State]]:
         """See :class:`IndividualOptimum`; waiting is one of them while anything happens."""
@@ -90,11 +92,7 @@ class AloneBesideScript(IndividualOptimum):
 def alone_of(
     task: Task, deadline: Deadline | None = None, options: Options | None = None
 ) -> IndividualOptimum:
-    """What is to be known of the human alone, with a script or without.
-
-    Args:
-        options: a call's: interference, and the head start; None for a call without them.
-    """
+    """What is to be known of the human alone, with a script or without; ``options`` are a call's."""
     asked = options or Options()
     if task.of_bystanders or (task.due and asked.human_model != "omniscient"):
         found: IndividualOptimum = AloneBesideScript(task, deadline, asked)

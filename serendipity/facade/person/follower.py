@@ -86,8 +86,10 @@ class Follower:
         now = self.believed(now)
         best = self.ways.of(now, deadline)
         kept = self.working(now)
-        if kept is not None and (self.faithful or best is None or now.cost_of(kept) <= best.cost):
-            return Way(entries_of(now, kept), now.cost_of(kept))
+        if kept is not None:
+            price = self.ways.price(now, kept)
+            if self.faithful or best is None or price <= best.cost:
+                return Way(entries_of(now, kept), price)
         if best is None:
             self.held = True
             return None

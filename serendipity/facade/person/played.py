@@ -40,7 +40,7 @@ def played_in_time(
     """The robots' part of a plan, played beside a person who looks up when they are free.
 
     Args:
-        options: discount, interference and head start.
+        options: discount, interference, head start, and what waiting costs.
         plan: their plan at the beginning, with its epochs; empty where they have none.
         steps: the plan, by ids; what it wants the person to do alone is not looked at.
         horizon: ``T``, or None for any.
@@ -67,11 +67,16 @@ def played_in_time(
             break
     every = (task.actions[i] for epoch in epochs for i in epoch.executed)
     cost = sum((task.team_cost(action, options.discount) for action in every), Fraction(0))
+    cost += options.waiting_cost * game.paid_for
     return Simulation(tuple(epochs), game.done, cost, limit)
 
 
 class _Game:
-    """The task as it stands, and the person's mind."""
+    """The task as it stands, and the person's mind.
+
+    Attributes:
+        paid_for: epochs of waiting that the person has paid for, since they began something after them.
+    """
 
     def __init__(
         self, task: Task, options: Options, mind: Follower, steps: Iterable[Step], deadline: Deadline
@@ -82,6 +87,7 @@ class _Game:
         for step in steps:
             if task.actions[step.action].participants != (task.human,):
                 self._left[step.epoch].append(step.action)
+        self.paid_for = self._waited = 0
         self._saw: tuple[tuple[int, bool], ...] = ()
         self._stuck = False
 
@@ -124,6 +130,10 @@ class _Game:
             mind.failed(now.actions[his[0]], now)
         failed = self._later(his) is None
         taken = [] if failed else his
+        if taken:
+            self.paid_for, self._waited = self.paid_for + self._waited, 0
+        elif now.human not in at_work(now):
+            self._waited += 1
         skipped = [Skipped(i, CONFLICT) for i in broken]
         refused = joint if accepted is None else [i for i in joint if self._name(i) != self._name(accepted)]
         skipped += [Skipped(i, self._why_not(i, accepted)) for i in refused]
@@ -135,8 +145,8 @@ class _Game:
         self._move(taken, robots)
         happens = robots or taken or now.script or believed.script
         self._stuck = best is None and not busy and not happens
-        cost = None if before is None else now.cost_of(before)
-        least = None if best is None else now.cost_of(best)
+        cost = None if before is None else self._ways.price(now, before)
+        least = None if best is None else self._ways.price(now, best)
         replanned = best is not None and cost != least
         done = None if failed else accepted
         return SimulatedEpoch(

@@ -10,6 +10,7 @@ from search import PreparedTask, optimal_plans_in_time
 from serendipity.facade.planning import planned
 from serendipity.model import Condition, Deadline, HumanPlan, Options, Task
 from serendipity.model.errors import LimitReachedError
+from serendipity.model.task.plans_in_time import cost_alone
 from serendipity.model.task.script import Deed, TimedFact
 from serendipity.model.task.unit_steps import unit_steps
 
@@ -40,11 +41,13 @@ class Ways:
     """The person's optimal plans alone, beside what goes on and the script.
 
     Args:
-        interference: which actions may share an epoch.
+        options: which actions may share an epoch, and what waiting costs.
     """
 
     def __init__(self, options: Options) -> None:
-        self._options = Options(mode="individual", interference=options.interference)
+        self._options = Options(
+            mode="individual", interference=options.interference, waiting_cost=options.waiting_cost
+        )
         self._known: dict[Hashable, Way | None] = {}
 
     def of(self, now: Task, deadline: Deadline) -> Way | None:
@@ -64,14 +67,25 @@ class Ways:
 
     def _found(self, now: Task, deadline: Deadline) -> Way | None:
         asked = PreparedTask(now.with_goal(now.goal, Condition()))  # robots' own goals are theirs
-        interference = self._options.interference
-        answer = planned(asked, None, None, mode="individual", interference=interference, deadline=deadline)
+        answer = planned(
+            asked,
+            None,
+            None,
+            mode="individual",
+            interference=self._options.interference,
+            waiting_cost=self._options.waiting_cost,
+            deadline=deadline,
+        )
         if answer.status not in ("optimal", "infeasible"):
             raise LimitReachedError("time-limit")
         if answer.human_plan is None or answer.human_entries is None:
             return None
         plan = now.plan_from_names(answer.human_entries)
-        return Way(entries_of(now, plan), now.cost_of(plan))
+        return Way(entries_of(now, plan), self.price(now, plan))
+
+    def price(self, now: Task, plan: HumanPlan) -> Fraction:
+        """What a plan costs from where things stand, the waiting that is still to come included."""
+        return cost_alone(now, plan, self._options.waiting_cost)
 
     def drawn(self, now: Task, dice: Random) -> HumanPlan:
         """One of their optimal plans, of which there are some."""

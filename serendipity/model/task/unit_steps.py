@@ -102,19 +102,38 @@ class UnitSteps:
         return TimedPlan(starts.values(), starts, len(plan))
 
     def waited(self, epochs: int, *, strict: bool) -> frozenset[int] | None:
-        """The state of the task after some epochs of what is due; None where that is impossible."""
-        task, state = self.task, self.task.init
-        clock = len(task.agents) - 1 if CLOCK in task.agents else -1
+        """The state of the task after some epochs of what is due; None where that is impossible.
+
+        Who has waited at a price begins nothing any more where they get what they want without it.
+        """
+        state: frozenset[int] | None = self.task.init
         for _ in range(epochs):
-            due = [task.actions[action] for fact, action in task.due if fact in state]
-            done = {action.name: action for action in reversed(due) if action.applicable(state)}
-            theirs = [action for action in done.values() if action.participants != (clock,)]
-            clash = any(conflicting(a, b, strict=strict) for a, b in combinations(theirs, 2))
-            if clash or any(action.name not in done for action in due):
-                return None
-            ticks = [action for action in done.values() if action.participants == (clock,)]
-            state = apply(apply(state, *theirs), *ticks)
-        return state
+            state = None if state is None else self._idled(state, strict=strict)
+        if state is None or epochs <= len(self.busy) or not self._rests(state, strict=strict):
+            return state
+        return state.difference(self.task.actions[self.resting].delete)
+
+    def _rests(self, state: frozenset[int], *, strict: bool) -> bool:
+        """Whether the human gets what they want if they begin nothing from a state on."""
+        now: frozenset[int] | None = state
+        while now is not None and not self.task.goal.holds(now):
+            if not any(fact in now for fact, _ in self.task.due):
+                return False
+            now = self._idled(now, strict=strict)
+        return now is not None
+
+    def _idled(self, state: frozenset[int], *, strict: bool) -> frozenset[int] | None:
+        """The state after an epoch of what is due; None where that is impossible."""
+        task = self.task
+        clock = len(task.agents) - 1 if CLOCK in task.agents else -1
+        due = [task.actions[action] for fact, action in task.due if fact in state]
+        done = {action.name: action for action in reversed(due) if action.applicable(state)}
+        theirs = [action for action in done.values() if action.participants != (clock,)]
+        clash = any(conflicting(a, b, strict=strict) for a, b in combinations(theirs, 2))
+        if clash or any(action.name not in done for action in due):
+            return None
+        ticks = [action for action in done.values() if action.participants == (clock,)]
+        return apply(apply(state, *theirs), *ticks)
 
     def steps(self, steps: Iterable[Step]) -> tuple[Step, ...]:
         """The steps in which an action of the original begins."""

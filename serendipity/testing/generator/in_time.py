@@ -81,7 +81,7 @@ def random_local_call(seed: int) -> PlanCall:
         "human_model": "local",
         "no_block": dice.choice(("true", "true", "false")),
     }
-    for name in ("discount", "interference", "head_start"):
+    for name in ("discount", "interference", "head_start", "waiting_cost"):
         if value := dice.choice(_CHOICES[name]):
             options[name] = value
     if task.script.people:

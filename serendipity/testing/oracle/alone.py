@@ -197,12 +197,26 @@ def human_plans(
     now = alone.world.idled(Moment(task.init), 0, head_start)
     if now is None or alone.worth(now, head_start) is None:
         return
+    resting = alone.resting(now, head_start) if _waited(alone, head_start) else None
+    if resting is not None:  # which costs nothing, and whatever is begun costs the waiting before it
+        yield as_human_plan(task, (), (), head_start + resting[1])
+        return
     known: set[tuple[str, ...]] = set()
     for actions, starts, end in alone.plans(now, head_start):
         names = tuple(task.actions[i].name for i in actions)
         if names not in known:
             known.add(names)
             yield as_human_plan(task, actions, starts, end)
+
+
+def _waited(alone: Alone, head_start: int) -> bool:
+    """Whether the human waits in a head start, and that costs something."""
+    now: Moment | None = Moment(alone.task.init)
+    for epoch in range(1, head_start + 1) if alone.waiting_cost else ():
+        if now is not None and not alone.world.at_work(now, epoch):
+            return True
+        now = None if now is None else alone.world.alone(now, epoch)
+    return False
 
 
 def optimal_human_plan(task: Task) -> HumanPlan | None:

@@ -123,11 +123,13 @@ class Plans:
         early = self.options.head_start
         now = self.world.idled(Moment(self.task.init), 0, early)
         worth = None if now is None else self.alone.worth(now, early)
-        if worth is None:
+        if now is None or worth is None:
             return None
         cost, _, actions = worth
-        waits = max(0, early - self._busy)
-        return (cost + self.options.waiting_cost * waits if actions else cost, actions)
+        paid = self.options.waiting_cost * max(0, early - self._busy)
+        if paid and self.alone.resting(now, early) is not None:
+            return (Fraction(0), 0)
+        return (cost + paid if actions else cost, actions)
 
     def price(self, i: int) -> Label:
         """Objective, cost and count of one action: semantics 1 and Def. 3.2."""

@@ -117,11 +117,11 @@ def test_what_is_cheaper_than_waiting_is_not_done_for_ever() -> None:
     assert (answer.status, answer.reason) == ("infeasible", "no-human-plan")
 
 
-@pytest.mark.parametrize(("epoch", "cost"), [(2, 0), (3, 0.5)])
-def test_a_head_start_is_paid_for_by_who_acts_after_it(epoch: int, cost: float) -> None:
+@pytest.mark.parametrize("epoch", [2, 3, 6])
+def test_a_head_start_is_paid_for_by_who_acts_after_it(epoch: int) -> None:
     """What a given plan had waited was left out of what they gain alone, or a dearer plan was taken.
 
-    In epoch 2 the goal holds as soon by itself; before epoch 3 it takes an action, which is in no other plan.
+    The goal comes by itself.  Where an action was done sooner, it was as if the head start cost nothing.
     """
     built = task(
         agents="h r", human="h", goal="g", actions={"a h": "-> g @ 0", "b h": "-> g @ 1", "c r": "-> g"}
@@ -130,7 +130,7 @@ def test_a_head_start_is_paid_for_by_who_acts_after_it(epoch: int, cost: float) 
     call: dict[str, Any] = {"mode": "individual", "head_start": 1, "waiting_cost": "0.5"}
     for told_plan, paid in ((["a h"], 0.5), (["b h"], 1.5), ([(3, "a h")], 1.5)):
         answer = serendipity.plan(built, human_plan=told_plan, **call)
-        assert (answer.cost, answer.saving_alone) == (cost, paid - cost)
+        assert (answer.cost, answer.saving_alone) == (0, paid)
         assert serendipity.verify(built, answer).verdict == "proved"
         plan = built.plan_from_names(told_plan, 1)
         assert best(built, Options(**call), plan).saving_alone == Fraction(str(answer.saving_alone))

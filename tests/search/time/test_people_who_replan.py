@@ -175,9 +175,15 @@ def test_nobody_takes_part_before_they_are_up_where_nothing_takes_longer() -> No
         assert serendipity.verify(about, found).verdict == "proved"
 
 
-def test_what_is_not_settled_is_refused() -> None:
-    with pytest.raises(UsageError, match="waiting_cost: beside a human who sees what is near"):
-        serendipity.plan(gate(opening=2), human_model="local", waiting_cost=1)
-    found = serendipity.plan(gate(opening=2), human_model="observant", waiting_cost=1)
-    with pytest.raises(UsageError, match="waiting_cost: a simulation counts no price of waiting"):
-        serendipity.simulate(gate(opening=2), found)
+@pytest.mark.parametrize("model", ["observant", "local"])
+def test_what_was_waited_is_part_of_what_a_simulation_costs(model: Any) -> None:
+    """It was refused: the door opens with epoch 6, or when a robot opens it."""
+    about = task(init="a", goal="d", actions={"go h": "a open -> d !a @ 1", "open r": " -> open @ 2"})
+    about = about.with_script(Script(facts=[(6, "open")]))
+    for found, cost in (
+        (serendipity.plan(about, human_model=model, waiting_cost=1, discount="0.5"), 3),
+        (serendipity.plan(about, mode="individual", waiting_cost=1), 7),
+    ):
+        played = serendipity.simulate(about, found, model)
+        assert (played.realised, played.cost, found.cost) == (True, cost, cost)
+        assert played.epochs[-1].best_cost == 1, "what was waited is not still to come"

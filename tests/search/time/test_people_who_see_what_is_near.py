@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 import serendipity
 from search.modes.simulation.eyes import SeesWork
 from serendipity.model import Result, Task, UsageError, surroundings
+from serendipity.model.task.plans_in_time import cost_alone
 from serendipity.testing.builders import Builder
 from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.generator.in_time import random_local_call
@@ -35,12 +36,13 @@ def test_answers_are_those_of_brute_force_proved_and_happen(seed: int) -> None:
     calls = map(random_local_call, count(seed))
     call = next(one for one in calls if len(one.task.actions) <= _FEW)  # else brute force takes long
     found, task = answered(call), call.task
-    plan = next(human_plans(task, head_start=found.options.head_start, strict=found.options.strict), None)
+    price, late = found.options.waiting_cost, found.options.head_start
+    plan = next(human_plans(task, price, late, strict=found.options.strict), None)
     if plan is None:
         assert found.status == "infeasible"
         return
     least = best_reaction(task, found.options, plan, surroundings(task).visible).cost
-    costs = [cost for cost in (least, task.cost_of(plan)) if cost is not None]
+    costs = [cost for cost in (least, cost_alone(task, plan, price)) if cost is not None]
     assert (found.status, found.cost) == ("optimal", float(min(costs)))
     assert serendipity.simulate(task, found, "local").realised
     assert serendipity.verify(task, found).verdict == "proved"
@@ -71,6 +73,18 @@ def test_they_see_what_those_are_at_who_are_there(walk: int) -> None:
     if walk == 1:  # they wait for what they see that it is at
         assert [epoch.did for epoch in played.epochs] == ["walk ann hall kitchen", None, None, "eat ann"]
     assert serendipity.verify(task, found).verdict == "proved"
+
+
+def test_they_pay_for_waiting_for_what_they_see() -> None:
+    """Two epochs beside the stove, which are worth it at a price of less than 2."""
+    costs = []
+    for price in ("0.5", "1.5", "2"):
+        found = serendipity.plan(kitchen(), discount="0.5", human_model="local", waiting_cost=price)
+        played = serendipity.simulate(kitchen(), found, "local")
+        assert played.realised and serendipity.verify(kitchen(), found).verdict == "proved"
+        assert played.cost == found.cost
+        costs.append((found.cost, found.opportunity))
+    assert costs == [(5, True), (7, True), (8, False)]
 
 
 def test_where_they_are_is_known_though_they_are_on_the_way_for_a_while() -> None:
@@ -115,6 +129,7 @@ def test_who_is_wrong_about_what_they_believe_is_refuted(
 
 def test_they_try_the_variant_that_they_believe_to_be_possible() -> None:
     call = random_local_call(2750)
+    call.options.pop("waiting_cost", None)
     found = answered(call)
     assert (found.cost, serendipity.simulate(call.task, found, "local").realised) == (3, True)
 
@@ -129,8 +144,6 @@ def test_a_doctored_answer_is_refuted() -> None:
 
 
 def test_what_is_not_settled_is_refused() -> None:
-    with pytest.raises(UsageError, match="waiting_cost: beside a human who sees what is near"):
-        serendipity.plan(kitchen(), human_model="local", waiting_cost=1)
     with pytest.raises(UsageError, match="visible: is not known where actions take time"):
         serendipity.plan(kitchen(), human_model="local", visible=lambda *_: True)
     with pytest.raises(UsageError, match="visible: is not known where actions take time"):
