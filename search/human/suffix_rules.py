@@ -1,7 +1,7 @@
 """Rules for the suffix: the human alone after the window (semantics 3.1 rule 3, 3.3)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from search.human.individual_planner import IndividualPlanner, canonical
 from search.human.plan_suffix import PlanSuffix
@@ -118,5 +118,36 @@ class Lasting:
         return state
 
 
-Suffix = Replan | Lasting | PlanSuffix
+@dataclass(eq=False)
+class Asked:
+    """A suffix chosen without regard to the robots' goal, which is asked at its end (semantics 11, 12)."""
+
+    chosen: "Suffix"
+    goals: Sequence[PackedGoal]
+    due: Due
+    packed: PackedTask
+    _known: dict[tuple[int, int, int], bool] = field(default_factory=dict)
+
+    def key(self, state: int, epochs: int, start: int, limit: int) -> int:
+        """See :class:`Replan`."""
+        found, at = self.chosen.key(state, epochs, start, limit), (state, epochs, start)
+        if found < limit and at not in self._known:
+            self._known[at] = self._keeps(*at)
+        return found if found >= limit or self._known[at] else INFINITE_KEY
+
+    def actions(self, state: int, epochs: int, start: int) -> tuple[int, ...]:
+        """See :class:`Replan`."""
+        return self.chosen.actions(state, epochs, start)
+
+    def _keeps(self, state: int, epochs: int, start: int) -> bool:
+        actions = self.actions(state, epochs, start)
+        for action in actions:
+            after = self.due.after(state, [as_option(self.packed.op(action), 0)])
+            if after is None:
+                return False
+            state = after
+        return self.due.lasting(state, epochs - len(actions), self.goals)
+
+
+Suffix = Replan | Lasting | PlanSuffix | Asked
 """A rule for the epochs from ``xi2`` on."""

@@ -297,22 +297,24 @@ def prefix_rule(context: SearchContext, plan: HumanPlan) -> InLayers:
     return InLayers([idle if idle and step[0].action in packed.idling else [step] for step in steps])
 
 
-def suffix_rule(context: SearchContext, plan: HumanPlan) -> Suffix:
-    """Rule 3 as the options have it."""
-    options, packed = context.options, context.packed
+def suffix_rule(context: SearchContext, plan: HumanPlan, *, aside: bool = False) -> Suffix:
+    """Rule 3 as the options have it; ``aside``: without regard to the robots' goal."""
+    options, packed, goals = context.options, context.packed, context.goals
+    theirs, both = packed.robot_goal, None if aside else context.alone_to_both
+    if aside:
+        theirs, goals = packed.condition(Condition()), tuple(goal for goal in goals if goal is not theirs)
     due = Due(packed, context.weights.team, strict=options.strict)
     if options.suffix == "subplan" or options.preservation == "state":
         own = None if options.preservation == "kernel" else _own_facts(packed)
-        return PlanSuffix(packed, plan, context.weights.team, due, context.goals, own, context.deadline)
-    lasts = packed.in_time and is_undisturbed(packed) and not context.alone_to_both and not packed.awake
-    theirs, both = packed.robot_goal, context.alone_to_both
+        return PlanSuffix(packed, plan, context.weights.team, due, goals, own, context.deadline)
+    lasts = packed.in_time and is_undisturbed(packed) and not both and not packed.awake
     if packed.clock_bit and not lasts:
         # Beside a script robots' goals may come true, or be lost, once the human is done: Lasting asks.
         theirs, both = packed.condition(Condition()), None
     replan = Replan(context.alone, both, theirs, packed.at_rest, context.keys)
     if lasts or (not packed.clock_bit and not (packed.in_time and (packed.awake or replan.both))):
         return replan
-    return Lasting(replan, context.goals, due, packed)
+    return Lasting(replan, goals, due, packed)
 
 
 def _own_facts(packed: PackedTask) -> frozenset[int]:

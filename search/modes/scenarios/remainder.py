@@ -15,10 +15,12 @@ from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, Node, Progress, Space, best_first, solve_space
 from search.engine.dominance import ParetoFront
 from search.engine.paths import path_steps, plan_steps
+from search.human.suffix_rules import Asked, Suffix
 from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, Member, Worths
 from search.modes.scenarios.variants import Variants
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due
+from search.packed.joint_actions import as_option
 from search.packed.operators import applicable
 from search.spaces.factory import no_worse, suffix_rule
 from search.spaces.fixed_human_plan import FixedHumanPlan
@@ -98,10 +100,14 @@ class Certain:
         self._packed = context.packed
         self._worths = worths
         self.steps = context.followed(scenario.plan)
-        self.suffix = suffix_rule(context, scenario.plan)
         self.max_window = self._options.max_window or scenario.horizon
         self._ordinary = self._options.suffix == "replan" and self._options.preservation == "kernel"
         self._due = Due(self._packed, context.weights.team, strict=self._options.strict)
+        self._keeps = bool(context.task.robot_goal)
+        self.suffix: Suffix = suffix_rule(context, scenario.plan)
+        if self._keeps:
+            chosen = suffix_rule(context, scenario.plan, aside=True)
+            self.suffix = Asked(chosen, context.goals, self._due, self._packed)
         task, bits = context.task, self._packed.fact_bits
         self._facts = [(fact, *found) for fact, found in enumerate(bits) if found is not None]
         self._others = frozenset(fact for fact in task.init if bits[fact] is None)
@@ -160,11 +166,31 @@ class Certain:
         if self._ordinary and all_are_free:
             alone = self.alone(state, epoch)
             helped = self._by_strategies(state, epoch, deadline, most)
+            if self._keeps and not self._ends_canonically(state, epoch, helped):
+                helped = self._in_space(state, epoch, 0, deadline, most)
             if alone >= helped.worth:
                 return helped
             left = plan_steps(self._scenario.plan[epoch:], epoch + 1)  # which no strategy counts beside G_R
             return Remainder(min(helped.least, alone), alone, left)
         return self._in_space(state, epoch, 0, deadline, most)
+
+    def _ends_canonically(self, state: int, epoch: int, found: Remainder) -> bool:
+        """Whether the human does after a window what they would whatever robots have to keep."""
+        if found.window is None:
+            return True
+        packed, (start, end), done = self._packed, (found.window.start, found.window.end), list[int]()
+        for step in found.steps:
+            if step.epoch >= end and packed.counted(step.action):
+                done.append(step.action)
+        for now in range(epoch + 1, end):
+            begun = (step.action for step in found.steps if step.epoch == now and packed.counted(step.action))
+            after = self._due.after(state, [as_option(packed.op(action), 0) for action in begun])
+            assert after is not None, "it is a plan"
+            state = after
+        left = self._scenario.horizon + 1 - end
+        if self.suffix.key(state, left, start, INFINITE_KEY) >= INFINITE_KEY:
+            return False
+        return done == [i for i in self.suffix.actions(state, left, start) if packed.counted(i)]
 
     def _mended(self, state: int, epoch: int, deadline: Deadline, most: int) -> Remainder:
         """The human follows their plan to its end, and robots make that possible again."""
