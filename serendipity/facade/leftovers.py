@@ -18,12 +18,19 @@ from serendipity.model.options import Options
 L = TypeVar("L", bound=Hashable)
 """A priced literal, by what it is kept for."""
 
-Keep = Callable[[frozenset[L]], Iterator[Answer]]
-"""Answers to the call without prices, with some priced literals kept."""
+Keep = Callable[[frozenset[L], frozenset[L]], Iterator[Answer]]
+"""Answers to the call without prices, with some priced literals kept, and some paid for in any case."""
 
 
 class Question(Protocol[L]):
-    """A call whose answers pay for what they leave."""
+    """A call whose answers pay for what they leave.
+
+    Attributes:
+        adds_up: whether prices add to everything else, so that the best plan without them is the best of
+            those that leave no more than it does.
+    """
+
+    adds_up: bool
 
     def least(self, kept: frozenset[L], paid: frozenset[L]) -> Fraction:
         """What is to be paid if some literals are kept, and some left."""
@@ -101,6 +108,8 @@ class Prices:
 class OnePlan:
     """A call beside one plan of the human's, whose answers pay for what they leave."""
 
+    adds_up = True
+
     def __init__(self, call: Request, rule: Kept) -> None:
         self._call, self._rule, self._prices = call, rule, Prices(call.task, rule)
         self._options = call.options
@@ -165,8 +174,8 @@ def priced(options: Options, question: Question[L], keep: Keep[L]) -> Iterator[A
     alone: Fraction | None = None  # known where nothing is kept, which would be a goal of the robots'
     while calls and (best is None or calls[0].bound <= question.total(best)):
         bound, _, kept, paid = heapq.heappop(calls)
-        *_, found = keep(kept)
-        alone = found.saving_alone if not kept else alone
+        *_, found = keep(kept, paid)
+        alone = found.saving_alone if not kept and not paid else alone
         found = found._replace(saving_alone=alone)
         if found.cost is not None:
             candidate = question.with_price(found)
@@ -179,7 +188,11 @@ def priced(options: Options, question: Question[L], keep: Keep[L]) -> Iterator[A
             if best is None and not calls:
                 yield found
             continue
-        for literal in question.open(found, kept, paid):
+        unsettled = question.open(found, kept, paid)
+        if unsettled and not question.adds_up:
+            number += 1
+            heapq.heappush(calls, _Call(question.total(found), number, kept, paid.union(unsettled)))
+        for literal in unsettled:
             number += 1
             more = kept | {literal}
             least = question.total(found) + question.least(more, paid)

@@ -1,21 +1,41 @@
-"""The price of what help leaves changed in each of several scenarios, in the mean (semantics 11, 12)."""
+"""The price of what help leaves changed in each of several scenarios (semantics 11, 12).
 
-from collections.abc import Sequence
+In the mean prices add up.  Where the greatest cost or regret counts, they matter only where it is; there each
+scenario begins with what it has to pay for in any case.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
+from typing import Final
 
-from search.modes.scenarios import Candidate
+from search.modes.scenarios import Candidate, solve_scenarios
+from serendipity.facade.call import Request
 from serendipity.facade.kept import Kept, Literal, left_by
-from serendipity.facade.leftovers import Prices, paying
-from serendipity.model import Options, Task
+from serendipity.facade.leftovers import Prices, paying, priced
+from serendipity.model import Deadline, Options, Task
 from serendipity.model.answers.answer import Answer, ServedGoal
 
 Literals = frozenset[tuple[int, Literal]]
 """Priced literals, each of the scenario of a number."""
 
 
+Figures = tuple[Fraction, Fraction]
+"""Objective and cost."""
+
+_NOTHING: Final = Fraction(0)
+
+_FREE: Final[Figures] = (_NOTHING, _NOTHING)
+
+_SHARE: Final = 0.5
+"""The share of the time for what regret compares with."""
+
+
 class OverScenarios:
     """A call over scenarios whose answers pay for what they leave; ``idle`` is the answer of idle robots."""
+
+    adds_up = True
 
     def __init__(
         self,
@@ -75,6 +95,131 @@ class OverScenarios:
 
     def _left(self, k: int, goal: ServedGoal) -> list[tuple[Literal, Fraction]]:
         return left_by(self._task, self._rules[k], goal.steps or (), self._last)
+
+
+class AtWorst(OverScenarios):
+    """The same where the greatest counts.
+
+    Args:
+        solve: answers about these scenarios with what each has to keep and begins with.
+        floors: what each scenario's costs are compared with.
+    """
+
+    adds_up = False
+
+    def __init__(
+        self,
+        task: Task,
+        options: Options,
+        candidates: Sequence[Candidate],
+        rules: Sequence[Kept],
+        last: int,
+        idle: Answer,
+        solve: Callable[[Literals, Sequence[Figures]], Iterator[Answer]],
+        floors: Sequence[Figures],
+    ) -> None:
+        super().__init__(task, options, candidates, rules, last, idle)
+        self._solve, self._floors = solve, floors
+        self._is_asked_by_itself = False
+        self._most = tuple(max(floor[i] for floor in floors) for i in (0, 1))
+        plans = (task.cost_of(one.plan) for one in candidates)
+        self._alone = self._worth([(cost + options.window_weight, cost) for cost in plans])[1]
+        self._idle = idle._replace(cost=self._alone, objective=self._alone)
+
+    def keep(self, kept: Literals, paid: Literals) -> Iterator[Answer]:
+        """Answers whose figures count what is paid for in any case."""
+        ahead = []
+        for k, (prices, floor) in enumerate(zip(self._prices, self._floors, strict=True)):
+            least = prices.least(_of(k, kept), _of(k, paid))
+            ahead.append((least + self._most[0] - floor[0], least + self._most[1] - floor[1]))
+        for found in self._solve(kept, ahead):
+            objective, cost = found.objective or _NOTHING, found.cost or _NOTHING
+            yield found._replace(objective=objective - self._most[0], cost=cost - self._most[1])
+
+    def least(self, kept: Literals, paid: Literals) -> Fraction:
+        """Nothing besides, see :meth:`keep`."""
+        return _NOTHING
+
+    def open(self, found: Answer, kept: Literals, paid: Literals) -> list[tuple[int, Literal]]:
+        """See :class:`.Question`; none where what is left makes nothing worse."""
+        priced = self.with_price(found)
+        same = (priced.objective, priced.cost) == (found.objective, found.cost)
+        return [] if same else super().open(found, kept, paid)
+
+    def with_price(self, answer: Answer) -> Answer:
+        """See :class:`.Question`."""
+        told, window = super().with_price(answer), self._options.window_weight
+        each = [
+            (
+                (one.cost or _NOTHING) + window * (1 if one.window is None else len(one.window)),
+                one.cost or _NOTHING,
+            )
+            for one in told.goals or ()
+        ]
+        objective, cost = self._worth(each)
+        saving = self._alone - cost
+        return told._replace(
+            objective=objective, cost=cost, baseline=self._alone, saving=saving, opportunity=True
+        )
+
+    def total(self, answer: Answer) -> Fraction:
+        """See :class:`.Question`."""
+        return answer.objective or _NOTHING
+
+    def floor(self) -> tuple[Figures, bool]:
+        """The least of it, whether that helps or not, and whether it is proved."""
+        self._is_asked_by_itself = True
+        *_, found = priced(self._options, self, self.keep)
+        if found.status != "optimal":
+            return (found.lower_bound or _NOTHING, _NOTHING), False
+        return (found.objective or _NOTHING, found.cost or _NOTHING), True
+
+    def settled(self, answer: Answer) -> Answer:
+        """See :class:`.Question`."""
+        found = answer._replace(status="optimal", lower_bound=answer.objective)
+        return found if self._is_asked_by_itself else super().settled(answer)
+
+    def _worth(self, each: Sequence[Figures]) -> Figures:
+        pairs = zip(each, self._floors, strict=True)
+        return max((a - floor, b - least) for (a, b), (floor, least) in pairs)
+
+
+def at_worst(
+    call: Request,
+    candidates: Sequence[Candidate],
+    rules: Sequence[Kept],
+    last: int,
+    keeping: Callable[[Literals], Sequence[Candidate]],
+) -> Iterator[Answer]:
+    """Answers that pay for what they leave, by the greatest cost or regret.
+
+    Args:
+        last: ``T``.
+        keeping: the scenarios, with some literals that each has to keep.
+    """
+    options, every = call.options.but(risk="worst", horizon=last), range(len(candidates))
+
+    def solved(
+        numbers: Sequence[int], deadline: Deadline, kept: Literals, ahead: Sequence[Figures]
+    ) -> Iterator[Answer]:
+        given = keeping(frozenset((numbers[k], literal) for k, literal in kept))
+        begun = [replace(given[k], ahead=pair) for k, pair in zip(numbers, ahead, strict=True)]
+        return solve_scenarios(call.prepared, options, begun, deadline)
+
+    def asked(numbers: Sequence[int], deadline: Deadline, floors: Sequence[Figures]) -> AtWorst:
+        own = [candidates[k] for k in numbers]
+        idle = next(solve_scenarios(call.prepared, options, own, deadline))
+        solve = partial(solved, numbers, deadline)
+        return AtWorst(call.task, options, own, [rules[k] for k in numbers], last, idle, solve, floors)
+
+    floors, proved = [_FREE] * len(candidates), True
+    for k in every if call.options.risk == "regret" else ():
+        deadline = call.deadline.part(_SHARE / len(candidates))
+        floors[k], known = asked([k], deadline, [_FREE]).floor()
+        proved = proved and known
+    question = asked(every, call.deadline, floors)
+    for answer in priced(options, question, question.keep):
+        yield answer if proved else answer._replace(status="feasible", lower_bound=_NOTHING)
 
 
 def _of(number: int, literals: Literals) -> frozenset[Literal]:

@@ -24,7 +24,7 @@ from serendipity.facade.kept import (
     with_literals,
 )
 from serendipity.facade.leftovers import OnePlan, priced
-from serendipity.facade.leftovers_over_scenarios import Literals, OverScenarios
+from serendipity.facade.leftovers_over_scenarios import Literals, OverScenarios, at_worst
 from serendipity.model import Condition, Deadline, HumanPlan, Options, Step, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.errors import LIMITS, limit_reason
@@ -69,7 +69,7 @@ def answers(call: Request, plan: HumanPlan | None, solve: Solve) -> Iterator[Ans
         if not rule.prices:
             return _keeping(call, free, rule, solve)
         asked = OnePlan(call, rule)
-        return priced(call.options, asked, lambda literals: _keeping(call, free, rule, solve, literals))
+        return priced(call.options, asked, lambda literals, _: _keeping(call, free, rule, solve, literals))
 
     soon = _soon(call)
     return _disturbing(call, _answers(call, soon, solve(soon, plan), keeps, keeping))
@@ -106,10 +106,12 @@ def over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[A
         under = [*_under_rules(call, candidates, rules)]
         if not any(rule.prices for rule in rules):
             return _solved(call, under)
+        if call.options.risk != "mean":
+            return at_worst(call, candidates, rules, last, lambda kept: [*_keeping_more(under, kept)])
         idle = next(_solved(call, candidates))
         question = OverScenarios(call.task, call.options, candidates, rules, last, idle)
         return priced(
-            call.options, question, lambda literals: _solved(call, [*_keeping_more(under, literals)])
+            call.options, question, lambda literals, _: _solved(call, [*_keeping_more(under, literals)])
         )
 
     if call.options.risk == "regret":  # what it compares with keeps the rule, too

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from serendipity.model import Deadline, GroundAction, HumanPlan, Result, Task
-from serendipity.model.task.script import UNDER_WAY
+from serendipity.model.task.unit_steps import asked_of
 from serendipity.model.task.visibility import Surroundings, surroundings
 from verify.base import wording
 from verify.base.execution import State, idling, unchosen
@@ -97,15 +97,8 @@ class _Watch:
         return self._wanted() | own.intersection(range(len(self.around.parts)))
 
     def _asks(self, number: int) -> set[int]:
-        """What an action asks for, and what goes on after its start asks for over all, or at end."""
-        action, timed = self.task.actions[number], self.task.in_time
-        asked = {*action.pre, *action.neg}
-        if number not in self.going_on or timed is None:
-            return asked
-        name = action.name.removeprefix(f"{UNDER_WAY} ").rpartition(" ")[0]
-        alike = [timed.actions[i] for i in timed.named.get(name, ())]
-        parts = [one for a in alike if a.timing for one in (a.timing.over_all, a.timing.at_end)]
-        return asked & {fact for one in parts for fact in (*one.positive, *one.negative)}
+        action = self.task.actions[number]
+        return asked_of(self.task, action) if number in self.going_on else {*action.pre, *action.neg}
 
     def _sees(self, fact: int, state: State) -> bool:
         """Whether a fact is about the human, or their place; without places all are seen."""

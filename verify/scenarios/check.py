@@ -10,7 +10,6 @@ from serendipity.model import Claim, Condition, Deadline, HumanPlan, PlanError, 
 from serendipity.model.answers.certificate import ClaimVerdict
 from serendipity.model.answers.fields import MalformedError
 from serendipity.model.answers.result_parts import GoalAnswer
-from serendipity.model.numbers import as_written
 from serendipity.model.task.gate import is_bound
 from verify.base import wording
 from verify.base.beside_script import alone_of
@@ -19,7 +18,7 @@ from verify.base.undecided import UNDECIDED, UndecidedError, why
 from verify.rules.case import Case
 from verify.rules.header import mode_and_human, reason, status_and_fields
 from verify.rules.layers import Layers
-from verify.rules.leftovers import left, unpriced
+from verify.rules.leftovers import left
 from verify.rules.nobody_pays import Rule, fault_of, last_state, rule_of
 from verify.rules.replay import replay_human
 from verify.scenarios.beliefs import considered_plans, faults
@@ -31,7 +30,6 @@ from verify.scenarios.timelines import (
     close,
     figures_fault,
     lasting_fault,
-    mean,
     rule_fault,
     suffix_fault,
     timelines,
@@ -73,7 +71,7 @@ def claims_over_scenarios(
         certain: makes the claims of an answer of section 3.
         proved: makes those that rules can't make of an answer that breaks none; None: nobody does.
     """
-    started, aimed, paid = perf_counter(), list[Aimed](), list[Fraction]()
+    started, aimed = perf_counter(), list[Aimed]()
     try:
         served = listed(result)
         chosen, origin, fault = _expected(task, result, original, served, deadline)
@@ -84,7 +82,7 @@ def claims_over_scenarios(
             fault = _entry_fault(result, served[0])
         if fault is None and len(chosen) > 1:
             pairs = list(zip(chosen, served, strict=True))
-            aimed, paid, fault = _bound(task, result, original, pairs, deadline)
+            aimed, fault = _bound(task, result, original, pairs, deadline)
     except (MalformedError, PlanError) as error:
         fault = str(error)
     except UNDECIDED as error:
@@ -98,25 +96,8 @@ def claims_over_scenarios(
         known = replace(result, goals=None, recognition=None, options=result.options.but(ties=ties))
         return tuple(certain(task.with_goal(chosen[0].goal), known))
     lines = timelines(aimed, result, served, deadline)
-    if paid:
-        return tuple(_priced_claims(result, lines, paid, origin))
     claims = tuple(_claims_by_rules(result, lines, origin))
     return *claims, *_beyond_rules(result, lines, claims, proved)
-
-
-def _priced_claims(
-    result: Result, lines: Sequence[Timeline], paid: Sequence[Fraction], origin: str
-) -> Iterator[Claim]:
-    """The claims where something that is left costs so much in each scenario: none on what is best."""
-    if result.opportunity and as_written(result.saving or 0) <= as_written(result.saving_alone or 0):
-        yield Claim("cost", "refuted", wording.LEFT_TOO_DEAR)
-        return
-    own = []
-    for line, price in zip(lines, paid, strict=True):
-        answer = unpriced(line.case.result, price)
-        own.append(replace(line, case=replace(line.case, result=answer)))
-    yield from _claims_by_rules(unpriced(result, mean(lines, paid)), own, origin)
-    yield from (Claim(name, "undecided", wording.PRICED[None]) for name in beyond_rules(result))
 
 
 def _bound(
@@ -125,9 +106,8 @@ def _bound(
     original: Task,
     pairs: Sequence[tuple[Scenario, GoalAnswer]],
     deadline: Deadline,
-) -> tuple[list[Aimed], list[Fraction], str | None]:
-    """Each scenario's task, with its goals and what has to be kept; what is paid for what each leaves, where
-    that counts; and what breaks a rule of help.
+) -> tuple[list[Aimed], str | None]:
+    """Each scenario's task, its goals, what has to be kept or paid for, and what breaks a rule of help.
 
     As with one scenario they are those without the rules where the answer does not say that they bind.
     """
@@ -135,7 +115,7 @@ def _bound(
     plain = [Aimed(tasks[one.goal]) for one, _ in pairs]
     options = result.options
     if not is_bound(original, options):
-        return plain, [], None
+        return plain, None
     rules, plans, paid = list[Rule](), list[HumanPlan](), list[Fraction]()
     for one, entry in pairs:
         own = tasks[one.goal]
@@ -144,25 +124,22 @@ def _bound(
         told = replace(result, plan=entry.plan)
         fault = fault_of(own, told, rules[-1], plans[-1], original, deadline)
         if fault is not None:
-            return plain, [], f"scenario '{one.name}': {fault}"
+            return plain, f"scenario '{one.name}': {fault}"
         leaves = left(rules[-1].prices, last_state(own, told)) if rules[-1].prices else {}
         paid.append(sum(leaves.values(), Fraction(0)))
-    binds = result.statistics.get("rule_binds")
-    if not any(paid) and not (binds and any(rule.prices for rule in rules)):
-        paid = []
-    if not binds:
-        return plain, paid, None
+    if not result.statistics.get("rule_binds") and not any(paid):
+        return plain, None
     most = max((rule.most for rule in rules if rule.most is not None), default=None)
     known: dict[object, Layers] = {}
     found = []
-    for (one, _), plan, rule in zip(pairs, plans, rules, strict=True):
+    for (one, _), plan, rule, price in zip(pairs, plans, rules, paid, strict=True):
         asked = (one.goal, plan) if options.noticed else None
         if asked not in known:
             known[asked] = Layers(tasks[one.goal], options, plan, most, original, deadline)
         layers = known[asked]
         goal = layers.goal(layers.task.goal if asked else one.goal, rule.most)
-        found.append(Aimed(layers.task.with_goal(goal, rule.facts), layers.original))
-    return found, paid, None
+        found.append(Aimed(layers.task.with_goal(goal, rule.facts), layers.original, rule.prices, price))
+    return found, None
 
 
 def _beyond_rules(

@@ -11,6 +11,8 @@ from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE
 from verify.calls.call import ExaminedCall
 from verify.exhaustive.without_epochs import LeastLeft
+from verify.rules.leftovers import Prices
+from verify.scenarios.measure import Measure
 from verify.scenarios.suffixes import suffix_of
 
 FOLLOWS, INSIDE, OVER = range(3)
@@ -150,12 +152,13 @@ class Course:
     """The epochs of one scenario.
 
     Args:
-        pay: units of cost as the search counts them.
-        epoch: an epoch of window likewise.
+        prices: of what is left changed.
     """
 
-    def __init__(self, call: ExaminedCall, moves: Moves, pay: Callable[[int], int], epoch: int) -> None:
-        self._moves, self._pay, self._epoch = moves, pay, epoch
+    def __init__(self, call: ExaminedCall, moves: Moves, measure: Measure, prices: Prices) -> None:
+        self._moves, self._epoch = moves, measure.epoch
+        pay = self._pay = measure.pay
+        self._prices = [(1 << fact, true, measure.price(price)) for fact, (true, price) in prices.items()]
         self._plan = [moves.part(i) for i in call.human_plan or ()]
         self._horizon = int(call.horizon)
         self._most = call.options.max_window
@@ -179,13 +182,18 @@ class Course:
 
     def least(self, at: Member, epoch: int) -> int:
         """No less is left to pay after an epoch; after the last one exactly that."""
+        left = self._left(at.state) if epoch == self._horizon else 0
         if at.phase == OVER:
-            return self._rest(at.rest)
+            return self._rest(at.rest) + left
         wait = self._epoch if at.phase == FOLLOWS else 0
         if epoch == self._horizon:
-            return wait if at.phase == FOLLOWS and self._goal.holds(at.state) else INFINITE
-        left = self._bound(at.state & self._matters)
-        return INFINITE if left is None else self._pay(left) + wait
+            return wait + left if at.phase == FOLLOWS and self._goal.holds(at.state) else INFINITE
+        rest = self._bound(at.state & self._matters)
+        return INFINITE if rest is None else self._pay(rest) + wait
+
+    def _left(self, state: int) -> int:
+        """The price of what a last state leaves changed."""
+        return sum(price for bit, true, price in self._prices if bool(state & bit) is not true)
 
     def ways(self, at: Member, epoch: int, robots: BitOperator) -> Iterator[Way]:
         """What may happen in an epoch in which robots do so much by themselves."""

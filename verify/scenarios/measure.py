@@ -5,6 +5,7 @@ from fractions import Fraction
 from math import lcm
 
 from verify.calls.call import ExaminedCall
+from verify.rules.leftovers import Prices
 from verify.scenarios.timelines import Figures
 
 
@@ -15,6 +16,7 @@ class Measure:
         calls: one for each scenario.
         weights: their probabilities; they add up to 1.
         floors: objective and cost that each scenario allows by itself.
+        prices: of what each leaves changed.
 
     Attributes:
         is_mean: whether what scenarios pay adds up; else the greatest counts.
@@ -25,24 +27,36 @@ class Measure:
     """
 
     def __init__(
-        self, calls: Sequence[ExaminedCall], weights: Sequence[Fraction], floors: Sequence[Figures]
+        self,
+        calls: Sequence[ExaminedCall],
+        weights: Sequence[Fraction],
+        floors: Sequence[Figures],
+        prices: Sequence[Prices] = (),
     ) -> None:
-        options, prices = calls[0].options, calls[0].prices
+        options, own = calls[0].options, calls[0].prices
+        each = [[price * own.scale for _, price in one.values()] for one in prices]
+        self._fine = lcm(*(price.denominator for one in each for price in one))
         self.is_mean = options.risk == "mean"
         parts = lcm(*(weight.denominator for weight in weights)) if self.is_mean else 1
         self.shares = [int(weight * parts) if self.is_mean else 1 for weight in weights]
-        self._scale = parts * prices.scale
-        dearest = max(prices.team, default=0) * len(calls[0].task.agents)
-        self._unit = 8 * parts * (dearest * (int(calls[0].horizon) + 1) + 1)
-        self.epoch = prices.epoch * self._unit
-        each = [self._number(floor, prices.scale) for floor in floors]
-        self.ahead = [-floor if options.risk == "regret" else 0 for floor in each]
-        shares = zip(self.shares, self.ahead, each, strict=True)
+        self._own = self._fine * own.scale
+        self._scale = parts * self._own
+        dearest = max(own.team, default=0) * len(calls[0].task.agents) * (int(calls[0].horizon) + 1)
+        most = dearest + max(map(sum, each), default=0)
+        self._unit = 8 * parts * (int(most * self._fine) + 1)
+        self.epoch = own.epoch * self._fine * self._unit
+        least = [self._number(floor, self._own) for floor in floors]
+        self.ahead = [-floor if options.risk == "regret" else 0 for floor in least]
+        shares = zip(self.shares, self.ahead, least, strict=True)
         self.floors = [share * (ahead + floor) for share, ahead, floor in shares]
 
     def pay(self, units: int) -> int:
         """Units of cost, which count for the objective, too."""
-        return units * (self._unit + 1)
+        return units * self._fine * (self._unit + 1)
+
+    def price(self, amount: Fraction) -> int:
+        """An amount of cost likewise."""
+        return int(amount * self._own) * (self._unit + 1)
 
     def joined(self, parts: Iterable[int]) -> int:
         """Contributions together."""

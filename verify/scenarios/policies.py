@@ -19,6 +19,7 @@ from verify.limits import limits
 from verify.programs.effort import Attempt
 from verify.scenarios.courses import INFINITE, OVER, Course, Member, Moves, Seen
 from verify.scenarios.measure import Measure
+from verify.scenarios.timelines import Timeline
 
 Group = tuple[int, tuple[Member, ...]]
 """Scenarios that are not told apart, and after how many epochs."""
@@ -46,21 +47,23 @@ class PolicySearch:
 
     Args:
         calls: one for each scenario, with the human's plan in it, and the same horizon.
-        originals: by action of each scenario's task the one of the task that they share.
+        lines: what the answer says of them.
     """
 
     def __init__(
-        self, calls: Sequence[ExaminedCall], measure: Measure, originals: Sequence[Sequence[int]] = ()
+        self, calls: Sequence[ExaminedCall], measure: Measure, lines: Sequence[Timeline] = ()
     ) -> None:
+        originals = [line.original for line in lines] or [()] * len(calls)
+        prices = [line.prices for line in lines] or [{}] * len(calls)
         self._measure, self._watching = measure, calls[0].options.policy == "watching"
         self._effort, self._horizon = calls[0].effort, int(calls[0].horizon)
         moves: dict[int, Moves] = {}
-        for call, original in zip(calls, originals or [()] * len(calls), strict=True):
+        for call, original in zip(calls, originals, strict=True):
             moves.setdefault(id(call.task.actions), Moves(call, measure.pay, original))
         self._moves = [moves[id(call.task.actions)] for call in calls]
         self._courses = [
-            Course(call, own, measure.pay, measure.epoch)
-            for call, own in zip(calls, self._moves, strict=True)
+            Course(call, own, measure, priced)
+            for call, own, priced in zip(calls, self._moves, prices, strict=True)
         ]
         starts = [own.bits.of(call.task.init) for call, own in zip(calls, self._moves, strict=True)]
         each = zip(starts, measure.ahead, strict=True)

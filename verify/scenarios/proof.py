@@ -67,7 +67,16 @@ class ScenariosProof:
     @cached_property
     def _floors(self) -> list[Figures]:
         """What each scenario allows by itself."""
-        return [floor_of(call) for call in self._calls]
+        return [self._floor(call, line) for call, line in zip(self._calls, self.lines, strict=True)]
+
+    def _floor(self, call: ExaminedCall, line: Timeline) -> Figures:
+        """What one allows by itself: where anything is kept or paid for, regret asks by section 11."""
+        if self.result.options.risk != "regret" or not (line.prices or line.task.robot_goal):
+            return floor_of(call)
+        measure = Measure([call], [Fraction(1)], [(Fraction(0), Fraction(0))], [line.prices])
+        alone = measure.number(_figures(call, None))
+        better = PolicySearch([call], measure, [line]).better(alone)
+        return measure.figures(alone if better is None else better.value)
 
     @cached_property
     def _idle(self) -> Figures:
@@ -95,13 +104,14 @@ class ScenariosProof:
 
     def _best(self) -> tuple[ClaimVerdict, str, Better | None]:
         """Whether a policy is better than the answer says."""
-        measure = Measure(self._calls, [line.weight for line in self.lines], self._floors)
+        weights, prices = [line.weight for line in self.lines], [line.prices for line in self.lines]
+        measure = Measure(self._calls, weights, self._floors, prices)
         limit = self._limit(measure)
         if measure.joined(measure.floors) >= limit:
             return "proved", wording.EACH_ADDS_UP, None
         if self.effort.proof is not None:
             raise NoProgramError("scenarios whose best answers by themselves don't come to the answer")
-        better = PolicySearch(self._calls, measure, [line.original for line in self.lines]).better(limit)
+        better = PolicySearch(self._calls, measure, self.lines).better(limit)
         if better is None:
             return "proved", wording.ALL_POLICIES, None
         objective, cost = measure.figures(better.value)

@@ -5,16 +5,19 @@ from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
+from types import MappingProxyType
 from typing import Final, NamedTuple
 
 from serendipity.model import Deadline, Result, Task
 from serendipity.model.answers.result_parts import GoalAnswer
+from serendipity.model.numbers import as_written, figure
 from verify.base.beside_script import alone_of
 from verify.base.due import waited
 from verify.base.execution import unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.rules.bound import bound_and_objective, bound_and_status
 from verify.rules.case import Case
+from verify.rules.leftovers import Prices
 from verify.rules.registry import RULES
 from verify.rules.report import Violation
 from verify.scenarios.reading import weight
@@ -43,12 +46,16 @@ class Timeline:
 
     Attributes:
         original: by action of that task the one of the task that scenarios share; empty: the same.
+        prices: of what is left changed.
+        paid: for what is.
     """
 
     name: str
     weight: Fraction
     case: Case
-    original: Sequence[int] = ()
+    original: Sequence[int]
+    prices: Prices
+    paid: Fraction
 
     @property
     def task(self) -> Task:
@@ -67,6 +74,8 @@ class Aimed(NamedTuple):
 
     task: Task
     original: Sequence[int] = ()
+    prices: Prices = MappingProxyType({})
+    paid: Fraction = Fraction(0)
 
 
 def timelines(
@@ -79,22 +88,23 @@ def timelines(
     """
     weights = [weight(entry.probability) for entry in served]
     total = sum(weights, Fraction(0))
-    alone = {id(task): alone_of(task, deadline, result.options) for task, _ in aimed}
+    alone = {id(one.task): alone_of(one.task, deadline, result.options) for one in aimed}
     found = []
-    for (task, original), entry, share in zip(aimed, served, weights, strict=True):
+    for one, entry, share in zip(aimed, served, weights, strict=True):
+        cost = None if entry.cost is None else figure(as_written(entry.cost) - one.paid)
         answer = replace(
             result,
             status="feasible",
             human_plan=entry.human_plan,
             window=entry.window,
             plan=entry.plan,
-            cost=entry.cost,
-            objective=entry.cost,
+            cost=cost,
+            objective=cost,
             ties=None,
             malformed={},
         )
-        case = Case(task, answer, alone[id(task)])
-        found.append(Timeline(entry.name, share / total, case, original))
+        case = Case(one.task, answer, alone[id(one.task)])
+        found.append(Timeline(entry.name, share / total, case, *one[1:]))
     return found
 
 
@@ -200,7 +210,9 @@ def answered(
     """Objective and cost of the answer, or of leaving the human alone, which counts as one epoch."""
     window, each = result.options.window_weight, []
     for line in lines:
-        cost, epochs = (line.case.human_cost or Fraction(0), 1) if alone else (line.case.cost, line.epochs)
+        cost, epochs = line.case.cost + line.paid, line.epochs
+        if alone:
+            cost, epochs = line.case.human_cost or Fraction(0), 1
         each.append((cost + window * epochs, cost))
     return measured(result.options.risk, lines, each, floors)
 

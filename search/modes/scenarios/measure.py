@@ -93,6 +93,11 @@ class Worths:
             return INFINITE_KEY
         return (worth >> self._bits) + 1 << self._keys.objective_shift
 
+    def value(self, objective: Fraction, cost: Fraction) -> int:
+        """The value of figures."""
+        unit = self.scale * self._keys.scale
+        return (int(objective * unit) << self._bits) + int(cost * unit)
+
     def figures(self, value: int) -> tuple[Fraction, Fraction]:
         """Objective and cost of a value, which counts parts of worths."""
         objective = value + (1 << self._bits - 1) >> self._bits  # a cost may be a difference, below 0
@@ -147,19 +152,20 @@ class Mean:
 
 
 class Greatest:
-    """The greatest of worths; members begin with what they are ahead of each other."""
+    """The greatest of worths; members begin with what they are ahead of each other, by parts of a worth."""
 
-    parts = 1
+    def __init__(self, parts: int = 1) -> None:
+        self.parts = parts
 
     def value(self, members: Sequence[Member], rests: Sequence[int]) -> int:
         """See :class:`Mean`."""
         if max(rests) >= INFINITE_WORTH:
             return INFINITE_WORTH
-        return max(m.ahead + rest for m, rest in zip(members, rests, strict=True))
+        return max(m.ahead + rest * self.parts for m, rest in zip(members, rests, strict=True))
 
     def pay(self, members: Sequence[Member], paid: Sequence[int]) -> tuple[int, tuple[Member, ...]]:
         """See :class:`Mean`."""
-        ahead = [m.ahead + amount for m, amount in zip(members, paid, strict=True)]
+        ahead = [m.ahead + amount * self.parts for m, amount in zip(members, paid, strict=True)]
         least = min(ahead)
         return least, tuple(m._replace(ahead=a - least) for m, a in zip(members, ahead, strict=True))
 
@@ -169,7 +175,7 @@ class Greatest:
 
     def limit(self, members: Sequence[Member], rests: Sequence[int], one: int, value: int) -> int:
         """See :class:`Mean`."""
-        return value - members[one].ahead if value < INFINITE_WORTH else INFINITE_WORTH
+        return -((members[one].ahead - value) // self.parts) if value < INFINITE_WORTH else INFINITE_WORTH
 
     def branch(self, most: int, paid: int, value: int, lower: int) -> int:
         """See :class:`Mean`."""
@@ -180,6 +186,6 @@ Measure = Mean | Greatest
 """How worths of scenarios make one number."""
 
 
-def measure_of(risk: str, probabilities: Sequence[Fraction]) -> Measure:
-    """The measure that a risk asks for."""
-    return Mean(probabilities) if risk == "mean" else Greatest()
+def measure_of(risk: str, probabilities: Sequence[Fraction], ahead: Iterable[Fraction] = ()) -> Measure:
+    """The measure that a risk asks for; ``ahead`` are amounts that scenarios begin with, in units of cost."""
+    return Mean(probabilities) if risk == "mean" else Greatest(lcm(*(one.denominator for one in ahead)))

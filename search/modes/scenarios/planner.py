@@ -38,6 +38,8 @@ class Candidate:
         kept: what else has to hold in the end: robots see to it.
         own: a task of its own, by whose ids goals and plan are: the shared one under rules of help.
         original: by action of that task the one of the shared task.
+        ahead: objective and cost that it begins with, where the greatest counts and the best policy is asked
+            for whether it helps or not.
     """
 
     goal: Condition
@@ -47,6 +49,7 @@ class Candidate:
     kept: Condition = field(default_factory=Condition)
     own: PreparedTask | None = None
     original: Sequence[int] = ()
+    ahead: tuple[Fraction, Fraction] | None = None
 
     @property
     def shared(self) -> HumanPlan:
@@ -117,7 +120,9 @@ class _ScenarioCall:
         """Look for better policies until a limit comes; yield whenever there may be one."""
         scenarios, deadline = self._scenarios(), self._deadline
         context = scenarios[0].context
-        measure = measure_of(self._options.risk, [c.weight for c in self._candidates])
+        given = [c.ahead for c in self._candidates if c.ahead is not None]
+        amounts = (amount * context.keys.scale for pair in given for amount in pair)
+        measure = measure_of(self._options.risk, [c.weight for c in self._candidates], amounts)
         self._worths = Worths(context.keys, measure.parts)
         acting = [one.context.successors() for one in (scenarios if self._differ else scenarios[:1])]
         lines = [Line(s, i, acting[i % len(acting)], self._worths) for i, s in enumerate(scenarios)]
@@ -127,7 +132,7 @@ class _ScenarioCall:
             else [(0, 0)] * len(lines)
         )
         self.is_exact = all(least == worth for least, worth in known)
-        ahead = [-least for least, _ in known]
+        ahead = [self._worths.value(*pair) for pair in given] or [-least for least, _ in known]
         members = tuple(line.first()._replace(ahead=a) for line, a in zip(lines, ahead, strict=True))
         question = Question(lines, members, measure, self._horizon, deadline)
         self._question = question
@@ -176,7 +181,7 @@ class _ScenarioCall:
         least = max(self._figures(max(search.lower for search in searches))[0], Fraction(0))
         if best.upper < INFINITE_WORTH:
             objective, cost = self._figures(best.upper)
-            if cost < idle:
+            if cost < idle or self._candidates[0].ahead is not None:
                 figures = cost, objective, least if self.is_exact else Fraction(0)
                 return self._told(
                     status, baseline, figures, played=best.played(), saving_alone=baseline - idle
@@ -279,7 +284,7 @@ class _ScenarioCall:
 
 
 def _same(a: Candidate, b: Candidate) -> bool:
-    return (a.goal, a.plan, a.kept, a.own) == (b.goal, b.plan, b.kept, b.own)
+    return (a.goal, a.plan, a.kept, a.own, a.ahead) == (b.goal, b.plan, b.kept, b.own, b.ahead)
 
 
 def _merged(candidates: Sequence[Candidate]) -> list[Candidate]:

@@ -57,8 +57,6 @@ _METERED: Final[dict[str, object]] = {"suffix": "replan", "preservation": "kerne
 
 def require_metered(task: "Task", options: Options, *, scenarios: int = 1) -> None:
     """A UsageError where help can't be bound as it is asked for (semantics 12 to 14)."""
-    if options.leave_price is not None and scenarios > 1 and options.risk != "mean":
-        raise UsageError("leave_price: with several goals or plans, it goes with risk mean only")
     if options.leave_price is not None and task.robot_goal:
         raise UsageError("leave_price: is for robots without goals of their own")
     if not nobody_pays(task, options) or (not task.robot_goal and scenarios == 1):

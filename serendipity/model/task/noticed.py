@@ -12,10 +12,9 @@ from typing import Final
 from serendipity.model.errors import UsageError
 from serendipity.model.task.actions import Condition, GroundAction, apply
 from serendipity.model.task.plans import Step
-from serendipity.model.task.script import UNDER_WAY
 from serendipity.model.task.single_epochs import epochs
 from serendipity.model.task.task import HumanPlan, Task
-from serendipity.model.task.unit_steps import RESTING, WAITING
+from serendipity.model.task.unit_steps import RESTING, WAITING, asked_of
 from serendipity.model.task.variables import Variable
 from serendipity.model.task.visibility import surroundings
 
@@ -144,14 +143,8 @@ class Noticed:
 
     def _asks(self, number: int) -> set[int]:
         """What an action asks for; of what goes on, only that."""
-        action, task = self._task.actions[number], self._task.in_time
-        asked = {*action.pre, *action.neg}
-        if number not in self._going_on or task is None:
-            return asked
-        name = action.name.removeprefix(f"{UNDER_WAY} ").rpartition(" ")[0]
-        timings = [t for i in task.named.get(name, ()) if (t := task.actions[i].timing) is not None]
-        inside = [one for timing in timings for one in (timing.over_all, timing.at_end)]
-        return asked.intersection(fact for one in inside for fact in (*one.positive, *one.negative))
+        action = self._task.actions[number]
+        return asked_of(self._task, action) if number in self._going_on else {*action.pre, *action.neg}
 
     def _wanted(self) -> list[int]:
         goal = self._task.goal

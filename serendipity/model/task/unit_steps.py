@@ -161,6 +161,16 @@ def unit_steps(task: Task, deadline: Deadline | None = None, waiting_cost: Fract
     return steps.finished(deadline)
 
 
+def asked_of(task: Task, action: GroundAction) -> set[int]:
+    """The facts that an action asks for which goes on, in a task in single epochs: over all, or at end."""
+    assert task.in_time is not None, "something goes on"
+    begun = task.in_time.named.get(action.name.removeprefix(f"{UNDER_WAY} ").rpartition(" ")[0], ())
+    timings = [timing for i in begun if (timing := task.in_time.actions[i].timing) is not None]
+    inside = [one for timing in timings for one in (timing.over_all, timing.at_end)]
+    asked = {fact for one in inside for fact in (*one.positive, *one.negative)}
+    return asked.intersection((*action.pre, *action.neg))
+
+
 def _kept_by(task: Task) -> list[frozenset[int]]:
     """By fact those without whom nothing deletes it: while they are at something it stays."""
     everybody = frozenset(range(len(task.agents)))
