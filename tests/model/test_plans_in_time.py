@@ -90,7 +90,9 @@ def test_what_does_not_last_is_said() -> None:
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Timing(1), "at least 2 epochs, got 1"),
+        (lambda: Timing(1), "a whole number of epochs, at least 2, got 1"),
+        (lambda: Timing(2.5), "a whole number of epochs, at least 2, got 2.5"),  # type: ignore[arg-type]
+        (lambda: Timing("2"), "a whole number of epochs, at least 2, got '2'"),  # type: ignore[arg-type]
         (lambda: Timing(2, start_add=(1,), start_delete=(1,)), "both added and deleted"),
     ],
 )

@@ -86,8 +86,10 @@ class Timing:
     start_delete: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
-        if self.duration < 2:
-            raise UsageError(f"timing: is for durations of at least 2 epochs, got {self.duration}")
+        is_whole = isinstance(self.duration, int) and not isinstance(self.duration, bool)
+        if not is_whole or self.duration < 2:
+            got = repr(self.duration)
+            raise UsageError(f"timing: expected a whole number of epochs, at least 2, got {got:.50}")
         if not frozenset(self.start_add).isdisjoint(self.start_delete):
             raise UsageError("timing: a fact is both added and deleted at the start")
 
