@@ -24,6 +24,7 @@ KERNEL: Final = {
     "stubborn sets": 16,
     "lookahead": 32,
     "cost partitioning": 64,
+    "like fields": 128,
 }
 """By name what the kernel's ``leave_out`` takes, see ``values.h``."""
 

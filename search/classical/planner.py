@@ -12,6 +12,7 @@ from math import inf
 from typing import Final
 
 from search.classical.encoded_problem import EncodedProblem, memory_for
+from search.classical.like_fields import like_fields, told
 from search.classical.patterns import patterns
 from search.classical.problem import ClassicalProblem
 from search.engine.astar import AStar
@@ -26,7 +27,10 @@ SLICE: Final = 0.004
 ROOM: Final = 1 << 24
 """Bytes that may be allocated before memory is asked for again."""
 
-_MANY: Final = 2_000
+_SOME: Final = 200
+"""Evaluations after which it is worth its time to find out what is alike."""
+
+_MANY: Final = 4_000
 """Evaluations after which tables are worth their time."""
 
 _SHARE: Final = 0.25
@@ -92,6 +96,8 @@ class ClassicalPlanner:
         deadline.require(memory_for(problem))
         self.told = EncodedProblem(problem)
         self._planner: int | None = None
+        self._alike: list[list[int]] | None = None
+        """Classes of fields, by their numbers, once they were looked for."""
         self._start()
 
     def __del__(self) -> None:
@@ -105,6 +111,7 @@ class ClassicalPlanner:
         if not self._planner:
             raise LimitReachedError("memory-limit")
         self._tables, self._tried = False, 0.0
+        self._tell_alike()
         self._asked: int | None = None
         self._most = INFINITE_KEY
         self._floor = 0
@@ -137,12 +144,17 @@ class ClassicalPlanner:
             on_bound: told now and then what no plan is cheaper than.
             before: an operator that leads to the state: only such plans matter as go on from it optimally.
         """
-        kernel, planner = self._kernel, self._planner
-        row, most = self.told.row(state), self.problem.limit(limit)
         self._asked, self._is_open, self._most, self._floor = state & self._mask, False, limit, 0
-        self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
+        self._before = before
+        self._begin(deadline)
         self._is_open = True
         return self.go_on(deadline, on_bound)
+
+    def _begin(self, deadline: Deadline) -> None:
+        assert self._asked is not None, "a question was asked"
+        kernel, planner, before = self._kernel, self._planner, self._before
+        row, most = self.told.row(self._asked), self.problem.limit(self._most)
+        self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
 
     def go_on(self, deadline: Deadline, on_bound: Callable[[int], None] | None = None) -> int:
         """What the last :meth:`cheapest` would have said, where a limit came first: it goes on from there.
@@ -159,6 +171,8 @@ class ClassicalPlanner:
             deadline.check()
             if on_bound is not None:
                 on_bound(self.least)
+            if self._alike is None and self.counts()[2] >= _SOME and self.alike(deadline):
+                self._begin(deadline)
             self.prepare(deadline)
             if self._is_settled_symbolically(deadline, on_bound):
                 break
@@ -334,6 +348,22 @@ class ClassicalPlanner:
 
     def _allowed(self, call: Callable[[int], int], deadline: Deadline) -> int:
         return with_memory(call, lambda: self._kernel.planner_wanted(self._planner), deadline)
+
+    def alike(self, deadline: Deadline) -> list[list[int]]:
+        """Classes of fields that are alike, by their numbers; the kernel is told of them.
+
+        A search that is under way has to begin anew.
+        """
+        if self._alike is None:
+            self._alike = like_fields(self.problem, deadline)
+            self._tell_alike()
+        return self._alike
+
+    def _tell_alike(self) -> None:
+        if self._alike:
+            fields = told(self._alike)
+            if not self._kernel.planner_alike(self._planner, fields.buffer_info()[0], len(fields)):
+                raise LimitReachedError("memory-limit")
 
     # -- tables
 

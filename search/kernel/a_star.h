@@ -9,6 +9,7 @@
 #include "evaluation.h"
 #include "heap.h"
 #include "learning.h"
+#include "like_fields.h"
 #include "lists.h"
 #include "lookahead.h"
 #include "problem.h"
@@ -27,7 +28,9 @@ typedef struct {
     Table table;
     Heap open;
     Ints applicable, closed, plan, spare; /* plan: the best that was found, if has_plan; it costs what the limit is */
-    Word *row;
+    Ints alike;  /* fields that are: only states that stand for others are in the table */
+    Word *row, *real, *like, *other, *target; /* rows to work with */
+    Word *asked; /* where it began, as it was asked about */
     Cost limit, least; /* nothing from the limit on is of interest; no plan is cheaper than least */
     uint32_t stamp;
     int32_t start, serial, has_plan;
@@ -38,14 +41,17 @@ typedef struct {
 
 static int a_star_new(AStar *s, const Problem *p, Relaxation *r, Lookahead *l) {
     s->problem = p, s->relaxation = r, s->lookahead = l, s->table.words = p->words;
-    s->row = malloc((size_t)p->words * sizeof *s->row), s->applicable.at = malloc(((size_t)p->n_ops + 1) * sizeof(int32_t));
+    size_t words = (size_t)p->words;
+    s->row = malloc(6 * words * sizeof *s->row), s->applicable.at = malloc(((size_t)p->n_ops + 1) * sizeof(int32_t));
+    if (s->row) s->asked = s->row + words, s->real = s->asked + words, s->like = s->real + words;
+    if (s->row) s->other = s->like + words, s->target = s->other + words;
     return s->row && s->applicable.at && evaluator_new(&s->evaluator, &r->problem, p) && stubborn_new(&s->stubborn, p);
 }
 
 static void a_star_free(AStar *s) {
     evaluator_free(&s->evaluator), table_free(&s->table);
     if (s->problem) stubborn_free(&s->stubborn, s->problem->n_ops);
-    free(s->open.at), free(s->applicable.at), free(s->closed.at), free(s->plan.at), free(s->spare.at), free(s->row);
+    free(s->open.at), free(s->applicable.at), free(s->closed.at), free(s->plan.at), free(s->spare.at), free(s->alike.at), free(s->row);
 }
 
 /* What is left from a node, at least, for an optimal plan that comes by it. */
@@ -72,17 +78,34 @@ static const Ints *allowed_in(AStar *s, const Word *state) {
     return &s->applicable;
 }
 
+static void copy_row(const AStar *s, Word *to, const Word *from) { memcpy(to, from, (size_t)s->problem->words * sizeof *to); }
+
+/* The number of what stands for a state, or NONE. */
+static int32_t met_like(const AStar *s, const Word *state) {
+    copy_row(s, s->like, state);
+    represent(s->problem, &s->alike, s->like);
+    return met(&s->table, s->like);
+}
+
+/* Whether one state stands for both. */
+static int are_alike(const AStar *s, const Word *state, const Word *target) {
+    copy_row(s, s->like, state), copy_row(s, s->target, target);
+    represent(s->problem, &s->alike, s->like), represent(s->problem, &s->alike, s->target);
+    return is_same(s->like, s->target, s->problem->words);
+}
+
 /* The next operator of the cheapest plan that was found from a state, which `row` becomes the state after; NONE: there
    is none, or it ends here. */
 static int32_t known_step(AStar *s, Word *row) {
     const Problem *p = s->problem;
-    int32_t id = met(&s->table, row);
+    int32_t id = met_like(s, row);
     if (id == NONE || !node_of(&s->table, id)->exact || !node_of(&s->table, id)->rest) return NONE;
     Cost rest = node_of(&s->table, id)->rest;
     const Ints *ops = allowed_in(s, row);
+    copy_row(s, s->real, row);
     for (size_t i = 0; i < ops->count; i++) {
-        apply(p, ops->at[i], state_of(&s->table, id), row);
-        int32_t next = met(&s->table, row);
+        apply(p, ops->at[i], s->real, row);
+        int32_t next = met_like(s, row);
         if (next == NONE) continue;
         const Node *after = node_of(&s->table, next);
         if (after->exact && after->rest != INFINITE_COST && after->rest + p->weight[ops->at[i]] == rest) return ops->at[i];
@@ -90,9 +113,32 @@ static int32_t known_step(AStar *s, Word *row) {
     return NONE;
 }
 
+/* Of the way to a node, which leads by states that stand for others, and of what follows, the operators from the state that
+   was asked about on.  `chain`: how many lead to the node. */
+static void name_really(AStar *s, Ints *way, size_t chain) {
+    const Problem *p = s->problem;
+    Word *at = s->other, *real = s->real; /* the same, but for names */
+    copy_row(s, at, state_of(&s->table, s->start)), copy_row(s, real, s->asked);
+    for (size_t i = 0; i < way->count; i++) {
+        int32_t op = way->at[i];
+        apply(p, op, at, s->row);
+        copy_row(s, at, s->row);
+        if (i < chain) represent(p, &s->alike, at);
+        const Ints *ops = allowed_in(s, real);
+        for (size_t j = 0; j < ops->count; j++) {
+            if (p->weight[ops->at[j]] != p->weight[op]) continue;
+            apply(p, ops->at[j], real, s->row);
+            if (!are_alike(s, s->row, at)) continue;
+            way->at[i] = ops->at[j], copy_row(s, real, s->row);
+            break;
+        }
+    }
+}
+
 /* A better plan: by the way to a node, and on from there. */
 static int keep_plan(AStar *s, int32_t id, const Ints *rest) {
     if (!way_to(&s->table, id, rest, &s->spare)) return 0;
+    if (s->alike.count) name_really(s, &s->spare, s->spare.count - rest->count);
     Ints before = s->plan;
     s->plan = s->spare, s->spare = before;
     s->has_plan = 1, s->limit = node_of(&s->table, id)->spent;
@@ -123,7 +169,8 @@ static int go_on(AStar *s, int32_t id) {
 static int finish(AStar *s, int outcome, Cost total) {
     learn(&s->table, &s->closed, total);
     s->least = total;
-    if (outcome == FOUND && s->has_plan) learn_plan(&s->table, s->problem, s->start, &s->plan, total, s->row);
+    copy_row(s, s->real, s->asked);
+    if (outcome == FOUND && s->has_plan) learn_plan(&s->table, s->problem, &s->alike, &s->plan, total, s->real, s->like);
     return outcome;
 }
 
@@ -134,13 +181,16 @@ static int a_star_begin(AStar *s, const Word *state, int32_t before, Cost limit,
     s->least = 0;
     grant(&s->table, allowed);
     if (!reserve(&s->table, 1) || !heap_reserve(&s->open, 1, &s->table)) return MEMORY;
-    int is_new;
-    s->start = find(&s->table, state, &is_new);
+    int is_new, moved;
+    copy_row(s, s->asked, state), copy_row(s, s->row, state);
+    moved = represent(s->problem, &s->alike, s->row);
+    s->start = find(&s->table, s->row, &is_new);
     Node *node = node_of(&s->table, s->start);
-    if (is_new) look_up(&s->evaluator, s->problem, node, state);
+    if (is_new) look_up(&s->evaluator, s->problem, node, s->row);
     s->limit = limit, s->cut_off = s->unfit = 0, s->serial = 0, s->has_plan = 0, s->nearest = INFINITE_COST;
     s->stamp++;
-    node->stamp = s->stamp, node->spent = 0, node->closed = 0, node->parent = NONE, node->op = before, node->onward = 0;
+    node->stamp = s->stamp, node->spent = 0, node->closed = 0, node->parent = NONE, node->op = before;
+    node->onward = moved ? SEVERAL : 0;
     open_node(s, s->start);
     return RUNNING;
 }
@@ -148,13 +198,13 @@ static int a_star_begin(AStar *s, const Word *state, int32_t before, Cost limit,
 /* Of equal entries the latest is expanded first, so the first operator comes last: plans are found near the canonical one. */
 static int later_first(const void *a, const void *b) { return *(const int32_t *)b - *(const int32_t *)a; }
 
-/* A node can be come by at the same cost by another operator. */
-static void come_by(AStar *s, int32_t id, int32_t op) {
+/* A node can be come by at the same cost by another operator; `moved`: it only stands for what that makes. */
+static void come_by(AStar *s, int32_t id, int32_t op, int moved) {
     Node *node = node_of(&s->table, id);
     if (node->closed || node->onward == SEVERAL || node->op == NONE) return;
     Intentions *intentions = &s->evaluator.intentions;
     const RelaxedProblem *x = &s->relaxation->problem;
-    if (node->op == op || users_of(intentions, s->problem, x, node->op) == users_of(intentions, s->problem, x, op)) return;
+    if (!moved && (node->op == op || users_of(intentions, s->problem, x, node->op) == users_of(intentions, s->problem, x, op))) return;
     int is_open = node->onward > node->rest;
     node->onward = SEVERAL;
     if (is_open) open_node(s, id);
@@ -174,17 +224,18 @@ static void expand(AStar *s, int32_t id) {
     for (size_t i = 0; i < s->applicable.count; i++) {
         int32_t op = s->applicable.at[i];
         apply(p, op, state, s->row);
-        int is_new;
+        int is_new, moved = represent(p, &s->alike, s->row);
         int32_t next = find(&s->table, s->row, &is_new);
         Node *after = node_of(&s->table, next);
         s->generated++;
         Cost spent = plus(node->spent, p->weight[op]);
         if (is_new) look_up(&s->evaluator, p, after, s->row);
         if (after->stamp == s->stamp && after->spent <= spent) {
-            if (after->spent == spent) come_by(s, next, op);
+            if (after->spent == spent) come_by(s, next, op, moved);
             continue;
         }
-        after->stamp = s->stamp, after->spent = spent, after->parent = id, after->op = op, after->closed = 0, after->onward = 0;
+        after->stamp = s->stamp, after->spent = spent, after->parent = id, after->op = op, after->closed = 0;
+        after->renamed = moved != 0, after->onward = moved ? SEVERAL : 0;
         if (!after->exact) {
             Cost rest = node->rest - p->weight[op];
             Cost known = fresh ? rest_after(&s->evaluator, &s->relaxation->problem, op) : 0;
@@ -251,7 +302,9 @@ static Cost a_star_bound(AStar *s, const Word *asked, size_t allowed) {
     grant(&s->table, allowed);
     if (!reserve(&s->table, 1) || !landmarks_reserve(&s->evaluator.lm_cut.landmarks, &s->table)) return -1;
     int is_new;
-    int32_t id = find(&s->table, asked, &is_new);
+    copy_row(s, s->like, asked);
+    represent(s->problem, &s->alike, s->like);
+    int32_t id = find(&s->table, s->like, &is_new);
     Node *node = node_of(&s->table, id);
     const Word *state = state_of(&s->table, id);
     if (is_new) look_up(&s->evaluator, s->problem, node, state);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include "a_star.h"
 #include "cost_partitioning.h"
+#include "epoch_ways.h"
 #include "epochs.h"
 #include "greedy_search.h"
 #include "lookahead.h"
@@ -55,6 +56,11 @@ API Planner *planner_new(const Spec *spec) {
 API int planner_begin(Planner *s, const Word *state, int32_t before, Cost limit, size_t allowed) {
     return a_star_begin(&s->a_star, state, before, limit, allowed);
 }
+/* Fields that are alike, class by class, each ends with NONE; whether there was memory.  A search that is under way has to begin
+   anew. */
+API int planner_alike(Planner *s, const int32_t *fields, int32_t count) {
+    return set_alike(&s->a_star.alike, fields, count);
+}
 API int planner_run(Planner *s, double seconds, size_t allowed) { return a_star_run(&s->a_star, seconds, allowed); }
 
 /* No plan from where it began is cheaper. */
@@ -83,7 +89,7 @@ API int32_t planner_best_way(const Planner *s, int32_t *ops, int32_t room) {
 /* The first operators of a cheapest plan from a state, `row`, which becomes the state after them; how many, fewer than there
    is room for where the plan ends; NONE where its cost is not known. */
 API int32_t planner_known_way(Planner *s, Word *row, int32_t *ops, int32_t room) {
-    int32_t count = 0, id = met(&s->a_star.table, row);
+    int32_t count = 0, id = met_like(&s->a_star, row);
     if (id == NONE || !node_of(&s->a_star.table, id)->exact || node_of(&s->a_star.table, id)->rest == INFINITE_COST) return NONE;
     for (int32_t op; count < room && (op = known_step(&s->a_star, row)) != NONE; count++) ops[count] = op;
     return count;
@@ -119,13 +125,15 @@ API int planner_order(Planner *s, int32_t sample) {
 }
 
 /* States epoch by epoch, and what follows them (search/timetable/epochs.py): `after` is for what comes then, and stays. */
-API Epochs *epochs_new(const Spec *spec, const uint64_t *agents, const uint8_t *apart, Planner *after, const Word *mask,
+API Epochs *epochs_new(const Spec *spec, const uint64_t *agents, const Word *apart, Planner *after, const Word *mask,
                        const uint8_t *lost, Cost unit) {
     return epochs_of(spec, agents, apart, &after->a_star, mask, lost, unit);
 }
 API void epochs_delete(Epochs *e) { epochs_free(e); }
 API int epochs_start(Epochs *e, const Word *state, size_t allowed) { return epochs_begin(e, state, allowed); }
-API int epochs_turn(Epochs *e, int32_t given) { return epochs_next(e, given); }
+API int epochs_turn(Epochs *e, int32_t given, const int32_t *alike, int32_t count) {
+    return epochs_next(e, given, alike, count);
+}
 API int epochs_slice(Epochs *e, Cost limit, double seconds, size_t allowed) { return epochs_run(e, limit, seconds, allowed); }
 API size_t epochs_wanted(const Epochs *e) { return e->wanted; }
 API int64_t epochs_states(const Epochs *e) {

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "a_star.h"
+#include "like_fields.h"
 #include "lists.h"
 #include "problem.h"
 #include "state_table.h"
@@ -33,7 +34,7 @@ typedef struct {
 typedef struct {
     Problem problem;
     uint64_t *agents; /* per operator, a bit for each of its agents */
-    uint8_t *apart;   /* per pair of operators, whether they may not share an epoch */
+    Word *apart;      /* per operator those, as bits, with which it may not share an epoch */
     AStar *after;     /* what follows an end; its states have the lowest words of these */
     Word *mask;       /* the fields that matter to it */
     uint8_t *lost;    /* per fact whether nothing follows from it */
@@ -43,16 +44,19 @@ typedef struct {
     Word *settled;    /* a row per agent: those of them that operators of agents from this one on set */
     Cost unit;        /* what a unit of its costs weighs here */
     Table *layers, ends;
+    Ints *alike;      /* per layer the fields that are, as in A* */
+    int32_t *way;     /* per layer the state that a way leads by */
     int32_t n_layers, room, given; /* given: the operator of the epoch, or NONE */
     Leaving *leavings;
     size_t n_leavings, leavings_room, wanted;
     Ints applicable, sorted;
     size_t next_agent[MOST_AGENTS + 1]; /* where operators of agents from this one on begin, among the sorted ones */
     int32_t cursor, chosen[MOST_AGENTS];
-    Word *row, *other, *kept, *made; /* two rows; rows by depth */
+    Word *row, *other, *real, *kept, *made; /* three rows; rows by depth */
     Cost limit, sought;  /* what is dearer does not matter; the cost of a set that is looked for, or NONE */
     const Word *target;  /* the state that it leads to */
     int32_t found;       /* how many operators are in it */
+    const Ints *alike_now; /* of the layer that sets lead to */
     int is_end, hopeless; /* whether nothing is given; see take_end */
     int any_unsettled;
     int32_t sets;        /* of the state under the cursor so far */
@@ -63,11 +67,11 @@ typedef struct {
 
 static void epochs_free(Epochs *e) {
     if (!e) return;
-    for (int32_t i = 0; i < e->n_layers; i++) table_free(&e->layers[i]);
+    for (int32_t i = 0; i < e->n_layers; i++) table_free(&e->layers[i]), free(e->alike[i].at);
     table_free(&e->ends), problem_free(&e->problem);
     free(e->layers), free(e->leavings), free(e->agents), free(e->apart), free(e->mask), free(e->lost), free(e->losing.at);
-    free(e->loses), free(e->unsettled), free(e->settled);
-    free(e->applicable.at), free(e->sorted.at), free(e->row), free(e->other), free(e->kept), free(e->made);
+    free(e->loses), free(e->unsettled), free(e->settled), free(e->alike), free(e->way);
+    free(e->applicable.at), free(e->sorted.at), free(e->row), free(e->other), free(e->real), free(e->kept), free(e->made);
     free(e);
 }
 
@@ -92,13 +96,6 @@ static void find_losers(Epochs *e) {
         }
 }
 
-static void set_field(Word *row, const Field *field) {
-    const int32_t word = field->shift >> 6, bit = field->shift & 63;
-    const uint64_t all = ((uint64_t)1 << field->width) - 1;
-    row[word] |= all << bit;
-    if (bit + field->width > 64) row[word + 1] |= all >> (64 - bit);
-}
-
 /* The fields of a state that have to be set by the end, if this is it; who can. */
 static void find_unsettled(Epochs *e, const Word *state) {
     const Problem *p = &e->problem;
@@ -108,7 +105,7 @@ static void find_unsettled(Epochs *e, const Word *state) {
     memset(e->unsettled, 0, words * sizeof(Word));
     for (size_t i = 0; i < e->losing.count; i++) {
         const Field *field = &p->fields[e->losing.at[i]];
-        if (is_lost(e, state, field)) set_field(e->unsettled, field), e->any_unsettled = 1;
+        if (is_lost(e, state, field)) put_code(e->unsettled, field, ((uint64_t)1 << field->width) - 1), e->any_unsettled = 1;
     }
     if (!e->any_unsettled) return;
     memset(e->settled + MOST_AGENTS * words, 0, words * sizeof(Word));
@@ -129,7 +126,7 @@ static int is_unsettled(const Epochs *e, int32_t depth, const Word *but) {
     return 0;
 }
 
-static Epochs *epochs_of(const Spec *spec, const uint64_t *agents, const uint8_t *apart, AStar *after, const Word *mask,
+static Epochs *epochs_of(const Spec *spec, const uint64_t *agents, const Word *apart, AStar *after, const Word *mask,
                          const uint8_t *lost, Cost unit) {
     Epochs *e = calloc(1, sizeof *e);
     if (!e) return NULL;
@@ -137,14 +134,14 @@ static Epochs *epochs_of(const Spec *spec, const uint64_t *agents, const uint8_t
     for (int32_t o = 0; o < spec->n_ops; o++) e->last |= agents[o];
     while (e->last & (e->last - 1)) e->last &= e->last - 1;
     e->after = after, e->unit = unit, e->ends.words = after->problem->words;
-    e->agents = copied(agents, ops * sizeof *agents), e->apart = copied(apart, ops * ops);
+    e->agents = copied(agents, ops * sizeof *agents), e->apart = copied(apart, ops * ((ops + 63) / 64) * sizeof *apart);
     e->mask = copied(mask, (size_t)e->ends.words * sizeof(Word));
     e->applicable.at = malloc((ops + 1) * sizeof(int32_t)), e->sorted.at = malloc((ops + 1) * sizeof(int32_t));
-    e->row = malloc(row), e->other = malloc(row), e->kept = malloc((MOST_AGENTS + 1) * row), e->made = malloc((MOST_AGENTS + 1) * row);
+    e->row = malloc(row), e->other = malloc(row), e->real = malloc(row), e->kept = malloc((MOST_AGENTS + 1) * row), e->made = malloc((MOST_AGENTS + 1) * row);
     e->lost = copied(lost, (size_t)spec->n_facts), e->loses = calloc(ops + 1, 1);
     e->unsettled = malloc(row), e->settled = malloc((MOST_AGENTS + 1) * row);
     if (problem_new(&e->problem, spec) && e->lost && e->loses && e->unsettled && e->settled && find_losing(e) && plant_all(&e->problem) && e->agents && e->apart && e->mask && e->applicable.at &&
-        e->sorted.at && e->row && e->other && e->kept && e->made) {
+        e->sorted.at && e->row && e->other && e->real && e->kept && e->made) {
         find_losers(e);
         return e;
     }
@@ -157,9 +154,15 @@ static int add_layer(Epochs *e) {
     if (e->n_layers == e->room) {
         int32_t room = e->room ? 2 * e->room : 64;
         Table *layers = realloc(e->layers, (size_t)room * sizeof *layers);
-        if (!layers) return 0;
-        e->layers = layers, e->room = room;
+        if (layers) e->layers = layers;
+        Ints *alike = realloc(e->alike, (size_t)room * sizeof *alike);
+        if (alike) e->alike = alike;
+        int32_t *way = realloc(e->way, (size_t)room * sizeof *way);
+        if (way) e->way = way;
+        if (!layers || !alike || !way) return 0;
+        e->room = room;
     }
+    e->alike[e->n_layers] = (Ints){0};
     e->layers[e->n_layers++] = (Table){.words = e->problem.words};
     return 1;
 }
@@ -213,13 +216,19 @@ static int leave(Epochs *e, Cost paid, Cost total, int32_t end) {
     return 1;
 }
 
+/* Of a state that is left behind what matters to what follows, into `row`. */
+static void keep_what_matters(Epochs *e, const Word *state) {
+    for (int32_t w = 0; w < e->ends.words; w++) e->row[w] = state[w] & e->mask[w];
+    represent(e->after->problem, &e->after->alike, e->row);
+}
+
 /* A state that can be left behind: nothing new, if it was there in an earlier epoch at less.  `hopeless`: whether it costs
    too much, so that nothing does any good that could as well be done after it. */
 static int take_end(Epochs *e, const Word *state, Cost paid) {
     Table *t = &e->ends;
     e->hopeless = 0;
     if (!reserve(t, 1)) return 0;
-    for (int32_t w = 0; w < t->words; w++) e->row[w] = state[w] & e->mask[w];
+    keep_what_matters(e, state);
     int is_new;
     int32_t id = find(t, e->row, &is_new);
     Node *node = node_of(t, id);
@@ -256,11 +265,11 @@ static int come_to(Epochs *e, const Word *state, int32_t depth, Cost paid) {
     Word *made = e->row;
     const Word *kept = e->kept + (size_t)depth * words, *put = e->made + (size_t)depth * words;
     for (int32_t w = 0; w < words; w++) made[w] = (state[w] & kept[w]) | put[w];
+    if (e->target && paid != e->sought) return 1;
+    if (!e->is_end) represent(&e->problem, e->alike_now, made);
     if (e->target) {
-        int32_t n = e->is_end ? e->ends.words : words;
-        for (int32_t w = 0; w < n; w++)
-            if ((e->is_end ? made[w] & e->mask[w] : made[w]) != e->target[w]) return 1;
-        if (paid != e->sought) return 1;
+        if (e->is_end) keep_what_matters(e, made);
+        if (!is_same(made, e->target, e->is_end ? e->ends.words : words)) return 1;
         e->found = depth;
         return 0;
     }
@@ -279,8 +288,9 @@ static void choose(Epochs *e, int32_t op, int32_t depth) {
 }
 
 static int fits(const Epochs *e, int32_t op, int32_t depth) {
+    const Word *apart = e->apart + (size_t)op * (((size_t)e->problem.n_ops + 63) / 64);
     for (int32_t i = 0; i < depth; i++)
-        if (e->apart[(size_t)op * e->problem.n_ops + e->chosen[i]]) return 0;
+        if (apart[e->chosen[i] >> 6] >> (e->chosen[i] & 63) & 1) return 0;
     return 1;
 }
 
@@ -348,21 +358,24 @@ static int from_state(Epochs *e, const Word *state, Cost paid, int32_t given) {
     sort_by_agent(e, state);
     find_unsettled(e, state);
     if (given == NONE) return go_through(e, state, 0, 0, 0, paid);
+    if ((paid += p->weight[given]) >= e->limit) return 1;
     choose(e, given, 0);
-    return go_through(e, state, 0, e->agents[given], 1, paid + p->weight[given]);
+    return go_through(e, state, 0, e->agents[given], 1, paid);
 }
 
-/* Begin with the next epoch; NONE: nothing is given in it. */
-static int epochs_next(Epochs *e, int32_t given) {
+/* Begin with the next epoch; NONE: nothing is given in it.  After it these fields are alike, also to all that is given later. */
+static int epochs_next(Epochs *e, int32_t given, const int32_t *fields, int32_t count) {
     e->is_end = given == NONE, e->given = given, e->cursor = 0, e->n_leavings = 0;
-    return e->is_end || add_layer(e);
+    if (e->is_end) return 1;
+    if (!add_layer(e)) return 0;
+    return set_alike(&e->alike[e->n_layers - 1], fields, count);
 }
 
 /* A slice of it: what can be left behind if nothing is given, else the next layer.  What is not below the limit, which is
    MOST_COST at most, is left out.  HOPELESS: a state has too many sets. */
 static int epochs_run(Epochs *e, Cost limit, double seconds, size_t allowed) {
     double end = now() + seconds;
-    e->target = NULL, e->limit = limit, e->until = end, e->is_fresh = 1;
+    e->target = NULL, e->limit = limit, e->until = end, e->is_fresh = 1, e->alike_now = &e->alike[e->n_layers - 1];
     const Table *from = &e->layers[e->n_layers - (e->is_end ? 1 : 2)];
     grant(e->is_end ? &e->ends : &e->layers[e->n_layers - 1], allowed);
     for (; e->cursor < from->count; e->cursor++) {
@@ -371,28 +384,4 @@ static int epochs_run(Epochs *e, Cost limit, double seconds, size_t allowed) {
         if (!from_state(e, state_of(from, e->cursor), node_of(from, e->cursor)->spent, e->given)) return e->outcome;
     }
     return FOUND;
-}
-
-/* The operators of an epoch that lead from a state of a layer to a target at a cost, into `ops`; how many. */
-static int32_t set_between(Epochs *e, int32_t layer, int32_t id, int32_t given, const Word *target, Cost cost, int32_t *ops) {
-    const Table *from = &e->layers[layer];
-    e->is_end = given == NONE, e->target = target, e->sought = cost, e->limit = INFINITE_COST, e->found = 0;
-    from_state(e, state_of(from, id), node_of(from, id)->spent, given);
-    memcpy(ops, e->chosen, (size_t)e->found * sizeof *ops);
-    return e->found;
-}
-
-/* What is done epoch by epoch for something that was left behind: each set ends with NONE, the last one comes first. */
-static int32_t epochs_way(Epochs *e, int32_t number, const int32_t *given, int32_t *ops) {
-    const Leaving *leaving = &e->leavings[number];
-    int32_t layer = e->n_layers - 1, id = leaving->state;
-    int32_t count = set_between(e, layer, id, NONE, state_of(&e->ends, leaving->end), leaving->paid, ops);
-    ops[count++] = NONE;
-    for (; layer; layer--) {
-        const Node *node = node_of(&e->layers[layer], id);
-        count += set_between(e, layer - 1, node->parent, given[layer - 1], state_of(&e->layers[layer], id), node->spent, ops + count);
-        ops[count++] = NONE;
-        id = node->parent;
-    }
-    return count;
 }

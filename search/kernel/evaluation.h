@@ -78,7 +78,8 @@ static void evaluate(Evaluator *s, const Problem *p, Relaxation *r, const Table 
     if (node->exact || turn >= N_TURNS || (turn && (left_out & SECOND_CUTS << (turn - 1) || !pays(s, turn)))) return;
     s->evaluated++, s->asked[turn]++;
     const int32_t *known = NULL;
-    if (turn != ANEW && node->parent != NONE && !(left_out & HANDED_DOWN)) known = set_of(&s->lm_cut.landmarks, node_of(t, node->parent)->landmarks, turn);
+    if (turn != ANEW && node->parent != NONE && !node->renamed && !(left_out & HANDED_DOWN))
+        known = set_of(&s->lm_cut.landmarks, node_of(t, node->parent)->landmarks, turn);
     Cost rest = lm_cut(&s->lm_cut, r, p, state, turn, known, node->op == NONE ? NONE : r->problem.class_of[node->op]);
     if (rest > node->rest) node->rest = rest, s->raised[turn]++;
     if ((node->exact = rest == INFINITE_COST)) return;

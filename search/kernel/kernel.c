@@ -8,7 +8,7 @@
    stands on, from the top:
 
      api                                   what Python calls
-     epochs                                states epoch by epoch, with agents at a time
+     epochs, epoch_ways                    states epoch by epoch, with agents at a time; how each is come by
      a_star, greedy_search                 the searches
      learning, evaluation, stubborn_sets   what A* learns of states; bounds of nodes; which operators it leaves out
      intended_effects                      operators that optimal plans need after others
@@ -19,6 +19,7 @@
      fact_queue                            facts that wait meanwhile
      projection                            the problem on a few of its fields
      state_table, successor_generator      states that were met; applicable operators
+     like_fields                           states that stand for others
      problem, heap, lists, values          operators, costs and goal; what all are made of */
 
 #ifndef _WIN32

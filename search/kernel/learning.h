@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <string.h>
+#include "like_fields.h"
 #include "lists.h"
 #include "problem.h"
 #include "state_table.h"
@@ -22,15 +24,18 @@ static void learn(Table *t, const Ints *closed, Cost total) {
     }
 }
 
-/* Along a cheapest plan: the exact costs.  There is room for its states; `row` is for one of them. */
-static void learn_plan(Table *t, const Problem *p, int32_t start, const Ints *plan, Cost total, Word *row) {
-    int32_t id = start, is_new;
+/* Along a cheapest plan: the exact costs.  There is room for its states; `state` is where it begins, `row` for another one. */
+static void learn_plan(Table *t, const Problem *p, const Ints *alike, const Ints *plan, Cost total, Word *state, Word *row) {
+    size_t size = (size_t)p->words * sizeof(Word);
+    int is_new;
     for (size_t i = 0;; i++) {
-        Node *node = node_of(t, id);
+        memcpy(row, state, size);
+        represent(p, alike, row);
+        Node *node = node_of(t, find(t, row, &is_new));
         node->rest = total, node->exact = 1;
         if (i == plan->count) return;
-        apply(p, plan->at[i], state_of(t, id), row);
+        apply(p, plan->at[i], state, row);
+        memcpy(state, row, size);
         total -= p->weight[plan->at[i]];
-        id = find(t, row, &is_new);
     }
 }

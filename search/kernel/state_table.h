@@ -19,7 +19,8 @@ typedef struct {
     int64_t landmarks; /* where its last set is, or NONE, see landmarks.h */
     int32_t parent, op;
     uint32_t stamp;
-    uint8_t exact, evaluated, projected, closed;
+    uint8_t exact, evaluated, closed, projected : 1;
+    uint8_t renamed : 1; /* whether it stands for what `op` makes of the parent, see like_fields.h */
 } Node;
 
 typedef struct {

@@ -20,7 +20,8 @@ typedef int64_t Cost;
 enum { RUNNING, FOUND, NOT_BELOW, HOPELESS, MEMORY, UNFIT };
 
 /* What A* can be told to leave out, added up, so that it is seen what each is good for; answers stay. */
-enum { INTENDED_EFFECTS = 1, HANDED_DOWN = 2, SECOND_CUTS = 4, THIRD_CUTS = 8, STUBBORN_SETS = 16, LOOKAHEAD = 32, PARTITIONING = 64 };
+enum { INTENDED_EFFECTS = 1, HANDED_DOWN = 2, SECOND_CUTS = 4, THIRD_CUTS = 8, STUBBORN_SETS = 16, LOOKAHEAD = 32 };
+enum { PARTITIONING = 64, LIKE_FIELDS = 128 };
 static int left_out;
 
 /* A sum of costs that are MOST_COST at most. */

@@ -1,7 +1,7 @@
 """Small tasks that several tests ask about, and what is true of their packed states."""
 
 from collections.abc import Iterable
-from itertools import pairwise
+from itertools import pairwise, product
 from random import Random
 
 from search import PreparedTask
@@ -45,6 +45,29 @@ def tower(names: str, hands: str, goal: str = "", more: dict[str, str] | None = 
     turned = [f"on_{below}_{above}" for above, below in pairwise(names)]
     init = [*(f"free_{hand}" for hand in hands), f"clear_{names[0]}", f"table_{names[-1]}", *stands]
     return build(init=" ".join(init), goal=" ".join((*turned, goal)), actions=actions)
+
+
+def fetching(dice: Random) -> Task:
+    """Things to be brought from places to places; some are alike, and now and then one of them is not."""
+    places, agents = "abc"[: dice.randint(2, 3)], ["h", "r", "q"][: dice.randint(2, 3)]
+    things = "tuvw"[: dice.randint(2, 4 if len(agents) == 2 else 3)]
+    price, sealed = {place: dice.choice((1, 1, 2)) for place in places}, dice.choice(f"{places}   ")
+    actions = {f"open {agent}": "!open -> open" for agent in agents}
+    for agent in agents:
+        actions[f"go {agent}"] = f"!busy_{agent} -> busy_{agent}"
+        for thing, place in product(things, places):
+            held, there, cost = f"{thing}_by_{agent}", f"{thing}_in_{place}", price[place]
+            ready = f"busy_{agent} {'open' if place == sealed else ''}"
+            actions[f"take_{thing}_{place} {agent}"] = f"{there} {ready} -> {held} !{there} @ {cost}"
+            actions[f"put_{thing}_{place} {agent}"] = (
+                f"{held} {ready} -> {there} !{held} !busy_{agent} @ {cost}"
+            )
+    if dice.random() < 0.3:
+        there, elsewhere = (f"{things[0]}_in_{place}" for place in dice.sample(places, 2))
+        actions[f"throw {agents[0]}"] = f"{there} -> {elsewhere} !{there}"
+    init = [f"{thing}_in_{dice.choice(places[:2])}" for thing in things]
+    goals = [f"{thing}_in_{dice.choice(places[-1] * 3 + places)}" for thing in things if dice.random() < 0.9]
+    return build(agents=" ".join(agents), init=" ".join(init), goal=" ".join(goals), actions=actions)
 
 
 def packed_of(task: Task) -> PackedTask:

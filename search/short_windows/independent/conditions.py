@@ -1,4 +1,4 @@
-"""Conditions under which robots may be looked at one by one, and dead-end values of the human's goal."""
+"""Conditions under which robots may be looked at one by one."""
 
 from collections.abc import Iterator
 
@@ -23,22 +23,6 @@ def are_apart(packed: PackedTask, deadline: Deadline, *, strict: bool) -> bool:
         return False
     pairs = () if strict else _in_the_way(packed, deadline)
     return not any(packed.compatible(own.action, other.action, strict=False) for own, other in pairs)
-
-
-def lost_values(packed: PackedTask) -> dict[int, set[int]]:
-    """By field of the human's goal the values from which they alone never get to what it asks for."""
-    lost = {}
-    for field in packed.fields:
-        if packed.goal.need_mask & field:
-            moves = [op for op in packed.own if field & ~op.keep]
-            good, known = {packed.goal.need & field}, 0
-            while len(good) > known:
-                known = len(good)
-                for op in moves:
-                    if op.put & field in good:
-                        good.update([op.need & field] if op.need_mask & field else packed.values(field))
-            lost[field] = set(packed.values(field)) - good
-    return lost
 
 
 def _in_the_way(packed: PackedTask, deadline: Deadline) -> Iterator[tuple[Operator, Operator]]:

@@ -14,11 +14,12 @@ from search.call.context import SearchContext
 from search.packed.cost_vector import FAR, INFINITE_KEY
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
-from search.short_windows.independent.conditions import are_apart, lost_values
+from search.short_windows.independent.conditions import are_apart
 from search.short_windows.independent.landmarks import Landmarks
 from search.short_windows.independent.provision import Provision, by_others, provisions
 from search.short_windows.independent.timeline import RobotLayers, TooManyStatesError
 from search.short_windows.independent.window import ACTION, Window
+from search.short_windows.lost_values import lost_values
 from search.short_windows.question import ShortWindowQuestion
 from serendipity.model.errors import LimitReachedError
 

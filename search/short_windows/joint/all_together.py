@@ -4,7 +4,8 @@ Where robots take from one another all the time, what each can do by itself says
 the human follows ``pi_H`` robots are in their way, and there may be few enough states to look at all.
 """
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
+from itertools import accumulate
 from typing import Final
 
 from search.call.context import SearchContext
@@ -13,9 +14,9 @@ from search.engine.best_first import Progress
 from search.human.whole_actions import alone_planner
 from search.kernel.library import library
 from search.packed.cost_vector import ACTIONS_BITS, own_costs
-from search.packed.operators import Operator
-from search.short_windows.independent.conditions import lost_values
+from search.packed.operators import Operator, union
 from search.short_windows.joint.epochs import Epochs, Leaving
+from search.short_windows.lost_values import lost_values
 from search.short_windows.question import ShortWindowQuestion
 from search.spaces.factory import suffix_rule
 from serendipity.model.resources.deadline import Deadline
@@ -91,7 +92,7 @@ class AllTogether:
             if self._epoch < len(self._steps):
                 op = self._steps[self._epoch - 1]
                 limit = self._amount(self._best.key - self._context.keys.epoch_weight)
-                if not epochs.advance(op, limit, most, deadline):
+                if not epochs.advance(op, self._later(limit), limit, most, deadline):
                     break
             self._epoch, self._left = self._epoch + 1, None
         else:
@@ -110,6 +111,13 @@ class AllTogether:
                 yield from self._question.accept(better)
             left.pop()
         left.clear()
+
+    def _later(self, limit: int) -> int:
+        """The fields that the human's later steps are about, but the last one and those too dear."""
+        packed, costs = self._context.packed, map(self._context.weights.scaled_cost, self._steps)
+        spent = [cost << ACTIONS_BITS for cost in accumulate(costs)]
+        later = range(self._epoch, len(self._steps) - 1)
+        return union(packed.mentioned(self._steps[i]) for i in later if spent[i] < limit)
 
     def _amount(self, limit: int) -> int:
         """The least amount of which the key is not below a limit; ``MOST_WEIGHT``: too much."""
@@ -130,16 +138,9 @@ def _epochs(context: SearchContext, steps: Iterable[Operator], deadline: Deadlin
     fields = tuple((field, len(packed.values(field))) for field in packed.fields)
     weights = tuple((cost << ACTIONS_BITS) + 1 for cost in costs)
     problem = ClassicalProblem(fields, operators, weights, packed.goal, 1)
-    own, lost = own_costs(packed), lost_values(packed)
-    dead = b"".join(_flags(field, values, lost.get(field, ())) for field, values in fields)
+    own = own_costs(packed)
     ratio = next((context.weights.scaled_cost(op) // own[op.cost] for op in packed.own if own[op.cost]), 1)
     unit = alone.planner.problem.unit * ratio
     if unit.bit_length() > _MOST_COST_BITS:
         return None
-    return Epochs(kernel, context, problem, alone.planner, dead, unit, deadline)
-
-
-def _flags(field: int, values: int, chosen: Collection[int]) -> bytes:
-    """For each value of a field 1 if it is among some."""
-    lowest = field & -field
-    return bytes(value * lowest in chosen for value in range(values))
+    return Epochs(kernel, context, problem, alone.planner, lost_values(packed), unit, deadline)

@@ -2,26 +2,22 @@
 
 import ctypes
 from array import array
-from collections.abc import Callable, Collection, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from typing import Final, NamedTuple
-
-import numpy as np
-import numpy.typing as npt
 
 from search.call.context import SearchContext
 from search.classical.encoded_problem import EncodedProblem, memory_for
+from search.classical.like_fields import Exchange, like_fields, told
 from search.classical.planner import FOUND, RUNNING, SLICE, ClassicalPlanner, with_memory
 from search.classical.problem import ClassicalProblem
-from search.packed.operators import Operator
+from search.packed.operators import Operator, union
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
 
 _NONE: Final = -1
 """No operator."""
-
-_PER_PAIR: Final = 20
-"""Bytes for a pair of operators while they are compared."""
 
 
 class Leaving(NamedTuple):
@@ -45,7 +41,7 @@ class Epochs:
         context: of the call, whose actions may not share an epoch, from whose initial state it begins.
         problem: of the whole team, with amounts for weights.
         after: what follows; asked for bounds.
-        lost: by field and value 1 where nothing can follow from it.
+        lost: by field masks the values from which nothing can follow.
         unit: what a unit of its costs is in amounts.
 
     Attributes:
@@ -61,7 +57,7 @@ class Epochs:
         context: SearchContext,
         problem: ClassicalProblem,
         after: ClassicalPlanner,
-        lost: bytes,
+        lost: Mapping[int, Collection[int]],
         unit: int,
         deadline: Deadline,
     ) -> None:
@@ -70,12 +66,17 @@ class Epochs:
         self._numbers = {op.action: number for number, op in enumerate(problem.operators)}
         self._operators = problem.operators
         self._given: list[int] = []
-        deadline.require(memory_for(problem) + _PER_PAIR * len(problem.operators) ** 2)
+        self._fields = [field for field, _ in problem.fields]
+        deadline.require(memory_for(problem) + len(problem.operators) ** 2)
         told, agents = EncodedProblem(problem), array("Q", _human_last(task, problem.operators))
-        apart = conflicts(task, problem.operators, deadline, strict=context.options.strict).tobytes()
+        apart = conflicts(task, problem.operators, deadline, strict=context.options.strict)
+        self._alike = _alike(problem, after, apart, lost, deadline)
         planner, mask = after.handle, after.told.row(after.problem.mask)
+        size = -(-len(apart) // 64) * 8
+        rows = b"".join([row.to_bytes(size, "little") for row in apart])
+        flags = b"".join(_flags(field, values, lost.get(field, ())) for field, values in problem.fields)
         self._epochs = library.epochs_new(
-            ctypes.byref(told.spec), agents.buffer_info()[0], apart, planner, mask, lost, unit
+            ctypes.byref(told.spec), agents.buffer_info()[0], rows, planner, mask, flags, unit
         )
         if not self._epochs:
             raise LimitReachedError("memory-limit")
@@ -93,10 +94,11 @@ class Epochs:
         """How many were met so far, ends included."""
         return int(self._kernel.epochs_states(self._epochs))
 
-    def advance(self, op: Operator, limit: int, most: int, deadline: Deadline) -> bool:
+    def advance(self, op: Operator, later: int, limit: int, most: int, deadline: Deadline) -> bool:
         """Go on by an epoch in which an operator is given.
 
         Args:
+            later: the fields that matter to those that may be given in later epochs.
             limit: amount from which on nothing is of interest.
             most: states.
 
@@ -107,7 +109,8 @@ class Epochs:
             LimitReachedError: the deadline came; the same call goes on.
         """
         number = self._numbers[op.action]
-        done = self._run(number, limit, most, deadline)
+        alike = [[one for one in others if not self._fields[one] & later] for others in self._alike]
+        done = self._run(number, limit, most, deadline, alike)
         if done:
             self._given.append(number)
         return done
@@ -145,12 +148,15 @@ class Epochs:
                 sets.append([])
             else:
                 sets[-1].append(self._operators[number])
-        return sets[::-1]
+        return sets
 
-    def _run(self, given: int, limit: int, most: int, deadline: Deadline) -> bool:
+    def _run(
+        self, given: int, limit: int, most: int, deadline: Deadline, alike: Sequence[Sequence[int]] = ()
+    ) -> bool:
         """Go through an epoch, from where that was interrupted, if it was."""
         kernel, epochs = self._kernel, self._epochs
-        if not self._is_under_way and not kernel.epochs_turn(epochs, given):
+        ones = told(alike)
+        if not self._is_under_way and not kernel.epochs_turn(epochs, given, ones.buffer_info()[0], len(ones)):
             raise LimitReachedError("memory-limit")
         self._is_under_way, outcome = True, RUNNING
         while outcome == RUNNING and self.states <= most:
@@ -171,34 +177,60 @@ def _human_last(task: Task, operators: Sequence[Operator]) -> list[int]:
     return [op.agents & ~human | (last if op.agents & human else 0) for op in operators]
 
 
-def conflicts(
-    task: Task, operators: Sequence[Operator], deadline: Deadline, *, strict: bool
-) -> npt.NDArray[np.bool_]:
-    """By pairs of operators whether they may not share an epoch (semantics 2), but for agents."""
+def _alike(
+    problem: ClassicalProblem,
+    after: ClassicalPlanner,
+    apart: Sequence[int],
+    lost: Mapping[int, Collection[int]],
+    deadline: Deadline,
+) -> list[list[int]]:
+    """Classes of fields that are alike to all agents, and to what follows."""
+
+    def allows(exchange: Exchange) -> bool:
+        moved = sum(1 << number for number, _ in exchange)
+
+        def exchanged(row: int) -> int:
+            return row & ~moved | sum(1 << other for number, other in exchange if row >> number & 1)
+
+        return all(exchanged(apart[number]) == apart[other] for number, other in exchange)
+
+    fields = [field for field, _ in after.problem.fields]
+    later = {fields[one]: alike[0] for alike in after.alike(deadline) for one in alike}
+    later |= dict.fromkeys({field for field, _ in problem.fields} - {*fields}, _NONE)
+    found = defaultdict[Hashable, list[int]](list)
+    for number, alike in enumerate(like_fields(problem, deadline, allows)):
+        for one in alike:
+            field = problem.fields[one][0]
+            values = frozenset(value // (field & -field) for value in lost.get(field, ()))
+            found[number, later.get(field, (one,)), values].append(one)
+    return [*found.values()]
+
+
+def _flags(field: int, values: int, chosen: Collection[int]) -> bytes:
+    """For each value of a field 1 if it is among some."""
+    lowest = field & -field
+    return bytes(value * lowest in chosen for value in range(values))
+
+
+def conflicts(task: Task, operators: Sequence[Operator], deadline: Deadline, *, strict: bool) -> list[int]:
+    """By operator those, as bits, with which it may not share an epoch (semantics 2), but for agents."""
     actions = [task.actions[op.action] for op in operators]
-    adds, deletes = _rows(task, [a.add for a in actions]), _rows(task, [a.delete for a in actions])
-    found = _share(deletes, deletes, deadline) | (one_way := _share(deletes, adds, deadline)) | one_way.T
-    if strict:
-        falsify = _share(deletes, _rows(task, [a.pre for a in actions]), deadline)
-        falsify |= _share(adds, _rows(task, [a.neg for a in actions]), deadline)
-        found |= falsify | falsify.T
+    adding, deleting = _by_fact([a.add for a in actions]), _by_fact([a.delete for a in actions])
+    needing, barred = _by_fact([a.pre for a in actions]), _by_fact([a.neg for a in actions])
+    found = []
+    for action in deadline.each(actions):
+        row = union(deleting[fact] | adding[fact] | needing[fact] * strict for fact in action.delete)
+        row |= union(deleting[fact] | barred[fact] * strict for fact in action.add)
+        if strict:
+            row |= union(deleting[fact] for fact in action.pre) | union(adding[fact] for fact in action.neg)
+        found.append(row)
     return found
 
 
-def _rows(task: Task, facts: Sequence[Collection[int]]) -> npt.NDArray[np.uint64]:
-    """Sets of facts as rows of bits."""
-    flags = np.zeros((len(facts), -(-len(task.facts) // 64) * 64), np.bool_)
-    for row, listed in enumerate(facts):
-        flags[row, list(listed)] = True
-    return np.packbits(flags, axis=1).view(np.uint64)
-
-
-def _share(
-    rows: npt.NDArray[np.uint64], others: npt.NDArray[np.uint64], deadline: Deadline
-) -> npt.NDArray[np.bool_]:
-    """By pairs of rows whether they have a bit in common."""
-    found = np.zeros((len(rows), len(others)), np.bool_)
-    for column, other in zip(rows.T, others.T, strict=True):
-        deadline.check()
-        found |= (column[:, None] & other[None, :]) != 0
+def _by_fact(sets: Sequence[Collection[int]]) -> dict[int, int]:
+    """By fact the sets, as bits, that it is in."""
+    found = defaultdict[int, int](int)
+    for number, facts in enumerate(sets):
+        for fact in facts:
+            found[fact] |= 1 << number
     return found
