@@ -1,20 +1,25 @@
 """Many homes on servers side by side, of which one is killed, and one is asked to end, in the middle.
 
-    python -m benchmarks.replicas [--replicas 4] [--homes 40] [--seconds 60] [--clients 8]
+    python -m benchmarks.replicas [--replicas 4] [--homes 40] [--seconds 60] [--clients 8] [--nginx]
 
 Homes have shipped examples, and the smaller breakfasts of ``home``, where those are there.
 Behind one address a balancer sends each home to the replica that its name leads to, or, where that does not
-answer, to the next one, under the same ``Idempotency-Key``.  Each answer is compared with the library's.
+answer, to the next one, under the same ``Idempotency-Key``; with ``--nginx`` nginx does, where it is
+installed, by the lines of ``docs/howto/serve.md``.  Each answer is compared with the library's.
 """
 
 import asyncio
+import re
 import signal
 import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from itertools import cycle
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, Final
 from zlib import crc32
 
@@ -33,14 +38,21 @@ from serendipity.live.guards.connections import listening, url
 
 EXAMPLES: Final = ("room2", "room5", "flights", "parcels", "morning", "office")
 BREAKFASTS: Final = ("p4", "p6")
+HOW_TO: Final = Path(__file__).resolve().parents[1] / "docs" / "howto" / "serve.md"
+Balanced = Callable[[list[str]], AbstractAsyncContextManager[str]]
+"""From addresses of servers the one address before them."""
+
 DISCOUNTS: Final = ("0.5", "0.6", "0.7", "0.8", "0.9")
 
 
-def main(replicas: int = 4, homes: int = 40, seconds: float = 60, clients: int = 8) -> None:
+def main(
+    replicas: int = 4, homes: int = 40, seconds: float = 60, clients: int = 8, nginx: bool = False
+) -> None:
     """Measure and print."""
     started = [_started() for _ in range(replicas)]
+    balanced = _by_nginx if nginx else _by_ourselves
     try:
-        asyncio.run(_measured(started, homes, seconds, clients))
+        asyncio.run(_measured(started, balanced, homes, seconds, clients))
     finally:
         for process, _ in started:
             process.kill()
@@ -48,29 +60,30 @@ def main(replicas: int = 4, homes: int = 40, seconds: float = 60, clients: int =
 
 def _started() -> tuple[subprocess.Popen[str], str]:
     command = [sys.executable, "-m", "serendipity", "serve", "--port", "0", "--workers", "1"]
+    command += ["--allow-host", "serendipity"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     return process, process.stdout.readline().split()[2].rstrip(",")
 
 
 async def _measured(
-    replicas: list[tuple[subprocess.Popen[str], str]], homes: int, seconds: float, clients: int
+    replicas: list[tuple[subprocess.Popen[str], str]],
+    balanced: Balanced,
+    homes: int,
+    seconds: float,
+    clients: int,
 ) -> None:
     tasks = dict(_tasks())
     calls = list(zip(cycle(tasks), cycle(DISCOUNTS), range(homes), strict=False))
     expected = {
         (name, discount): serendipity.plan(tasks[name][1], discount=discount) for name, discount, _ in calls
     }
-    listener = listening("127.0.0.1", 0)
-    async with httpx.AsyncClient(timeout=60) as behind:
-        config = uvicorn.Config(_balancer([at for _, at in replicas], behind), log_level="critical")
-        server = uvicorn.Server(config)
-        serving = asyncio.create_task(server.serve([listener]))
+    async with balanced([at for _, at in replicas]) as address:
         turns, found, times = iter(range(10**9)), Counter[str](), list[float]()
         end = time.monotonic() + seconds
 
         async def client() -> None:
-            async with httpx.AsyncClient(base_url=url(listener), timeout=60) as front:
+            async with httpx.AsyncClient(base_url=address, timeout=60) as front:
                 while time.monotonic() < end:
                     turn = next(turns)
                     name, discount, home = calls[turn % len(calls)]
@@ -89,8 +102,6 @@ async def _measured(
 
         await asyncio.gather(accidents(), *(client() for _ in range(clients)))
         drained = await asyncio.to_thread(replicas[1][0].wait, 40)
-        server.should_exit = True
-        await serving
     told = ", ".join(f"{found[kind]} {kind}" for kind in ("right", "wrong", "lost"))
     print(f"{len(times)} calls in {seconds:g} s, {len(times) / seconds:.0f} a second: {told}")
     print(f"p50 {1000 * percentile(times, 0.5):.1f} ms, p99 {1000 * percentile(times, 0.99):.1f} ms")
@@ -113,6 +124,38 @@ def _judged(answer: httpx.Response, expected: serendipity.Result) -> str:
     told: dict[str, Any] = answer.json()
     same = (told["cost"], told["objective"]) == (expected.cost, expected.objective)
     return "right" if same else "wrong"
+
+
+@asynccontextmanager
+async def _by_ourselves(replicas: list[str]) -> AsyncIterator[str]:
+    listener = listening("127.0.0.1", 0)
+    async with httpx.AsyncClient(timeout=60) as behind:
+        server = uvicorn.Server(uvicorn.Config(_balancer(replicas, behind), log_level="critical"))
+        serving = asyncio.create_task(server.serve([listener]))
+        yield url(listener)
+        server.should_exit = True
+        await serving
+
+
+@asynccontextmanager
+async def _by_nginx(replicas: list[str]) -> AsyncIterator[str]:
+    """By the lines of the how-to, with these servers."""
+    with listening("127.0.0.1", 0) as listener:
+        at = url(listener)
+    lines = re.search(r"upstream serendipity.*?(?=```)", HOW_TO.read_text(), re.DOTALL)
+    assert lines is not None, "they are there"
+    servers = "".join(rf"    server {one.removeprefix('http://')}\2\n" for one in replicas)
+    rules = re.sub(r"( *server \S+:8123( .*;)\n)+", servers, lines[0])
+    rules = rules.replace("server {", f"server {{\n    listen {at.removeprefix('http://')};")
+    with TemporaryDirectory() as folder:
+        config = Path(folder) / "nginx.conf"
+        files = f"daemon off;\npid {folder}/pid;\nerror_log {folder}/errors;\n"
+        config.write_text(f"{files}events {{}}\nhttp {{\naccess_log off;\n{rules}}}\n")
+        process = subprocess.Popen(["nginx", "-p", folder, "-c", str(config)])
+        await asyncio.sleep(1)
+        yield at
+        process.terminate()
+        process.wait(10)
 
 
 def _balancer(replicas: list[str], behind: httpx.AsyncClient) -> Starlette:
