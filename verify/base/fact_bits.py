@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from itertools import chain
 from typing import Any, NamedTuple
 
-from serendipity.model import Deadline
+from serendipity.model import Deadline, GroundAction
 
 
 class FactBits:
@@ -26,6 +26,11 @@ class FactBits:
         for fact in facts:
             found |= bit.get(fact, 0)
         return found
+
+    def operator(self, action: GroundAction, weight: int, label: Any) -> "BitOperator":
+        """An action over the facts that are numbered."""
+        pre, neg, add, delete = map(self.of, (action.pre, action.neg, action.add, action.delete))
+        return BitOperator(pre, neg, add, delete, weight, label)
 
     @property
     def all(self) -> int:

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 from serendipity.model import Deadline, HumanPlan, Task
 from verify.base.execution import after, applicable, awake, states_of_pi_h
-from verify.base.fact_bits import BitOperator
 from verify.base.operators import OwnActions
 from verify.base.projection import ProjectedCosts
 from verify.base.shortest_paths import PathSearch
@@ -140,7 +139,7 @@ class IndividualOptimum:
             if packed is not None:
                 return packed if packed >= 0 else None
         many, most = limits().many_own_states, limits().own_states
-        search = PathSearch(start, self._successors, self._projection.bound, self.deadline, below)
+        search = PathSearch(start, self.own.moves, self._projection.bound, self.deadline, below)
         for expansions, (here, _) in enumerate(search):
             if self.own.goal.holds(here):
                 return search.distance[here]
@@ -190,7 +189,3 @@ class IndividualOptimum:
             return PackedProblem(space, own.facts, operators, goal, self.deadline)
         except TooLargeError:
             return None
-
-    def _successors(self, state: int) -> Iterator[tuple[int, int, BitOperator]]:
-        for operator in self.own.applicable(state):
-            yield state & ~operator.delete | operator.add, operator.weight, operator

@@ -1,15 +1,15 @@
 """The human's own actions as the checker's own search sees them."""
 
-from collections import Counter
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import chain
+from functools import cached_property
 from math import lcm
 from typing import Final
 
 from serendipity.model import Deadline, GroundAction, Task
 from verify.base.execution import unchosen
-from verify.base.fact_bits import BitCondition, BitOperator, FactBits, each_bit
+from verify.base.fact_bits import BitCondition, BitOperator, BitOperators, FactBits
 
 _LONGEST: Final = 10**9
 """More actions than any plan has that is ever compared."""
@@ -37,7 +37,7 @@ def one_after_the_other(first: GroundAction, second: GroundAction) -> GroundActi
 
 
 class OwnActions:
-    """The human's own actions, turned into operators when a search first meets them.
+    """The human's own actions, turned into operators when they are first asked for.
 
     Operators are reduced to the facts that can matter to the human.  Their weight orders plans by cost, then
     by length: a cost of 1 weighs as much as ``_LONGEST`` actions.  In time length is the number of epochs,
@@ -51,7 +51,7 @@ class OwnActions:
     """
 
     def __init__(self, task: Task, deadline: Deadline) -> None:
-        self._task = task
+        self._task, self._deadline = task, deadline
         self.ids = task.human_actions
         facts = {*task.goal.positive, *task.goal.negative}
         denominators = set()
@@ -70,8 +70,16 @@ class OwnActions:
         self._least_cost = longest * (self._epoch or 1)
         self._unit = lcm(*denominators) * self._least_cost
         self._weights: dict[tuple[int, int], int] = {}
-        self._operators: dict[int, BitOperator] = {}
-        self._watched = self._watch(deadline)
+
+    @cached_property
+    def operators(self) -> tuple[BitOperator, ...]:
+        """The actions, each with all that is due after it, labelled by their ids."""
+        return tuple(self.bits.operator(*self.whole(i), i) for i in self._deadline.each(self.ids))
+
+    @cached_property
+    def moves(self) -> BitOperators:
+        """The same, to be looked up by state."""
+        return BitOperators(self.operators, self._deadline)
 
     def weight(self, action: int) -> int:
         """The weight of an action."""
@@ -106,25 +114,10 @@ class OwnActions:
         rest = weight % self._least_cost
         return Fraction(weight - rest, self._unit), rest // (self._epoch or 1)
 
-    def applicable(self, state: int) -> list[BitOperator]:
-        """The operators that are applicable in a state, labelled by their actions' ids."""
-        found = []
-        watched = self._watched
-        for bit in chain((0,), each_bit(state)):
-            for action in watched.get(bit, ()):
-                operator = self._operator(action)
-                if state & operator.pre == operator.pre and not state & operator.neg:
-                    found.append(operator)
-        return found
-
-    def steps(self, state: int) -> list[tuple[int, int]]:
-        """The actions that are applicable in a state, by ids, each with the state after it."""
-        return [(operator.label, operator.after(state)) for operator in self.applicable(state)]
-
     def may_reach_goal(self, state: int, deadline: Deadline) -> bool:
         """Whether that is so if what has been true, or false, counts as that from then on."""
         true, false = state, self.bits.all & ~state
-        waiting = [self._operator(i) for i in deadline.each(self.ids)]
+        waiting: Sequence[BitOperator] = self.operators
         while self.goal.pre & ~true or self.goal.neg & ~false:
             later = [op for op in deadline.each(waiting) if op.pre & ~true or op.neg & ~false]
             if len(later) == len(waiting):
@@ -134,22 +127,3 @@ class OwnActions:
                     true, false = true | op.add, false | op.delete
             waiting = later
         return True
-
-    def _operator(self, action: int) -> BitOperator:
-        operator = self._operators.get(action)
-        if operator is None:
-            (ground, weight), of = self.whole(action), self.bits.of
-            operator = self._operators[action] = BitOperator(
-                of(ground.pre), of(ground.neg), of(ground.add), of(ground.delete), weight, action
-            )
-        return operator
-
-    def _watch(self, deadline: Deadline) -> dict[int, list[int]]:
-        """Each action under the precondition that the fewest actions share, or under none."""
-        actions = self._task.actions
-        shared = Counter(chain.from_iterable(actions[i].pre for i in deadline.each(self.ids)))
-        watched: dict[int, list[int]] = {}
-        for i in deadline.each(self.ids):
-            rarest = min(actions[i].pre, key=shared.__getitem__, default=None)
-            watched.setdefault(0 if rarest is None else self.bits.of((rarest,)), []).append(i)
-        return watched

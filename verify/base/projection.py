@@ -47,11 +47,8 @@ def _private_facts(task: Task, own: OwnActions, deadline: Deadline) -> frozenset
 def _moves(own: OwnActions, kept: int, deadline: Deadline) -> list[BitOperator]:
     """The distinct projected actions that change anything, each at its least weight."""
     moves: dict[tuple[int, int, int, int], int] = {}
-    of = own.bits.of
-    for i in deadline.each(own.ids):
-        action, weight = own.whole(i)
-        add, delete = of(action.add) & kept, of(action.delete) & kept
-        if add or delete:
-            move = of(action.pre) & kept, of(action.neg) & kept, add, delete
+    for pre, neg, add, delete, weight, _ in deadline.each(own.operators):
+        if (add | delete) & kept:
+            move = pre & kept, neg & kept, add & kept, delete & kept
             moves[move] = min(weight, moves.get(move, weight))
     return [BitOperator(*move, weight) for move, weight in moves.items()]

@@ -1,6 +1,6 @@
 """The human alone, without a horizon, as a program: one unit of flow through the states that they reach."""
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import Any, Final
 
@@ -121,7 +121,11 @@ class _Alone:
         if task.of_bystanders:
             return self.alone.start, task.goal.holds, self.alone.moves
         own = self._own = OwnActions(task, self._deadline)
-        return own.bits.of(task.init), own.goal.holds, own.steps
+
+        def onward(state: int) -> Iterator[tuple[int, int]]:
+            return ((operator.label, after) for after, _, operator in own.moves(state))
+
+        return own.bits.of(task.init), own.goal.holds, onward
 
     def solve(self) -> int | None:
         """The least cost in units, by the solver; None: there is no plan.

@@ -68,17 +68,15 @@ class Moves:
     def __init__(self, call: ExaminedCall, pay: Callable[[int], int], original: Sequence[int] = ()) -> None:
         self._task, self._call, self._original = call.task, call, original
         self.bits = FactBits(range(len(call.task.facts)))
-        of, team, deadline = self.bits.of, call.prices.team, call.effort.deadline
-        self._operators = [
-            BitOperator(of(a.pre), of(a.neg), of(a.add), of(a.delete), pay(team[i]), i)
-            for i, a in enumerate(deadline.each(call.task.actions))
-        ]
+        team, deadline = call.prices.team, call.effort.deadline
+        actions = enumerate(deadline.each(call.task.actions))
+        self._operators = [self.bits.operator(action, pay(team[i]), i) for i, action in actions]
         self._unchosen = unchosen(call.task)
         chosen = [op for op in self._operators if op.label not in self._unchosen]
         theirs = {i for i, a in enumerate(call.task.actions) if call.task.human not in a.participants}
         self._own = BitOperators((op for op in chosen if op.label in theirs), deadline)
         self._parts = BitOperators((op for op in chosen if op.label not in theirs), deadline)
-        self._going_on = of(call.task.due_for)
+        self._going_on = self.bits.of(call.task.due_for)
         self._nothing = self._as_one(()), self._as_one(())
         self.robots, self.human, self._fits = cache(self._robots), cache(self._human), cache(self._beside)
         self._due = cache(self._happening)
