@@ -178,9 +178,8 @@ class IndividualOptimum:
         from verify.packed.problem import PackedProblem, StateSpace, TooLargeError
 
         task, own = self._task, self.own
-        groups = [frozenset(variable.facts) for variable in task.variables]
         try:
-            space = StateSpace(len(task.facts), task.init, task.actions, groups, self.deadline)
+            space = StateSpace(len(task.facts), task.init, task.actions, self.deadline)
             operators = [
                 PackedOperator(a.pre, a.neg, a.add, a.delete, weight)
                 for a, weight in (own.whole(i) for i in self.deadline.each(own.ids))

@@ -164,13 +164,13 @@ class DueEpochs:
     def __init__(self, task: Task, actions: Sequence[int], layout: PackedLayout) -> None:
         number = {i: k for k, i in enumerate(actions)}
         self._lasting: dict[int, Bools] = {}
-        self._fields = layout.fields
+        self._values = layout.values
         self._begun: list[tuple[int, int, Ints]] = []
         for fact, groups in task.due_for.items():
             place = layout.place.get(fact)
             if place is None:
                 continue
-            values = self._lasting.setdefault(place.field, np.zeros(self._fields[place.field].size, bool))
+            values = self._lasting.setdefault(place.field, np.zeros(layout.fields[place.field].size, bool))
             values[place.value] = True
             for variants in groups:
                 if fact not in task.actions[variants[0]].delete:  # it begins beside what takes the fact away
@@ -193,10 +193,6 @@ class DueEpochs:
         for field, due in self._lasting.items():
             calm &= ~due[self._values(field, states)]
         return calm
-
-    def _values(self, field: int, states: Words) -> Ints:
-        at = self._fields[field]
-        return ((states[:, at.word] & np.uint64(at.mask)) >> np.uint64(at.shift)).astype(np.int64)
 
 
 def excluding(actions: Sequence[GroundAction], facts: int, agents: int, *, strict: bool) -> Bools:

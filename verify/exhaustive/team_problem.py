@@ -92,8 +92,7 @@ def team_space(question: Subproblem, part: Relevant) -> tuple[StateSpace, list[t
     actions = [(i, task.actions[i]) for i in part.actions]
     together = [] if question.options.strict else circles(actions, task, deadline)
     as_one = [as_operator((task.actions[i] for i in circle), 0) for circle in together]
-    groups = [frozenset(variable.facts) for variable in task.variables]
-    return StateSpace(len(task.facts), task.init, [*task.actions, *as_one], groups, deadline), together
+    return StateSpace(len(task.facts), task.init, [*task.actions, *as_one], deadline), together
 
 
 def team_problem(question: Subproblem, part: Relevant, *, bounded: bool, exact: bool = False) -> TeamProblem:

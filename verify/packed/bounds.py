@@ -6,7 +6,7 @@ are kept: the largest sum holds.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from itertools import product
 from typing import Final
 
 import numpy as np
@@ -19,6 +19,9 @@ from verify.packed.pattern import Pattern, TooManyMovesError
 
 _A_SECOND: Final = 20_000
 """States of a pattern for each second that is left: a large table is not made when there is little time."""
+
+_SIZES: Final = (2_000, 100_000)
+"""States of a pattern at most: patterns of each of these sizes are made, at first of the small one."""
 
 _MOVES: Final = 30
 """Moves for each of these states at most."""
@@ -34,58 +37,38 @@ _STEPS: Final = 40
 """Of the walks to states in which ways are compared."""
 
 
-@dataclass(frozen=True, slots=True)
-class Care:
-    """How much work goes into bounds.
-
-    Attributes:
-        sizes: states of a pattern at most: patterns of each of these sizes are made.
-        seconds: for all of it, about.
-        share: what of the time that is left it may take.
-    """
-
-    sizes: tuple[int, ...]
-    seconds: float
-    share: float
-
-
-def little() -> Care:
-    """As long as few states may be enough."""
-    return Care((2_000,), limits().quick_seconds, limits().quick_share)
-
-
-def much() -> Care:
-    """Where bounds are to spare many states."""
-    return Care((2_000, 100_000), limits().careful_seconds, limits().careful_share)
-
-
 class PatternBounds:
     """Bounds for one goal.
 
     Args:
-        views: the same operators with their facts in other fields; patterns are made of these, too.
         goal: facts that have to be true.
         start: states to begin with: ways are kept that are good where walks lead from there.
+        careful: whether they are to spare many states, so that more time for them is worth it.
     """
 
     def __init__(
         self,
         table: OperatorTable,
-        views: Sequence[OperatorTable],
         goal: Sequence[int],
         start: Words,
-        care: Care,
         deadline: Deadline,
+        *,
+        careful: bool,
     ) -> None:
         self._table = table
+        self._goal = table.test(goal, ())
+        self._causes = _causes(table)
         self._deadline = deadline
         self._ways: list[list[tuple[Pattern, Ints]]] = []
+        seconds, part = limits().quick_seconds, limits().quick_share
+        if careful:
+            seconds, part = limits().careful_seconds, limits().careful_share
         left = deadline.left()
-        seconds = care.seconds if left is None else min(care.seconds, left * care.share)
+        seconds = seconds if left is None else min(seconds, left * part)
         share = deadline.within(seconds)
-        largest = int(seconds / care.share * _A_SECOND) + 1
-        sizes = [min(size, largest) for size in care.sizes]
-        patterns = self._patterns([_View(each, goal) for each in (table, *views)], sizes, deadline, share)
+        largest = int(seconds / part * _A_SECOND) + 1
+        sizes = [min(size, largest) for size in (_SIZES if careful else _SIZES[:1])]
+        patterns = self._patterns(sizes, deadline, share)
         for order in _orders(len(patterns)):
             if self._ways and share.reached() is not None:
                 deadline.check()
@@ -111,31 +94,44 @@ class PatternBounds:
             for pattern, distance in way:
                 self._deadline.check()
                 if id(pattern) not in index:
-                    index[id(pattern)] = pattern.index(states, self._table.layout)
+                    index[id(pattern)] = pattern.index(states)
                 np.minimum(total + distance[index[id(pattern)]], FAR, out=total)
         return found
 
-    def _patterns(
-        self, views: list["_View"], sizes: list[int], deadline: Deadline, share: Deadline
-    ) -> list[tuple[Pattern, Ints]]:
+    def _patterns(self, sizes: list[int], deadline: Deadline, share: Deadline) -> list[tuple[Pattern, Ints]]:
         """Patterns with their goals: for each field of the goal what it depends on, the nearest first."""
-        found: dict[tuple[int, tuple[int, ...]], tuple[Pattern, Ints]] = {}
+        found: dict[tuple[int, ...], tuple[Pattern, Ints]] = {}
         moves = 0
-        asked = [(v, f, m) for m in sizes for v in views for f in v.goal.conditions]
-        for view, field, most in asked:
+        for most, field in product(sizes, self._goal.conditions):
             if found and (share.reached() is not None or moves > _ALL_MOVES):
                 deadline.check()
                 break
-            fields = view.grown(field, most)
-            if (id(view), fields) in found:
+            fields = self._grown(field, most)
+            if fields in found:
                 continue
             try:
-                pattern = Pattern(view.table, fields, _MOVES * most, deadline)
+                pattern = Pattern(self._table, fields, _MOVES * most, deadline)
             except TooManyMovesError:
                 continue
-            found[id(view), fields] = pattern, pattern.goals(view.goal)
+            found[fields] = pattern, pattern.goals(self._goal)
             moves += len(pattern.source)
         return list(found.values())
+
+    def _grown(self, field: int, most: int) -> tuple[int, ...]:
+        """Fields that a field's changes depend on, and goals that hang together with them."""
+        fields, wanted = self._table.layout.fields, self._goal.conditions
+        chosen, size = [field], fields[field].size
+        while True:
+            strength: dict[int, int] = {}
+            for member in chosen:
+                for other, count in self._causes[member].items():
+                    strength[other] = strength.get(other, 0) + count
+            ways = [f for f in strength if f not in chosen and size * fields[f].size <= most]
+            if not ways:
+                return tuple(sorted(chosen))
+            best = max(ways, key=lambda f: (f in wanted, strength[f], -f))
+            chosen.append(best)
+            size *= fields[best].size
 
     def _dealt(self, patterns: Sequence[tuple[Pattern, Ints]], share: Deadline) -> list[tuple[Pattern, Ints]]:
         """Each pattern takes what it makes use of, and leaves the rest to those after it."""
@@ -167,31 +163,6 @@ class PatternBounds:
             kept.append(k)
             best = np.maximum(best, found[k])
         self._ways = [self._ways[k] for k in kept]
-
-
-class _View:
-    """A layout as patterns are grown in it: its goals, and the fields that change together."""
-
-    def __init__(self, table: OperatorTable, goal: Sequence[int]) -> None:
-        self.table = table
-        self.goal = table.test(goal, ())
-        self.causes = _causes(table)
-
-    def grown(self, field: int, most: int) -> tuple[int, ...]:
-        """Fields that a field's changes depend on, and goals that hang together with them."""
-        fields, wanted = self.table.layout.fields, self.goal.conditions
-        chosen, size = [field], fields[field].size
-        while True:
-            strength: dict[int, int] = {}
-            for member in chosen:
-                for other, count in self.causes[member].items():
-                    strength[other] = strength.get(other, 0) + count
-            ways = [f for f in strength if f not in chosen and size * fields[f].size <= most]
-            if not ways:
-                return tuple(sorted(chosen))
-            best = max(ways, key=lambda f: (f in wanted, strength[f], -f))
-            chosen.append(best)
-            size *= fields[best].size
 
 
 def _walks(table: OperatorTable, start: Words, deadline: Deadline) -> Words:

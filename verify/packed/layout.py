@@ -111,9 +111,11 @@ class PackedLayout:
             rows[row] = filled
         return rows
 
-    def differs(self, other: "PackedLayout") -> bool:
-        """Whether another layout has other fields."""
-        return {field.facts for field in self.fields} != {field.facts for field in other.fields}
+    def values(self, field: int, states: Words) -> NDArray[np.int64]:
+        """The value of a field in each state."""
+        at = self.fields[field]
+        masked: Words = (states[:, at.word] & np.uint64(at.mask)) >> np.uint64(at.shift)
+        return masked.astype(np.int64)
 
     def facts_of(self, row: Words) -> frozenset[int]:
         """The kept facts that are true in a state."""

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import Deadline
-from verify.packed.layout import PackedLayout, WordField, Words
+from verify.packed.layout import PackedLayout, Words
 from verify.packed.operators import FAR, Ints, OperatorTable, Test
 
 _BYTES_A_MOVE: Final = 80
@@ -35,7 +35,6 @@ class Pattern:
         self._strides = list(np.cumprod([1, *self._sizes])[:-1].tolist())
         self.size = int(np.prod(self._sizes, dtype=np.int64))
         self._index = {field: k for k, field in enumerate(fields)}
-        self._read_as: list[tuple[WordField, Ints]] | None = None
         self._write(table, most_moves)
 
     def _write(self, table: OperatorTable, most_moves: int) -> None:
@@ -123,29 +122,12 @@ class Pattern:
         np.maximum.at(found, self.label[reached], drops)
         return found
 
-    def index(self, states: Words, layout: PackedLayout) -> Ints:
-        """The pattern's state that each state looks like.
-
-        Args:
-            layout: theirs; it has the facts of the pattern's own.
-        """
+    def index(self, states: Words) -> Ints:
+        """The pattern's state that each state looks like."""
         found = np.zeros(len(states), np.int64)
-        for field, table in self._reading(layout):
-            value = (states[:, field.word] >> np.uint64(field.shift)) & np.uint64(field.mask >> field.shift)
-            found += table[value.astype(np.int64)]
+        for field, stride in zip(self.fields, self._strides, strict=True):
+            found += self._layout.values(field, states) * stride
         return found
-
-    def _reading(self, layout: PackedLayout) -> list[tuple[WordField, Ints]]:
-        """For each field of a layout that matters, what its values add to the pattern's state."""
-        if self._read_as is None:
-            tables: dict[int, Ints] = {}
-            for field, stride in zip(self.fields, self._strides, strict=True):
-                for value, fact in enumerate(self._layout.fields[field].facts, start=1):
-                    at = layout.place[fact]
-                    size = 1 << layout.fields[at.field].bits
-                    tables.setdefault(at.field, np.zeros(size, np.int64))[at.value] += value * stride
-            self._read_as = [(layout.fields[field], table) for field, table in tables.items()]
-        return self._read_as
 
 
 class TooManyMovesError(Exception):

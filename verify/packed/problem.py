@@ -6,7 +6,7 @@ import numpy as np
 
 from serendipity.model import Deadline
 from verify.limits import limits
-from verify.packed.bounds import Care, PatternBounds, little, much
+from verify.packed.bounds import PatternBounds
 from verify.packed.cheapest_path import PackedSearch, SumTooLargeError, TooManyPackedStatesError
 from verify.packed.layout import Effects, PackedLayout, Words
 from verify.packed.mutexes import ReachablePairs, exclusive_groups
@@ -22,24 +22,17 @@ class StateSpace:
 
     Args:
         actions: all that may ever happen, circles of actions that happen at once included.
-        groups: of facts that may exclude each other.
 
     Raises:
         TooLargeError: there are too many facts or actions.
     """
 
     def __init__(
-        self,
-        facts: int,
-        init: frozenset[int],
-        actions: Sequence[Effects],
-        groups: Iterable[frozenset[int]],
-        deadline: Deadline,
+        self, facts: int, init: frozenset[int], actions: Sequence[Effects], deadline: Deadline
     ) -> None:
         if facts > limits().packed_facts or len(actions) > limits().packed_actions:
             raise TooLargeError
         self._deadline = deadline
-        self._groups = tuple(groups)
         self.pairs = ReachablePairs(facts, init, actions, deadline)
         self.actions = [action for action in deadline.each(actions) if self.pairs.possible(action.pre)]
 
@@ -47,16 +40,6 @@ class StateSpace:
         """Fields for some facts: the largest groups of which no two are true together."""
         facts = tuple(facts)
         return PackedLayout(facts, exclusive_groups(self.pairs, facts, self._deadline), self.actions)
-
-    def other_layout(self, facts: Iterable[int]) -> PackedLayout:
-        """The same by the groups that were given."""
-        alone = [group for group in self._groups if self._exclusive(group)]
-        return PackedLayout(facts, alone, self.actions)
-
-    def _exclusive(self, group: frozenset[int]) -> bool:
-        beside = self.pairs.beside
-        members = sum(1 << fact for fact in group)
-        return all(not beside[fact] & members & ~(1 << fact) for fact in group)
 
 
 class PackedProblem:
@@ -85,8 +68,7 @@ class PackedProblem:
         operators = [each for each in operators if space.pairs.possible(each.pre)]
         if not exact and sum(operator.weight for operator in operators) > limits().weight:
             raise TooLargeError
-        facts = frozenset(facts)
-        self._space, self._facts, self._deadline = space, facts, deadline
+        self._space, self._deadline = space, deadline
         self.layout = space.layout(facts)
         self.table = OperatorTable(self.layout, operators, exact=exact)
         self._wanted = tuple(goal[0])
@@ -131,14 +113,14 @@ class PackedProblem:
 
     def _searched(self, starts: Words, paid: Ints, below: int) -> tuple[PackedSearch, int | None]:
         if self._bounds is None and self.bounded:
-            self._bounds = self._made(starts, little())
+            self._bounds = self._made(starts)
         if not self._careful:
             search = self._search(below, limits().few_states)
             try:
                 search.add(starts, paid)
                 return search, search.run()
             except TooManyPackedStatesError:
-                self._bounds, self._careful = self._made(starts, much()), True
+                self._bounds, self._careful = self._made(starts, careful=True), True
         search = self._search(below, limits().exact_states if self.exact else limits().packed_states)
         search.add(starts, paid)
         return search, search.run()
@@ -153,13 +135,11 @@ class PackedProblem:
         if not self.bounded:
             return np.zeros(len(states), np.int64)
         if self._bounds is None:
-            self._bounds = self._made(states, little())
+            self._bounds = self._made(states)
         return self._bounds(states)
 
     def _search(self, below: int, most_states: int) -> PackedSearch:
         return PackedSearch(self.table, self.goal, self.bounds, self._deadline, below, most_states)
 
-    def _made(self, start: Words, care: Care) -> PatternBounds:
-        other = self._space.other_layout(self._facts)
-        views = [OperatorTable(other, self.table.operators)] if other.differs(self.layout) else []
-        return PatternBounds(self.table, views, self._wanted, start, care, self._deadline)
+    def _made(self, start: Words, *, careful: bool = False) -> PatternBounds:
+        return PatternBounds(self.table, self._wanted, start, self._deadline, careful=careful)
