@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import islice
 
-from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
+from serendipity.model import INFINITE, HumanPlan, Options, Task
 from verify.base.obligations import TIED_MODES
 from verify.base.optimal_plans import OptimalPlans
+from verify.base.plan_graph import OptimalPlanGraph
 from verify.base.subproblem import PricedPlan
 from verify.calls.call import ExaminedCall, Score
 from verify.calls.methods import decide_without_horizon
@@ -112,7 +112,5 @@ def calls(
         return [ExaminedCall(task, options, given, plans, effort)]
     if options.ties == "fixed" or options.mode not in TIED_MODES:
         return [ExaminedCall(task, options, plans.canonical(), plans, effort)]
-    tied: list[HumanPlan | None] = list(islice(plans.plans(), options.max_ties + 1))
-    if len(tied) > options.max_ties:
-        raise UsageError(f"max_ties: the human has more than {options.max_ties} optimal plans")
+    tied: list[HumanPlan | None] = [*OptimalPlanGraph(task, plans, options.max_ties).plans()]
     return [ExaminedCall(task, options, plan, plans, effort) for plan in tied or [None]]

@@ -246,7 +246,7 @@ def _begins_long(question: Subproblem) -> bool:
 def _note(effort: Effort, name: str, found: Minimum, seconds: float) -> None:
     """Keep what a method has made of a question, and tell of it where anybody logs (``verify -v``)."""
     decided = found.status != "undecided"
-    effort.attempts.append(Attempt(name, decided, found.states, seconds))
+    effort.attempts.append(Attempt(name, decided, found.states))
     if "logging" in sys.modules:  # it takes longer to load than many a certificate
         import logging
 

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 from fractions import Fraction
-from typing import NamedTuple
 
 from serendipity.model import HumanPlan, Result, Step
 from serendipity.model.answers.result_parts import TiedAnswer
@@ -14,25 +13,17 @@ from verify.base.undecided import UndecidedError
 from verify.calls.call import ExaminedCall
 from verify.calls.methods import decide
 from verify.calls.results import found_result
-from verify.certificate.each_plan import EachPlan
+from verify.certificate.each_plan import EachPlan, SolvedPlan
 from verify.certificate.simulator import realised_claim
 from verify.rules import Checker
 from verify.rules.replay import replay
-
-
-class AchievedFigures(NamedTuple):
-    """What an answer costs, is worth and saves."""
-
-    cost: Fraction
-    objective: Fraction
-    saving: Fraction | None
 
 
 class NotAchievedError(Exception):
     """An answer can't be had; the text says why."""
 
 
-def achieved(said: TiedAnswer, plan: HumanPlan, each: EachPlan, plans: OptimalPlans) -> AchievedFigures:
+def achieved(said: TiedAnswer, plan: HumanPlan, each: EachPlan, plans: OptimalPlans) -> SolvedPlan:
     """The figures of a listed answer that has a cost.
 
     Args:
@@ -46,17 +37,16 @@ def achieved(said: TiedAnswer, plan: HumanPlan, each: EachPlan, plans: OptimalPl
         return _by_its_plan(said, each.call(plan), plans)
     solved = each.beside(plan)
     if agrees(said.cost, solved.cost) and said.opportunity == solved.opportunity:
-        assert solved.cost is not None and solved.objective is not None, "they agree"
-        return AchievedFigures(solved.cost, solved.objective, solved.saving)
+        return solved
     if agrees(said.cost, each.alone) and not said.opportunity and each.alone is not None:
-        return AchievedFigures(each.alone, each.alone, Fraction(0))
+        return SolvedPlan(each.alone, each.alone, Fraction(0), opportunity=False)
     if solved.cost is None or _is_too_cheap(said, solved.cost, each.call(plan)):
         cost = None if solved.cost is None else float(solved.cost)
         raise NotAchievedError(wording.tie_costs(said.human_plan, cost))
     raise UndecidedError(wording.TIE_WITHOUT_ITS_PLAN)
 
 
-def _by_its_plan(said: TiedAnswer, call: ExaminedCall, plans: OptimalPlans) -> AchievedFigures:
+def _by_its_plan(said: TiedAnswer, call: ExaminedCall, plans: OptimalPlans) -> SolvedPlan:
     deadline, strict = call.effort.deadline, call.options.strict
     sets = replay(call.task, said.plan or (), deadline, strict=strict).sets
     steps = tuple(Step(epoch, i) for epoch, chosen in sets.items() for i in chosen)
@@ -72,7 +62,7 @@ def _by_its_plan(said: TiedAnswer, call: ExaminedCall, plans: OptimalPlans) -> A
     if not agrees(said.cost, call.prices.cost(cost)):
         raise NotAchievedError(wording.tie_costs(said.human_plan, float(call.prices.cost(cost))))
     saving = None if result.saving is None else as_written(result.saving)
-    return AchievedFigures(call.prices.cost(cost), call.prices.cost(objective), saving)
+    return SolvedPlan(call.prices.cost(cost), call.prices.cost(objective), saving, said.opportunity)
 
 
 def _require_realised(call: ExaminedCall, result: Result, plans: OptimalPlans) -> None:

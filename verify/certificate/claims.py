@@ -126,30 +126,28 @@ class Examiner:
 
     def savings(self) -> Verdict | None:
         """Refutes figures that need an optimiser: ``saving`` with ``G_R``, ``saving_alone``."""
+        baseline, result = self.call.baseline, self.result
+        if baseline is None:
+            nothing = result.saving is None and result.saving_alone is None
+            return None if nothing else ("refuted", wording.NOTHING_TO_COMPARE, None)
+        return None if result.plan is None else self._saved(baseline)
+
+    def _saved(self, baseline: int) -> Verdict | None:
+        """The same of a plan, where doing nothing costs so much."""
         call, result = self.call, self.result
-        if call.baseline is None:
-            return self._nothing_to_compare()
-        if result.plan is None:
-            return None
         if self._usual():  # a window in a head start that costs may say less, and is no other plan alone
-            return self._wrong_savings(call.baseline, call.baseline) if result.saving_alone else None
+            return self._wrong_savings(baseline, baseline) if result.saving_alone else None
         idle, cost = call.idle, self._score()[1]
         assert idle is not None
-        fault = self._wrong_savings(call.baseline, idle)
-        if fault is None and not result.opportunity and call.options.windowed and cost != call.baseline:
-            return "refuted", wording.NOTHING_COSTS.format(self._amount(call.baseline)), None
+        fault = self._wrong_savings(baseline, idle)
+        if fault is None and not result.opportunity and call.options.windowed and cost != baseline:
+            return "refuted", wording.NOTHING_COSTS.format(self._amount(baseline)), None
         return fault
 
     def _wrong_savings(self, baseline: int, idle: int) -> Verdict | None:
         """Refutes other figures than what doing nothing, and the human alone at best, cost make of them."""
         fault = savings_fault(self.result, *map(self.call.prices.cost, (baseline, idle, self._score()[1])))
         return None if fault is None else ("refuted", fault, None)
-
-    def _nothing_to_compare(self) -> Verdict | None:
-        """Without a way to do nothing there is no saving."""
-        if self.result.saving is None and self.result.saving_alone is None:
-            return None
-        return "refuted", wording.NOTHING_TO_COMPARE, None
 
     def lower_bound(self) -> Verdict:
         """No answer has an objective below the bound."""

@@ -24,7 +24,7 @@ from verify.proofs.book import ProofReader
 
 @dataclass(frozen=True, slots=True)
 class SolvedPlan:
-    """The proved answer for one optimal ``pi_H``; None where there is no plan."""
+    """The figures of an answer beside one optimal ``pi_H``; None where there is no plan."""
 
     cost: Fraction | None
     objective: Fraction | None

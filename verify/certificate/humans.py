@@ -47,15 +47,10 @@ class HumanExaminer(Examiner):
             return "refuted", wording.NO_CHEAPER.format(self._amount(self._alone)), None
         return None
 
-    def savings(self) -> Verdict | None:
-        """Refutes ``saving`` and ``saving_alone``."""
-        call, result = self.call, self.result
-        if call.baseline is None:
-            return self._nothing_to_compare()
-        if result.plan is None:
-            return None
-        idle = call.baseline if call.robots_goal or self._alone is None else self._alone
-        return self._wrong_savings(call.baseline, idle)
+    def _saved(self, baseline: int) -> Verdict | None:
+        """See :class:`Examiner`."""
+        idle = baseline if self.call.robots_goal or self._alone is None else self._alone
+        return self._wrong_savings(baseline, idle)
 
     def lower_bound(self) -> Verdict:
         """Nothing that happens with the human, and no answer, costs less than the bound."""

@@ -11,7 +11,7 @@ from serendipity.model.numbers import agrees, as_written, excess, rounded
 from verify.base import wording
 from verify.base.obligations import is_mean
 from verify.base.optimal_plans import OptimalPlans
-from verify.certificate.achieved import AchievedFigures, NotAchievedError, achieved
+from verify.certificate.achieved import NotAchievedError, achieved
 from verify.certificate.each_plan import EachPlan, SolvedPlan
 from verify.certificate.savings import savings_fault
 from verify.programs.effort import Effort
@@ -120,7 +120,7 @@ def _unachieved(result: Result, each: EachPlan, plans: OptimalPlans) -> str | No
     one = not is_mean(result) and result.options.ties == "expected"
     if one and result.opportunity and each.graph.count > 1:
         return wording.ONE_OF_SEVERAL
-    found: list[AchievedFigures] = []
+    found: list[SolvedPlan] = []
     for said in listed:
         plan = each.graph.named(said.human_plan)
         own = result.plan is not None and said.human_plan == result.human_plan  # which rules have replayed
@@ -137,7 +137,7 @@ def _unachieved(result: Result, each: EachPlan, plans: OptimalPlans) -> str | No
     return _mean_fault(result, Counter(found))
 
 
-def _mean_fault(result: Result, found: Counter[AchievedFigures]) -> str | None:
+def _mean_fault(result: Result, found: Counter[SolvedPlan]) -> str | None:
     cost, objective = (_mean(found, lambda each: each.cost), _mean(found, lambda each: each.objective))
     if not agrees(result.cost, cost) or not agrees(result.objective, objective):
         return wording.OVER_TIES.format("expected", found.total(), float(cost))

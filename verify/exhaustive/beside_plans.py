@@ -185,16 +185,15 @@ class HelpBesidePlans:
 
     def _merged(self, fronts: list[Front]) -> Front:
         """Each state once, at its least price."""
-        known = LeastPaid(self._layout.words, self._deadline)
-        for front in fronts:
-            known.offer(front.states, front.paid)
+        known = self._table(fronts)
         self.states += len(known.paid)
         return Front(known.states.copy(), known.paid)
 
-    def _worths(self, states: Words, worth: Ints) -> LeastPaid:
-        """The worth of different states, to be looked up by state."""
+    def _table(self, fronts: list[Front]) -> LeastPaid:
+        """The same, to be looked up by state."""
         known = LeastPaid(self._layout.words, self._deadline)
-        known.offer(states, worth)
+        for front in fronts:
+            known.offer(front.states, front.paid)
         return known
 
     def _hopeful(self, front: Front, rest: int) -> Front:
@@ -225,7 +224,7 @@ class HelpBesidePlans:
 
     def _onward(self, states: Words, following: Front, worth: Ints) -> Ints:
         """The least score of one more epoch of the window and what follows."""
-        known = self._worths(following.states, worth)
+        known = self._table([Front(following.states, worth)])
         least = np.full(len(states), FAR)
         for piece in self._team.steps(states):
             rest = known.of(piece.after)
@@ -247,7 +246,7 @@ class HelpBesidePlans:
 
     def _open(self, strands: list[_Strand], opening: Front, worth: Ints) -> None:
         """The worth of windows that open now, beside each strand."""
-        known = self._worths(opening.states, worth)
+        known = self._table([Front(opening.states, worth)])
         for strand in strands:
             if len(strand.front.states):
                 rest = known.of(strand.front.states)

@@ -27,9 +27,6 @@ class PackedSearch:
         bound: what is left from some states, never too much; ``FAR`` where no path leads on.
         below: paths of this weight or more are left out; with a path's last operator it fits into a word,
             unless weights are Python's integers.
-
-    Attributes:
-        least: no path that is still open weighs less.
     """
 
     def __init__(
@@ -55,7 +52,6 @@ class PackedSearch:
         self._by = np.zeros(0, np.int32)
         self._queue: list[int] = []
         self._open: dict[int, list[Ints]] = {}
-        self.least = 0
 
     @property
     def states(self) -> int:
@@ -73,7 +69,6 @@ class PackedSearch:
         """The number of a goal state that is reached with the least weight; None: there is none below."""
         while self._queue:
             total = self._queue[0]
-            self.least = total
             batches = self._open.pop(total, None)
             if batches is None:
                 heappop(self._queue)

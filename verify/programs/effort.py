@@ -64,13 +64,11 @@ class Attempt:
         name: of the method (``verify.calls.methods``).
         decided: whether that was the answer.
         states: how many an exhaustive search looked at.
-        seconds: what it took.
     """
 
     name: str
     decided: bool
     states: int = 0
-    seconds: float = 0.0
 
     @property
     def method(self) -> str:

@@ -19,9 +19,8 @@ are killed where the deadline comes.
 
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from importlib.metadata import version
-from time import perf_counter
 from typing import Final
 
 from serendipity.model import Deadline, LimitReachedError, UsageError
@@ -56,14 +55,12 @@ class SolverOutcome:
         values: one integer per column, or None.
         bound: proved lower bound on the objective, or None.
         reason: why it is undecided.
-        seconds: what it took.
     """
 
     status: str
     values: tuple[int, ...] | None = None
     bound: float | None = None
     reason: str = ""
-    seconds: float = 0.0
 
 
 def solver_version(solver: str) -> str:
@@ -81,14 +78,12 @@ def optimise(model: Model, *, solver: str = "highs", deadline: Deadline | None =
     """
     if solver not in SOLVERS:
         raise UsageError(f"solver: expected one of {', '.join(SOLVERS)}, got {solver!r}")
-    deadline, started = deadline or Deadline(), perf_counter()
     try:
-        outcome = _optimise(model, solver, deadline)
+        return _optimise(model, solver, deadline or Deadline())
     except LIMITS as limit:
-        outcome = SolverOutcome("undecided", reason=_reason(limit_reason(limit), model))
+        return SolverOutcome("undecided", reason=_reason(limit_reason(limit), model))
     except OSError as error:  # no process, no room for a temporary file
-        outcome = SolverOutcome("undecided", reason=f"the solver could not be run: {error.strerror or error}")
-    return replace(outcome, seconds=perf_counter() - started)
+        return SolverOutcome("undecided", reason=f"the solver could not be run: {error.strerror or error}")
 
 
 def _optimise(model: Model, solver: str, deadline: Deadline) -> SolverOutcome:

@@ -93,11 +93,6 @@ class Model:
             yield ModelRow(terms, sense, right)
             start = end
 
-    @property
-    def size(self) -> dict[str, int]:
-        """Numbers of columns and rows, as certificates report them."""
-        return {"variables": len(self.upper), "constraints": len(self.ends)}
-
 
 def largest(model: Model, deadline: Deadline) -> int:
     """The largest absolute value of all numbers in a program."""
