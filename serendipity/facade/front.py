@@ -5,18 +5,21 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
-from typing import Any, Final, Unpack
+from typing import TYPE_CHECKING, Any, Final, Unpack
 
 from serendipity.facade.planning import plan
 from serendipity.model import Certificate, Deadline, PlanOptions, Result, Task, UsageError
 from serendipity.model.arguments import FUNCTION, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.keywords import listing
-from serendipity.model.numbers import as_written, plain
+from serendipity.model.numbers import Number, as_written, plain
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.table import Table, Tabular
 from serendipity.model.task.disturbance import disturbance_from
 from serendipity.model.task.plans import PlanEntry
 from serendipity.model.telling import Grid, Line, Output
+
+if TYPE_CHECKING:
+    from serendipity.recognition import GoalsGiven, LibraryGiven, Noise, ObservedGiven
 
 SCHEMA: Final = "serendipity.front/1"
 
@@ -125,6 +128,11 @@ def front(
     task: Task,
     *,
     human_plan: Iterable[PlanEntry] | None = None,
+    goals: "GoalsGiven | None" = None,
+    observed: "ObservedGiven" = (),
+    beta: Number = 1,
+    plans: "LibraryGiven | None" = None,
+    noise: "Noise | str | None" = None,
     verify: bool = False,
     cancelled: threading.Event | None = None,
     deadline: Deadline | None = None,
@@ -140,6 +148,11 @@ def front(
     Args:
         task: the task.
         human_plan: the human's plan, as for :func:`serendipity.plan`.
+        goals: goals that they may have, likewise; what disturbs them is the most of any scenario then.
+        observed: likewise, as are the next three.
+        beta: of the posterior.
+        plans: that they may follow.
+        noise: of ``observed``.
         verify: whether each point has a certificate.
         cancelled: as for :func:`serendipity.plan`.
         deadline: likewise.
@@ -148,6 +161,7 @@ def front(
 
     Raises:
         UsageError: an option is wrong.
+        InputError: ``goals`` or ``observed`` are wrong; it says where.
     """
     expect(TASK_IN_TIME, task=task)
     expect_or_none(FUNCTION, on_point=on_point)
@@ -159,6 +173,7 @@ def front(
     kinds = disturbance_from(given)
     step = Fraction(1, lcm(kinds.ask.denominator, kinds.meet.denominator, kinds.sight.denominator))
     asked: dict[str, Any] = {"window_weight": 0, **options, "disturbance": given or _text(kinds)}
+    asked |= {"goals": goals, "observed": observed, "beta": beta, "plans": plans, "noise": noise}
     names = None if human_plan is None else tuple(human_plan)
     points: list[FrontPoint] = []
     complete, most = True, None

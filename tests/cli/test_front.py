@@ -1,5 +1,7 @@
 """``serendipity front`` on the command line."""
 
+from pathlib import Path
+
 from tests.cli.conftest import Runs
 
 
@@ -13,3 +15,12 @@ def test_the_front_on_the_command_line(run: Runs) -> None:
     assert wrong.err.startswith(
         "Error: disturbance: expected weights such as ask=1,meet=1,sight=1, got 'nag=1'"
     )
+
+
+def test_the_front_over_goals_on_the_command_line(run: Runs) -> None:
+    Path("goals.txt").write_text("0.5: conducted_triage commx room1\n0.5: at commx hall1\n")
+    asked = "front --example room2 --discount 0.9"
+    shown = run(f"{asked} --goals goals.txt --verify --format csv")
+    assert (shown.code, shown.out.count("proved")) == (0, 2)
+    refused = run(f"{asked} --observed goals.txt")
+    assert (refused.code, "--observed: goes with --goals only" in refused.err) == (2, True)

@@ -61,6 +61,22 @@ def test_each_point_of_a_front_is_proved_and_none_dominated(name: str) -> None:
     assert drawn(front, ".svg").count("<circle") == len(front.points)
 
 
+def test_each_point_of_a_front_over_goals_is_proved() -> None:
+    """What disturbs is the most of either goal; each end is what the single calls say."""
+    task, options = serendipity.example("room2"), {"discount": "0.9", "window_weight": 0}
+    goals = [
+        {"name": "triage", "goal": ["conducted_triage commx room1"]},
+        {"name": "home", "goal": ["at commx hall1"]},
+    ]
+    front = serendipity.front(task, goals=goals, discount="0.9", verify=True)
+    assert front.complete and len(front.points) > 1
+    assert all(point.certificate and point.certificate.verdict == "proved" for point in front.points)
+    assert all(a.disturbance < b.disturbance and a.saving < b.saving for a, b in pairwise(front.points))
+    ends = {0: {"max_disturbance": 0}, -1: {}}
+    for at, most in ends.items():
+        assert front.points[at].result.cost == serendipity.plan(task, goals=goals, **options, **most).cost
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

@@ -21,6 +21,11 @@ def front(
     *,
     task: naming.TaskName,
     options: Annotated[planning.Planning, planning.FRONT],
+    goals: planning.Goals = None,
+    plans: planning.Plans = None,
+    observed: planning.Observed = None,
+    beta: planning.Beta = None,
+    noise: planning.Noise = None,
     picture: Annotated[Path | None, option("--picture FILE", "Also draw it (.svg, .png).")] = None,
     certify: Annotated[bool, option("--verify", "Prove each point, as `verify` does.")] = False,
     limited: limits.Limits,
@@ -28,14 +33,20 @@ def front(
 ) -> int:
     """Say what each saving costs of being left in peace. The exact front, from the most help to none."""
     form = to.prepare(output.DATA)
+    unsure = () if goals is None and plans is None else ("serendipity.facade.scenarios",)
+    if not unsure:
+        planning.require_nothing_observed(observed=observed, beta=beta, noise=noise)
     output.check_output(picture, "--picture")
     if picture is not None and picture.suffix not in _PICTURES:
         raise UsageError(f"--picture: expected a file that ends in {', '.join(_PICTURES)}, got {picture}")
-    deadline = limited.begin("serendipity.facade.front", *limits.PLANNING)
+    deadline = limited.begin("serendipity.facade.front", *unsure, *limits.PLANNING)
     loaded = task.load(deadline)
     given = None if options.human_plan is None else timed_plan(options.human_plan, loaded)
     with progress.working("planning") as on_news, cancelling() as cancelled:
-        asked = options.given | {"human_plan": given, "deadline": deadline, "cancelled": cancelled}
+        asked = options.given | planning.given(
+            goals=goals, plans=plans, observed=observed, beta=beta, noise=noise
+        )
+        asked |= {"human_plan": given, "deadline": deadline, "cancelled": cancelled}
 
         def on_point(point: serendipity.FrontPoint) -> None:
             on_news(f"disturbance {plain(point.disturbance)}", saving=float(point.saving))

@@ -74,9 +74,7 @@ def plan(
         _tell_strategies(expected)
         refuted = proof is not None and proof.verdict == "refuted"
         return _code(expected, cancelled, refuted=refuted)
-    for name, value in (("--observed", observed), ("--beta", beta), ("--noise", noise)):
-        if value is not None:
-            raise UsageError(f"{name}: goes with --goals only")
+    planning.require_nothing_observed(observed=observed, beta=beta, noise=noise)
     result: Result | None
     with progress.working("planning") as on_news, cancelling() as cancelled:
         if anybody:

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Final
 
 from serendipity.cli.choices import option
 from serendipity.cli.groups import Group
-from serendipity.model import Options
+from serendipity.model import Options, UsageError
 from serendipity.model.keywords import CHOICES, InterruptionOptions
 
 _TEXTS: Final[Mapping[str, tuple[str, str]]] = {
@@ -94,9 +94,7 @@ EXPLAINED: Final = (
     *("human_model", "no_block", "waiting_cost", "head_start"),
 )
 """What can be explained."""
-FRONT: Final = tuple(
-    name for name in _ALL if name not in ("max_disturbance", "ties", "max_ties", "policy", "risk")
-)
+FRONT: Final = tuple(name for name in _ALL if name not in ("max_disturbance", "ties", "max_ties"))
 """What a front of saving against disturbance is asked with."""
 _UNKNOWN: Final = (
     *("human_model", "no_block", "policy", "risk", "leave_free", "leave_price"),
@@ -162,6 +160,13 @@ class Planning(Group):
 
 def _shown(name: str) -> Any:
     return _OTHERS[name] if name in _OTHERS else Annotated[str | None, told(name)]
+
+
+def require_nothing_observed(**given: object) -> None:
+    """A UsageError where the human's goal is known, and options say how to tell it."""
+    for name, value in given.items():
+        if value is not None:
+            raise UsageError(f"--{name}: goes with --goals only")
 
 
 def given(**options: object) -> dict[str, Any]:
