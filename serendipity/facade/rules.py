@@ -35,6 +35,7 @@ from serendipity.model.task.horizon import common_horizon
 from serendipity.model.task.leftovers import leftovers
 from serendipity.model.task.metered import Metered
 from serendipity.model.task.noticed import Noticed
+from serendipity.model.task.protected import interfering_plainly, protected
 from serendipity.model.task.single_epochs import epochs
 
 _SHARE: Final = 0.5
@@ -103,15 +104,15 @@ def over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[A
         )
 
     def keeping(_free: Answer) -> Iterator[Answer]:
-        under = [*_under_rules(call, candidates, rules)]
+        under, asked = [*_under_rules(call, candidates, rules)], _plain(call)
         if not any(rule.prices for rule in rules):
-            return _solved(call, under)
+            return _solved(asked, under)
         if call.options.risk != "mean":
-            return at_worst(call, candidates, rules, last, lambda kept: [*_keeping_more(under, kept)])
+            return at_worst(asked, candidates, rules, last, lambda kept: [*_keeping_more(under, kept)])
         idle = next(_solved(call, candidates))
         question = OverScenarios(call.task, call.options, candidates, rules, last, idle)
         return priced(
-            call.options, question, lambda literals, _: _solved(call, [*_keeping_more(under, literals)])
+            call.options, question, lambda literals, _: _solved(asked, [*_keeping_more(under, literals)])
         )
 
     if call.options.risk == "regret":  # what it compares with keeps the rule, too
@@ -215,11 +216,16 @@ def _keeping(
     """
     plan, task = free.human_plan, with_goals(call.task, rule.facts, literals)
     optimum = call.optimum if call.given is not None or plan is None else call.task.cost_of(plan)
-    asked = replace(call, optimum=optimum, predicts=plan is not None, question=None)
+    asked = replace(_plain(call), optimum=optimum, predicts=plan is not None, question=None)
     layers = _Layers(call, task, plan, rule.most if call.task.robot_goal else None)
     given = None if plan is None else layers.plan(plan)
     found = solve(replace(asked, prepared=PreparedTask(layers.task)), given)
     return (_told(layers, answer) for answer in found)
+
+
+def _plain(call: Request) -> Request:
+    """The call for tasks with layers on them."""
+    return replace(call, options=interfering_plainly(call.options))
 
 
 class _Layers:
@@ -240,6 +246,7 @@ class _Layers:
             self._add(self._metered)
         if call.options.max_disturbance is not None:
             self._add(Calm(self.task, original, call.options, call.deadline))
+        self.task = protected(self.task, call.options, len(original.facts))
 
     def _add(self, layer: "Noticed | Metered | Calm") -> None:
         self.task = layer.task

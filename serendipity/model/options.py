@@ -200,9 +200,6 @@ class Options:
                 raise UsageError(f"{name}: is not known of mode 'assistance', nor of humans who replan")
             if self.horizon == INFINITE:
                 raise UsageError(f"{name}: needs a horizon, by which it is to hold")
-        if self.strict and (self.max_disturbance is not None or self.noticed):
-            limit = "noticed" if self.noticed else "max_disturbance"
-            raise UsageError(f"{limit}: does not go with interference strict")
         if self.noticed:
             self._check_noticed()
 

@@ -22,7 +22,7 @@ from tests.search.modes.scenarios.strategies import options_over, scenarios
 from tests.search.modes.scenarios.test_in_time import library
 
 _FREE = st.sampled_from([None, None, "at *"])
-_PLAIN = {"suffix": "replan", "preservation": "kernel", "interference": "paper"}
+_PLAIN = {"suffix": "replan", "preservation": "kernel"}
 _RULES: dict[str, st.SearchStrategy[dict[str, Any]]] = {
     "noticed": st.fixed_dictionaries({"noticed": st.just(True), "leave_free": _FREE}).map(_PLAIN.__or__),
     "disturbance": st.fixed_dictionaries(
@@ -30,7 +30,6 @@ _RULES: dict[str, st.SearchStrategy[dict[str, Any]]] = {
             "max_disturbance": st.sampled_from([0, "0.5", 1, 2]),
             "disturbance": st.sampled_from([None, "ask=2", "sight=1", "meet=1, ask=0.5"]),
             "leave_free": _FREE,
-            "interference": st.just("paper"),
         }
     ),
     "leftovers": st.fixed_dictionaries(

@@ -7,6 +7,7 @@ from serendipity.model import Condition, Deadline, HumanPlan, Options, Task
 from serendipity.model.task.disturbance import Weighed, disturbance_from
 from serendipity.model.task.metered import Metered
 from serendipity.model.task.noticed import Noticed
+from serendipity.model.task.protected import protected
 
 
 class Layers:
@@ -40,7 +41,7 @@ class Layers:
             weighed = Weighed(task, disturbance_from(options.disturbance), original)
             calm = Metered(weighed.task, options.max_disturbance, deadline, weighed.weights, "disturbed")
             task = self._under(calm.task, lambda ids: [weighed.original[i] for i in calm.back(ids)])
-        self.task = task
+        self.task = protected(task, options, len(original.facts))
 
     def _under(self, task: Task, back: Callable[[Sequence[int]], Sequence[int]]) -> Task:
         self.original = [self.original[i] for i in back(range(len(task.actions)))]

@@ -15,6 +15,7 @@ from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.disturbance import disturbance_from
 from serendipity.model.task.gate import is_bound, nobody_pays
 from serendipity.model.task.leftovers import leftovers
+from serendipity.model.task.protected import interfering_plainly
 from serendipity.model.task.visibility import surroundings
 from verify.base import wording
 from verify.base.beside_script import alone_of
@@ -87,10 +88,11 @@ def under_the_rule(
     def bound(kept: Iterable[int] = ()) -> Task:
         return bound_task(task, result.options, rule, kept, plan, original, deadline)
 
+    plain = replace(result, options=interfering_plainly(result.options))
     binds = result.statistics.get("rule_binds")
     if rule.prices and (binds or left(rule.prices, last_state(task, result))):
-        return _priced_claims(task, result, rule, bound, examine, solve)
-    return tuple(examine(bound() if binds else task, result))
+        return _priced_claims(task, plain, rule, bound, examine, solve)
+    return tuple(examine(bound(), plain) if binds else examine(task, result))
 
 
 def fault_of(
@@ -128,7 +130,7 @@ def _claims_over_ties(
         free = solve(task, asked, named(plan))
         if free is None or fault_of(task, free, rule, plan, original, deadline) is None:
             return free
-        return solve(under, asked, named(plan))
+        return solve(under, interfering_plainly(asked), named(plan))
 
     def named(plan: HumanPlan) -> tuple[str, ...]:
         return tuple(task.actions[i].name for i in plan)
@@ -157,7 +159,12 @@ def _claims_over_ties(
     if result.plan is not None and result.human_plan is not None:
         _, under = bound(replay_human(task, result.human_plan, deadline))
         said = replace(
-            result, options=asked, status="feasible", lower_bound=0.0, ties=None, optimal_plans=None
+            result,
+            options=interfering_plainly(asked),
+            status="feasible",
+            lower_bound=0.0,
+            ties=None,
+            optimal_plans=None,
         )
         claims = {claim.claim: claim for claim in examine(under, said) if claim.claim not in UNPRICED}
     own = (Claim(name, verdict, wording.RULE_BESIDE_EACH) for name in needed(result) if name not in claims)

@@ -11,6 +11,7 @@ from serendipity.model.answers.certificate import ClaimVerdict
 from serendipity.model.answers.fields import MalformedError
 from serendipity.model.answers.result_parts import GoalAnswer
 from serendipity.model.task.gate import is_bound
+from serendipity.model.task.protected import interfering_plainly
 from verify.base import wording
 from verify.base.beside_script import alone_of
 from verify.base.obligations import BY_RULES, needed
@@ -95,6 +96,8 @@ def claims_over_scenarios(
         ties = "fixed" if result.options.ties == "watched" else result.options.ties
         known = replace(result, goals=None, recognition=None, options=result.options.but(ties=ties))
         return tuple(certain(task.with_goal(chosen[0].goal), known))
+    if any(one.original for one in aimed):
+        result = replace(result, options=interfering_plainly(result.options))
     lines = timelines(aimed, result, served, deadline)
     claims = tuple(_claims_by_rules(result, lines, origin))
     return *claims, *_beyond_rules(result, lines, claims, proved)
