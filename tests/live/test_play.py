@@ -12,6 +12,7 @@ import serendipity
 from serendipity.cli.app import main
 from serendipity.live.play.application import Room
 from serendipity.live.play.labels import DomainLabels, labels_for
+from serendipity.live.play.map_view import Knowledge
 from serendipity.live.play.records import as_csv, read
 from serendipity.live.play.round import RoundSetting
 from serendipity.live.play.rounds import SharedRounds
@@ -20,6 +21,7 @@ from serendipity.scenarios.examples import EXAMPLES
 from serendipity.testing.builders import task as build
 from tests.live.play_tasks import DOMAIN, TAKE, two_goals, with_third_kit
 from tests.live.server import serving
+from tests.search.time.test_people_who_see_what_is_near import kitchen
 
 TO_HALL4 = [f"go to hall{i}" for i in (8, 7, 6, 5, 4)]
 TO_ROOM1 = ["go to hall3", "go to hall2", "go to hall1", "go to room1", "give treatment in room1"]
@@ -359,7 +361,25 @@ def test_bystanders_are_seen_once_they_begin() -> None:
     assert seen == ["Carl: walk to the lobby", "Carl: take the lift to the landing"]
 
 
-@pytest.mark.parametrize(("changes", "said"), [({"view": "local"}, "local"), ({"goals": []}, "goals")])
-def test_what_is_not_played_in_time_is_said(changes: dict[str, Any], said: str) -> None:
-    with pytest.raises((UsageError, InputError), match=said):
-        SharedRounds(setting(task=serendipity.example("morning"), **changes)).view()
+def test_what_somebody_on_the_way_knows_of_a_day() -> None:
+    """It was refused.  They are not there before the walk is over, and see then what the robot has cooked."""
+    task = kitchen(walk=3)
+    table = SharedRounds(RoundSetting("dinner", task, Fraction(1, 2), view="local"))
+    known, run = Knowledge(task, "local"), serendipity.Execution(task, discount=0.5, human_model="local")
+    walk = task.actions[task.named["walk ann hall kitchen"][0]]
+    there = []
+    for epoch in range(3):
+        run.step(None if epoch else walk.name)
+        view = go(table, table.view()["can"][0]["text"])
+        known.look(run.now, None if epoch else walk)
+        there.append(task.facts.index("at ann kitchen") in known.belief)
+    assert there == [False, False, True] and not view["busy"]
+    while "warm soup" not in run.facts:
+        run.step(None)
+        known.look(run.now, None)
+    assert known.belief == run.state
+
+
+def test_what_is_not_played_in_time_is_said() -> None:
+    with pytest.raises((UsageError, InputError), match="goals"):
+        SharedRounds(setting(task=serendipity.example("morning"), goals=[])).view()

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from serendipity.facade.person.sight import Sight
 from serendipity.model import GroundAction, Options, Result, Task, surroundings
 from serendipity.model.task.actions import apply
 from serendipity.pictures.formats.svg import svg
@@ -20,6 +21,7 @@ class Knowledge:
     def __init__(self, task: Task, view: str) -> None:
         self._human = task.human
         self._around = surroundings(task) if view == "local" else None
+        self._sight = Sight(task) if view == "local" and task.needs_time else None
         self._all = range(len(task.facts))
         self._values = [frozenset(v.facts) for v in task.variables if not v.boolean]
         self.belief = task.init
@@ -33,12 +35,18 @@ class Knowledge:
         """Whether they see in a state if a fact is true."""
         return self._around is None or self._around.visible(self._human, fact, state)
 
-    def look(self, state: frozenset[int], done: GroundAction | None) -> None:
-        """Take in an epoch."""
+    def look(self, now: Task, done: GroundAction | None) -> None:
+        """Take in an epoch.
+
+        Args:
+            now: the task as it stands after it.
+            done: what the person did, or began.
+        """
+        state = now.init
         if self._around is None or not self._around.located:
             self.belief = state
             return
-        expected = self.belief if done is None else apply(self.belief, done)
+        expected = self._expected(now, done)
         near = self._around.near(self._human, state)
         seen = {fact for fact in self._all if not self._around.parts[fact].isdisjoint(near)}
         known = state & seen
@@ -46,6 +54,16 @@ class Knowledge:
             if not values.isdisjoint(known):
                 expected -= values
         self.belief = (expected - seen) | known
+        if self._sight is not None:
+            self._sight.believed = self._sight.believed.at(self.belief)
+
+    def _expected(self, now: Task, done: GroundAction | None) -> frozenset[int]:
+        """What they take to be true after an epoch; in time what has begun, and the script, go on."""
+        if self._sight is None:
+            return self.belief if done is None else apply(self.belief, done)
+        self._sight.passed(() if done is None else (done,))
+        self._sight.look(now)
+        return self._sight.believed.init
 
 
 class MapView:

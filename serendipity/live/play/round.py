@@ -156,7 +156,7 @@ class Round:
         near, before, now = self._map.here, self.run.state, self.run.now
         passed = self.run.step(action)
         own = next((step for step in passed.steps if self.human in step.agents), None)
-        self._known.look(self.run.state, None if own is None else self._ground(own, before))
+        self._known.look(self.run.now, None if own is None else self._ground(own, before))
         self._map.look()
         told = self._told(passed, near)
         told["others"] += self._clock.happened(now)
