@@ -57,6 +57,11 @@ static void a_star_free(AStar *s) {
 /* What is left from a node, at least, for an optimal plan that comes by it. */
 static Cost left_from(const Node *node) { return node->exact || node->onward < node->rest ? node->rest : node->onward; }
 
+/* Whether a node costs in all, at least, what its entry in the queue says. */
+static int is_up_to_date(const Node *node, Cost total) {
+    return left_from(node) < INFINITE_COST && node->spent + left_from(node) == total;
+}
+
 static void open_node(AStar *s, int32_t id) {
     Node *node = node_of(&s->table, id);
     if (left_from(node) == INFINITE_COST) return;
@@ -253,7 +258,7 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
     while (s->open.count) {
         Entry entry = s->open.at[0];
         Node *node = node_of(&s->table, entry.item);
-        if (node->closed || entry.key != node->spent + left_from(node)) {
+        if (node->closed || !is_up_to_date(node, entry.key)) {
             heap_pop(&s->open);
             continue;
         }
@@ -269,11 +274,11 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
         }
         if (!landmarks_reserve(&s->evaluator.lm_cut.landmarks, &s->table)) return MEMORY;
         look_up(&s->evaluator, p, node, state);
-        if (node->evaluated < N_TURNS && left_from(node) < INFINITE_COST && node->spent + left_from(node) == entry.key)
+        if (node->evaluated < N_TURNS && is_up_to_date(node, entry.key))
             evaluate(&s->evaluator, p, s->relaxation, &s->table, node, state);
-        if (node->evaluated == N_TURNS && node->rest < INFINITE_COST && node->spent + left_from(node) == entry.key)
+        if (node->evaluated == N_TURNS && is_up_to_date(node, entry.key))
             evaluate_onward(&s->evaluator, p, s->relaxation, node, state);
-        if (left_from(node) == INFINITE_COST || node->spent + left_from(node) != entry.key) {
+        if (!is_up_to_date(node, entry.key)) {
             heap_pop(&s->open);
             open_node(s, entry.item);
             continue;

@@ -104,7 +104,7 @@ static int64_t keep_set(Landmarks *l, const Ints *found, int32_t turn, int64_t b
     int32_t *to = l->sets + place % l->room;
     to[0] = (int32_t)found->count, to[1] = turn;
     memcpy(to + 2, &before, sizeof before);
-    memcpy(to + SET, found->at, found->count * sizeof *to);
+    if (found->count) memcpy(to + SET, found->at, found->count * sizeof *to);
     l->end += count;
     return place;
 }
