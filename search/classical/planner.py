@@ -144,17 +144,17 @@ class ClassicalPlanner:
             on_bound: told now and then what no plan is cheaper than.
             before: an operator that leads to the state: only such plans matter as go on from it optimally.
         """
-        self._asked, self._is_open, self._most, self._floor = state & self._mask, False, limit, 0
-        self._before = before
+        self._asked, self._most, self._floor, self._before = state & self._mask, limit, 0, before
         self._begin(deadline)
-        self._is_open = True
         return self.go_on(deadline, on_bound)
 
     def _begin(self, deadline: Deadline) -> None:
         assert self._asked is not None, "a question was asked"
         kernel, planner, before = self._kernel, self._planner, self._before
         row, most = self.told.row(self._asked), self.problem.limit(self._most)
+        self._is_open = False
         self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
+        self._is_open = True
 
     def go_on(self, deadline: Deadline, on_bound: Callable[[int], None] | None = None) -> int:
         """What the last :meth:`cheapest` would have said, where a limit came first: it goes on from there.
