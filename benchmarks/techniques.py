@@ -23,8 +23,7 @@ KERNEL: Final = {
     "third LM-cut": 8,
     "stubborn sets": 16,
     "lookahead": 32,
-    "cost partitioning": 64,
-    "like fields": 128,
+    "like fields": 64,
 }
 """By name what the kernel's ``leave_out`` takes, see ``values.h``."""
 

@@ -77,14 +77,6 @@ BOUNDS: Final = (
         "joint-optimum; all-plans where goals are shared; the human alone",
     ),
     LowerBound(
-        "cost partitioning over projections",
-        "search.classical.patterns:patterns",
-        "saturated cost partitioning, Seipp, Keller and Helmert 2020",
-        "as LM-cut",
-        "the kernel; tables of projections, once a question has taken long enough",
-        "the kernel's A*",
-    ),
-    LowerBound(
         "symbolic bidirectional search",
         "search.classical.symbolic:cheapest_plan",
         "Torralba, Alcazar, Kissmann and Edelkamp 2017",

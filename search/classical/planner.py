@@ -1,8 +1,8 @@
 """The kernel on one classical problem: optimal costs, lower bounds, a first plan.
 
 What it learns of states serves later questions: exact costs along plans, and of every state that was
-expanded that it costs no less than what was left then (Koenig and Likhachev 2005).  It begins with LM-cut
-alone; tables of projections follow once a question turns out to be worth them.
+expanded that it costs no less than what was left then (Koenig and Likhachev 2005).  A question that turns
+out to be hard goes to symbolic search for a while.
 """
 
 import ctypes
@@ -13,7 +13,6 @@ from typing import Final
 
 from search.classical.encoded_problem import EncodedProblem, memory_for
 from search.classical.like_fields import like_fields, told
-from search.classical.patterns import patterns
 from search.classical.problem import ClassicalProblem
 from search.engine.astar import AStar
 from search.packed.cost_vector import INFINITE_KEY
@@ -30,22 +29,11 @@ ROOM: Final = 1 << 24
 _SOME: Final = 200
 """Evaluations after which it is worth its time to find out what is alike."""
 
-_MANY: Final = 4_000
-"""Evaluations after which tables are worth their time."""
-
-_SHARE: Final = 0.25
-"""What of the time that is left they may take."""
-
 _MUCH_WORK: Final = 100_000_000
 """Evaluations times operators, two to four seconds, after which symbolic search has its turn."""
 
 _SYMBOLIC_SHARE: Final = 0.5
 """What of the time that is left it may take."""
-
-_MOST_STATES: Final = 10_000
-_MOST_TRANSITIONS: Final = 3_000_000
-_MOST_ORDERS: Final = 10
-_SAMPLES: Final = 8
 
 _NONE: Final = -1
 """No operator."""
@@ -110,7 +98,7 @@ class ClassicalPlanner:
         self._planner = self._kernel.planner_new(ctypes.byref(self.told.spec))
         if not self._planner:
             raise LimitReachedError("memory-limit")
-        self._tables, self._tried = False, 0.0
+        self._tried = 0.0
         self._tell_alike()
         self._asked: int | None = None
         self._most = INFINITE_KEY
@@ -173,7 +161,6 @@ class ClassicalPlanner:
                 on_bound(self.least)
             if self._alike is None and self.counts()[2] >= _SOME and self.alike(deadline):
                 self._begin(deadline)
-            self.prepare(deadline)
             if self._is_settled_symbolically(deadline, on_bound):
                 break
         found = self._unbounded(deadline) if outcome == _UNFIT else self.least
@@ -364,35 +351,3 @@ class ClassicalPlanner:
             fields = told(self._alike)
             if not self._kernel.planner_alike(self._planner, fields.buffer_info()[0], len(fields)):
                 raise LimitReachedError("memory-limit")
-
-    # -- tables
-
-    def prepare(self, deadline: Deadline) -> None:
-        """Make tables, if they are worth their time by now."""
-        if not self._tables and self.counts()[2] >= _MANY:
-            self._tables = True
-            self._make_tables(deadline)
-
-    def _make_tables(self, deadline: Deadline) -> None:
-        """Projections that add up, as many as there is time for."""
-        kernel, planner = self._kernel, self._planner
-        part, problem = deadline.part(_SHARE), self.problem
-        chosen = patterns(problem.fields, problem.operators, problem.goal, _MOST_STATES, part)
-        room, made = _MOST_TRANSITIONS, 0
-        try:
-            for pattern in chosen:
-                part.check()
-                part.require(_MOST_TRANSITIONS)
-                numbers = array("i", pattern)
-                taken = kernel.planner_pattern(planner, numbers.buffer_info()[0], len(pattern), room)
-                if taken >= 0:
-                    room, made = room - taken, made + 1
-            if made and (samples := kernel.planner_samples(planner, _SAMPLES)) > 0:
-                orders = 0
-                for sample in range(samples):
-                    part.check()
-                    orders += max(0, kernel.planner_order(planner, sample))
-                    if orders >= _MOST_ORDERS:
-                        break
-        except LimitReachedError:
-            deadline.check()

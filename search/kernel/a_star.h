@@ -186,12 +186,10 @@ static int a_star_begin(AStar *s, const Word *state, int32_t before, Cost limit,
     s->least = 0;
     grant(&s->table, allowed);
     if (!reserve(&s->table, 1) || !heap_reserve(&s->open, 1, &s->table)) return MEMORY;
-    int is_new, moved;
     copy_row(s, s->asked, state), copy_row(s, s->row, state);
-    moved = represent(s->problem, &s->alike, s->row);
-    s->start = find(&s->table, s->row, &is_new);
+    int moved = represent(s->problem, &s->alike, s->row);
+    s->start = find(&s->table, s->row, NULL);
     Node *node = node_of(&s->table, s->start);
-    if (is_new) look_up(&s->evaluator, s->problem, node, s->row);
     s->limit = limit, s->cut_off = s->unfit = 0, s->serial = 0, s->has_plan = 0, s->nearest = INFINITE_COST;
     s->stamp++;
     node->stamp = s->stamp, node->spent = 0, node->closed = 0, node->parent = NONE, node->op = before;
@@ -229,12 +227,11 @@ static void expand(AStar *s, int32_t id) {
     for (size_t i = 0; i < s->applicable.count; i++) {
         int32_t op = s->applicable.at[i];
         apply(p, op, state, s->row);
-        int is_new, moved = represent(p, &s->alike, s->row);
-        int32_t next = find(&s->table, s->row, &is_new);
+        int moved = represent(p, &s->alike, s->row);
+        int32_t next = find(&s->table, s->row, NULL);
         Node *after = node_of(&s->table, next);
         s->generated++;
         Cost spent = plus(node->spent, p->weight[op]);
-        if (is_new) look_up(&s->evaluator, p, after, s->row);
         if (after->stamp == s->stamp && after->spent <= spent) {
             if (after->spent == spent) come_by(s, next, op, moved);
             continue;
@@ -273,7 +270,6 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
             break;
         }
         if (!landmarks_reserve(&s->evaluator.lm_cut.landmarks, &s->table)) return MEMORY;
-        look_up(&s->evaluator, p, node, state);
         if (node->evaluated < N_TURNS && is_up_to_date(node, entry.key))
             evaluate(&s->evaluator, p, s->relaxation, &s->table, node, state);
         if (node->evaluated == N_TURNS && is_up_to_date(node, entry.key))
@@ -296,23 +292,15 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
     return reserve(&s->table, (int32_t)s->plan.count + 1) ? finish(s, FOUND, s->limit) : MEMORY;
 }
 
-/* What projections say of a state, which is not kept, or something that is enough. */
-static Cost glanced(const AStar *s, const Word *state, Cost enough) {
-    const Projections *all = &s->evaluator.projections;
-    return all->n_orders ? projected(all, s->problem, state, enough) : 0;
-}
-
 /* Lower bound from a state; -1 where memory is missing.  A search that is under way goes on with what it says. */
 static Cost a_star_bound(AStar *s, const Word *asked, size_t allowed) {
     grant(&s->table, allowed);
     if (!reserve(&s->table, 1) || !landmarks_reserve(&s->evaluator.lm_cut.landmarks, &s->table)) return -1;
-    int is_new;
     copy_row(s, s->like, asked);
     represent(s->problem, &s->alike, s->like);
-    int32_t id = find(&s->table, s->like, &is_new);
+    int32_t id = find(&s->table, s->like, NULL);
     Node *node = node_of(&s->table, id);
     const Word *state = state_of(&s->table, id);
-    if (is_new) look_up(&s->evaluator, s->problem, node, state);
     if (!node->evaluated && node->rest < INFINITE_COST) {
         int is_open = s->stamp && node->stamp == s->stamp && !node->closed;
         if (is_open && !heap_reserve(&s->open, 1, &s->table)) return -1;
@@ -320,17 +308,4 @@ static Cost a_star_bound(AStar *s, const Word *asked, size_t allowed) {
         if (is_open) open_node(s, id); /* its entry in the queue is no longer true */
     }
     return node->rest;
-}
-
-/* States for which orders of projections are chosen, the start and others that were met: how many; -1: no memory. */
-static int a_star_samples(AStar *s, int32_t most) {
-    Projections *all = &s->evaluator.projections;
-    size_t words = (size_t)s->problem->words;
-    int32_t count = s->table.count < most ? s->table.count : most;
-    if (!samples_new(all, s->problem, count)) return -1;
-    for (int32_t i = 0; i < count; i++) {
-        int32_t id = i ? (int32_t)((int64_t)i * s->table.count / count) : s->start;
-        memcpy(all->samples + (size_t)i * words, state_of(&s->table, id), words * sizeof(Word));
-    }
-    return count;
 }

@@ -6,7 +6,6 @@
 
 #include <stdlib.h>
 #include "a_star.h"
-#include "cost_partitioning.h"
 #include "epoch_ways.h"
 #include "epochs.h"
 #include "greedy_search.h"
@@ -112,16 +111,6 @@ API size_t planner_wanted(const Planner *s) {
 API void planner_counts(const Planner *s, int64_t *counts) {
     counts[0] = s->a_star.expanded, counts[1] = s->a_star.generated;
     counts[2] = s->a_star.evaluator.evaluated + s->greedy.evaluated;
-}
-
-/* Tables for the optimal search: projections, then samples, then an order for one sample after another. */
-API int64_t planner_pattern(Planner *s, const int32_t *fields, int32_t count, int64_t most_transitions) {
-    if (left_out & PARTITIONING) return -1;
-    return projections_add(&s->a_star.evaluator.projections, &s->problem, fields, count, most_transitions);
-}
-API int planner_samples(Planner *s, int32_t most) { return a_star_samples(&s->a_star, most); }
-API int planner_order(Planner *s, int32_t sample) {
-    return add_order(&s->a_star.evaluator.projections, &s->problem, sample);
 }
 
 /* States epoch by epoch, and what follows them (search/timetable/epochs.py): `after` is for what comes then, and stays. */

@@ -197,11 +197,6 @@ static Cost weighed(const Epochs *e, Cost rest) {
     return (rest >> COST_SHIFT) * e->unit * ((Cost)1 << COST_SHIFT) + (rest & (((Cost)1 << COST_SHIFT) - 1));
 }
 
-/* What is too dear after so much was paid, in units of what follows. */
-static Cost enough(const Epochs *e, Cost paid) {
-    return e->limit == INFINITE_COST ? e->limit : (((e->limit - paid) >> COST_SHIFT) / e->unit + 1) << COST_SHIFT;
-}
-
 static int too_dear(const Epochs *e, Cost paid, Cost rest) { return rest == INFINITE_COST || paid + rest >= e->limit; }
 
 static int leave(Epochs *e, Cost paid, Cost total, int32_t end) {
@@ -237,7 +232,7 @@ static int take_end(Epochs *e, const Word *state, Cost paid) {
         e->hopeless = too_dear(e, paid, node->rest);
         return 1;
     }
-    if (is_new) node->spent = INFINITE_COST, node->rest = weighed(e, glanced(e->after, e->row, enough(e, paid)));
+    if (is_new) node->spent = INFINITE_COST;
     if (!node->evaluated && !too_dear(e, paid, node->rest)) {
         if (!has_time(e)) return 0;
         Cost rest = a_star_bound(e->after, e->row, t->allowed);

@@ -1,4 +1,4 @@
-/* Lower bounds of nodes: what projections and LM-cut say, when LM-cut is asked, and what follows for successors.
+/* Lower bounds of nodes: what LM-cut says, when it is asked, and what follows for successors.
 
    Source of the last: landmarks of a state hold after an operator that is not in them; after Pommerening and Helmert,
    Incremental LM-cut (2013). */
@@ -6,7 +6,6 @@
 #pragma once
 
 #include <stdlib.h>
-#include "cost_partitioning.h"
 #include "intended_effects.h"
 #include "landmarks.h"
 #include "lm_cut.h"
@@ -21,7 +20,6 @@ enum { ANEW = N_PRIORITIES, TRIALS = 500, SELDOM = 20 };
 
 typedef struct {
     LmCut lm_cut;
-    Projections projections;
     Intentions intentions;
     /* how often LM-cut was asked, by turns and for an operator alone, said more than what was known, and was not asked */
     int64_t asked[N_TURNS + 1], raised[N_TURNS + 1], skipped[N_TURNS + 1];
@@ -35,15 +33,7 @@ static int evaluator_new(Evaluator *s, const RelaxedProblem *x, const Problem *p
 }
 
 static void evaluator_free(Evaluator *s) {
-    lm_cut_free(&s->lm_cut), projections_free(&s->projections), intentions_free(&s->intentions), free(s->rests);
-}
-
-/* What projections say of a node, once. */
-static void look_up(const Evaluator *s, const Problem *p, Node *node, const Word *state) {
-    if (node->projected || !s->projections.n_orders) return;
-    node->projected = 1;
-    Cost rest = projected(&s->projections, p, state, INFINITE_COST);
-    if (rest > node->rest) node->rest = rest, node->exact = rest == INFINITE_COST;
+    lm_cut_free(&s->lm_cut), intentions_free(&s->intentions), free(s->rests);
 }
 
 /* Whether it is worth asking: one that seldom said more is asked now and then only. */

@@ -14,10 +14,8 @@
      intended_effects                      operators that optimal plans need after others
      lm_cut, relaxed_plan                  bounds and first steps from the delete relaxation: LM-cut, FF
      landmarks                             what LM-cut has found of states, for those after them
-     cost_partitioning                     bounds from projections that add up
      relaxation, relaxed_problem           the problem without deletes, explored from a state
      fact_queue                            facts that wait meanwhile
-     projection                            the problem on a few of its fields
      state_table, successor_generator      states that were met; applicable operators
      like_fields                           states that stand for others
      problem, heap, lists, values          operators, costs and goal; what all are made of */

@@ -19,8 +19,8 @@ typedef struct {
     int64_t landmarks; /* where its last set is, or NONE, see landmarks.h */
     int32_t parent, op;
     uint32_t stamp;
-    uint8_t exact, evaluated, closed, projected : 1;
-    uint8_t renamed : 1; /* whether it stands for what `op` makes of the parent, see like_fields.h */
+    uint8_t exact, evaluated, closed;
+    uint8_t renamed; /* whether it stands for what `op` makes of the parent, see like_fields.h */
 } Node;
 
 typedef struct {
@@ -137,14 +137,14 @@ static int32_t find(Table *t, const Word *state, int *is_new) {
     size_t i = hash(state, t->words) & (t->n_slots - 1);
     for (; t->slots[i] != NONE; i = (i + 1) & (t->n_slots - 1))
         if (is_same(state_of(t, t->slots[i]), state, t->words)) {
-            *is_new = 0;
+            if (is_new) *is_new = 0;
             return t->slots[i];
         }
     int32_t id = t->count++;
     t->slots[i] = id;
     memcpy(state_of(t, id), state, (size_t)t->words * sizeof *state);
     *node_of(t, id) = (Node){.landmarks = NONE, .parent = NONE, .op = NONE};
-    *is_new = 1;
+    if (is_new) *is_new = 1;
     return id;
 }
 

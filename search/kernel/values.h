@@ -21,7 +21,7 @@ enum { RUNNING, FOUND, NOT_BELOW, HOPELESS, MEMORY, UNFIT };
 
 /* What A* can be told to leave out, added up, so that it is seen what each is good for; answers stay. */
 enum { INTENDED_EFFECTS = 1, HANDED_DOWN = 2, SECOND_CUTS = 4, THIRD_CUTS = 8, STUBBORN_SETS = 16, LOOKAHEAD = 32 };
-enum { PARTITIONING = 64, LIKE_FIELDS = 128 };
+enum { LIKE_FIELDS = 64 };
 static int left_out;
 
 /* A sum of costs that are MOST_COST at most. */

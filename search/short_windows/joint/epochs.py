@@ -161,7 +161,6 @@ class Epochs:
         self._is_under_way, outcome = True, RUNNING
         while outcome == RUNNING and self.states <= most:
             deadline.check()
-            self._after.prepare(deadline)
             outcome = self._allowed(lambda room: kernel.epochs_slice(epochs, limit, SLICE, room), deadline)
         self._is_under_way = outcome != FOUND
         self.is_hopeless = outcome not in (RUNNING, FOUND)

@@ -44,17 +44,6 @@ def assert_leads_to_goal(packed: PackedTask, state: int, numbers: list[int]) -> 
 
 
 @given(tasks())
-def test_tables_never_exceed(task: Task) -> None:
-    packed = packed_of(task)
-    planner, costs = planner_of(packed), exact(packed)
-    planner.cheapest(packed.init, Deadline(), limit=1)  # the start is a sample
-    planner._make_tables(Deadline())
-    for state, cost in costs.items():
-        assert planner.bound(state, Deadline()) <= cost
-        assert planner.cheapest(state, Deadline()) == cost
-
-
-@given(tasks())
 def test_a_new_planner_finds_the_optimum(task: Task) -> None:
     packed = packed_of(task)
     planner, cost = planner_of(packed), exact(packed)[packed.init]
