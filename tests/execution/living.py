@@ -7,7 +7,6 @@ from typing import Any
 from serendipity.execution import Execution, LogLine, Omniscient, Person, log_lines, moment_of
 from serendipity.model import Condition, Task
 from verify.base.optimal_plans import OptimalPlans
-from verify.certificate.simulator.person import ReplanningPerson as Oracle
 
 MOST_EPOCHS = 60
 
@@ -55,7 +54,7 @@ def live(
         predicted: whether what the person has in mind is what robots take them to follow.
         sees_all: whether they see at once that there is something cheaper, so that they drop their plan.
     """
-    oracle = Oracle(task, OptimalPlans(task))
+    oracle = OptimalPlans(task)
     alone = oracle.cost(task.init)
     if alone is None:
         return

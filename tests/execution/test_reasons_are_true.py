@@ -6,7 +6,6 @@ import serendipity
 from serendipity.testing.generator import random_call
 from tests.execution.reasons import untrue
 from verify.base.optimal_plans import OptimalPlans
-from verify.certificate.simulator.person import ReplanningPerson as Oracle
 
 PEOPLE = ("observant", "local", "noisy:0.3", "omniscient")
 
@@ -20,7 +19,7 @@ def test_in_random_runs(human: str, faults: str | None, seeds: range) -> None:
     kinds = set()
     for seed in seeds:
         task = random_call(seed).task
-        oracle = Oracle(task, OptimalPlans(task))
+        oracle = OptimalPlans(task)
         discount = ("0.5", "0.9")[seed % 2]
         options = {"discount": discount, "faults": faults, "epochs": 30, "leave_free": "*"}
         runs = serendipity.execute(task, human, seed=seed, **options)

@@ -15,7 +15,6 @@ from serendipity.testing.builders import task as build
 from serendipity.testing.strategies import tasks
 from tests.execution.living import GOALS, ROOMS, aiming_at, live, lived, other_goals, told, verdicts
 from verify.base.optimal_plans import OptimalPlans
-from verify.certificate.simulator.person import ReplanningPerson as Oracle
 
 
 @pytest.mark.parametrize("room", ROOMS)
@@ -81,7 +80,7 @@ def test_the_last_goal_is_asked_about_again_and_again(room2: Task) -> None:
 
 @given(tasks(), st.sampled_from(["0", "0.5", "0.9", "1"]), st.integers(0, 2**32))
 def test_nobody_who_follows_their_plan_pays_more(task: Task, discount: str, seed: int) -> None:
-    alone = Oracle(task, OptimalPlans(task)).cost(task.init)
+    alone = OptimalPlans(task).cost(task.init)
     if alone is None or task.robot_goal:
         return
     run = told(task, discount=discount, goals=other_goals(task, Random(seed)))

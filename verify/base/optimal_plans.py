@@ -8,7 +8,7 @@ from fractions import Fraction
 from heapq import heappop, heappush
 
 from serendipity.model import Condition, HumanPlan, Task
-from verify.base.due import waited
+from verify.base.due import onward, waited
 from verify.base.execution import State, idling
 from verify.base.individual import IndividualOptimum
 
@@ -19,8 +19,8 @@ Worth = tuple[Fraction, int]
 class OptimalPlans:
     """The human's optimal plans, from what the rule checker knows of their cost.
 
-    Every method raises :class:`verify.base.undecided.TooManyStatesError` where that problem is too large,
-    and :class:`serendipity.model.LimitReachedError` where the deadline of ``alone`` comes.
+    Every method but :meth:`cost_of` raises :class:`verify.base.undecided.TooManyStatesError` where that
+    problem is too large, and :class:`serendipity.model.LimitReachedError` at the deadline of ``alone``.
     """
 
     def __init__(self, task: Task, alone: IndividualOptimum | None = None) -> None:
@@ -32,9 +32,24 @@ class OptimalPlans:
         """Least cost, then fewest actions, or None if the goal is out of reach."""
         return self.alone.optimum(state)
 
-    def canonical(self) -> HumanPlan | None:
-        """``pi_H`` as semantics 1 predicts it; None if the human can't reach their goal."""
-        return next(self.plans(), None)
+    def cost(self, state: State) -> Fraction | None:
+        """``h``: the least cost; None for infinity."""
+        worth = self.worth(state)
+        return None if worth is None else worth[0]
+
+    def cost_of(self, plan: Sequence[int], state: State, *, strict: bool = False) -> Fraction | None:
+        """``c``: what a plan costs if it works from a state, robots idle; None for infinity."""
+        total, here = Fraction(0), state
+        for i in plan:
+            after = onward(self._task, here, (i,), strict=strict)
+            if after is None:
+                return None
+            total, here = total + self._task.actions[i].cost, after
+        return total if self._task.goal.holds(here) else None
+
+    def canonical(self, state: State | None = None) -> HumanPlan | None:
+        """The plan that semantics 1 predicts from a state; None if the human can't reach their goal."""
+        return next(self.plans(state), None)
 
     def plans(self, state: State | None = None) -> Iterator[HumanPlan]:
         """All optimal plans from a state, or the initial one; the canonical one first."""

@@ -10,7 +10,7 @@ from verify.calls.call import ExaminedCall
 from verify.calls.methods import JOINT_PLANS, decide
 from verify.certificate.claims import Examiner, Verdict
 from verify.certificate.reactions import cheapest_reaction
-from verify.certificate.simulator import ReplanningPerson, play
+from verify.certificate.simulator import play
 from verify.limits import uses
 from verify.programs.effort import NoProgramError
 
@@ -147,6 +147,6 @@ def _idle_cost(call: ExaminedCall) -> int | None:
         (),
         human_model=call.options.human_model,
         horizon=call.horizon,
-        person=ReplanningPerson(call.task, call.plans, strict=call.options.strict),
+        plans=call.plans,
     )
     return call.prices.units(played.cost) if played.goals_hold else None

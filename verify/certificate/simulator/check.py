@@ -9,7 +9,6 @@ from verify.base import wording
 from verify.base.execution import meant_by, price, unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UNDECIDED, why
-from verify.certificate.simulator.person import ReplanningPerson
 from verify.certificate.simulator.run import PlayedOut, play
 from verify.rules.replay import replay_human
 
@@ -48,7 +47,7 @@ class _Examination:
     def __init__(self, task: Task, result: Result, plans: OptimalPlans) -> None:
         self.task = task
         self.result = result
-        self.person = ReplanningPerson(task, plans, strict=result.options.strict)
+        self.plans = plans
         self.human_plan = (
             () if result.human_plan is None else replay_human(task, result.human_plan, plans.deadline)
         )
@@ -91,7 +90,7 @@ class _Examination:
             self.steps,
             human_model=model,
             horizon=self.result.horizon,
-            person=self.person,
+            plans=self.plans,
         )
 
     def _promised(self) -> Fraction:

@@ -13,7 +13,6 @@ from serendipity.model.keywords import Horizon
 from verify.base.due import onward
 from verify.base.execution import State, after, applicable, fits, idling, met, price, unchosen
 from verify.base.optimal_plans import OptimalPlans
-from verify.certificate.simulator.person import ReplanningPerson
 from verify.certificate.simulator.sight import Sight
 
 
@@ -92,24 +91,24 @@ def play(
     human_model: str,
     horizon: Horizon | None,
     visible: Visible | None = None,
-    person: ReplanningPerson | None = None,
+    plans: OptimalPlans | None = None,
 ) -> PlayedOut:
     """Play the robots' part of a plan against the human.
 
     Args:
         steps: the composite plan; what they do alone in it is not looked at.
         visible: what a local human sees; None for the default.
-        person: their costs, where they are known from an earlier question.
+        plans: the human's own, where they are known from an earlier question.
     """
     orders: dict[int, list[int]] = {}
     going_on = unchosen(task)
     for step in steps:
         if task.actions[step.action].participants != (task.human,) and step.action not in going_on:
             orders.setdefault(step.epoch, []).append(step.action)
-    person = person or ReplanningPerson(task, OptimalPlans(task), strict=options.strict)
-    deadline = person.deadline
+    plans = plans or OptimalPlans(task)
+    deadline = plans.deadline
     sight = Sight(task, visible, deadline.tick) if human_model == "local" else None
-    game = Play(task, options, person, sight)
+    game = Play(task, options, plans, sight)
     last = max(orders, default=0)
     now, deeds = game.start(human_plan), list[PlayedEpoch]()
     while not game.done(now) and len(deeds) != horizon:
@@ -133,10 +132,10 @@ class Play:
         sight: how they see; None for everything.
     """
 
-    def __init__(self, task: Task, options: Options, person: ReplanningPerson, sight: Sight | None) -> None:
+    def __init__(self, task: Task, options: Options, plans: OptimalPlans, sight: Sight | None) -> None:
         self.task = task
         self.strict = options.strict
-        self.person = person
+        self.plans = plans
         self.sight = sight
         self.waiting = idling(task)
         self._unchosen = unchosen(task)
@@ -162,9 +161,9 @@ class Play:
         if now.asleep or any(map(self.with_him, met(self.task, now.state, ()))):
             return Look(now, None, up=False)
         belief, rho = self.looked(now), now.rho
-        kept, best = self.person.cost_of(rho, belief), self.person.cost(belief)
+        kept, best = self.plans.cost_of(rho, belief, strict=self.strict), self.plans.cost(belief)
         if best is not None and (kept is None or best < kept):
-            rho = self.person.plan(belief)
+            rho = self.plans.canonical(belief) or ()
         return Look(now._replace(belief=belief, rho=rho), best)
 
     def act(self, look: Look, offers: Sequence[int]) -> tuple[PlayedEpoch, MomentOfPlay]:
@@ -216,7 +215,7 @@ class Play:
         begun = onward(self.task, look.now.belief, (joint,), strict=self.strict)
         if begun is None or look.best is None:
             return begun is not None
-        rest = self.person.cost(begun)
+        rest = self.plans.cost(begun)
         return rest is not None and self.task.actions[joint].cost + rest <= look.best
 
     def _own_step(self, look: Look) -> tuple[int | None, State | None]:
@@ -253,4 +252,4 @@ class Play:
         return after(state, *(self.task.actions[i] for i in chosen))
 
     def _stuck(self, state: State) -> bool:
-        return self.person.cost(state) is None
+        return self.plans.cost(state) is None
