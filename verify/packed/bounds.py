@@ -1,8 +1,8 @@
 """Lower bounds on the weight that is left: tables of patterns that share the operators' weights.
 
 Every operator's weight is dealt out over the patterns, none of it twice, so that the distances of all
-of them add up to no more than the weight of any plan (cost partitioning).  Several ways to deal it out
-are kept: the largest sum holds.
+of them add up to no more than the weight of any plan (cost partitioning).  It is dealt out twice, from
+the first pattern on and from the last: the larger sum holds.
 """
 
 from collections.abc import Sequence
@@ -29,20 +29,12 @@ _MOVES: Final = 30
 _ALL_MOVES: Final = 8_000_000
 """Moves of all patterns at most."""
 
-_WAYS: Final = 8
-"""Ways to deal out weights."""
-
-_WALKERS: Final = 50
-_STEPS: Final = 40
-"""Of the walks to states in which ways are compared."""
-
 
 class PatternBounds:
     """Bounds for one goal.
 
     Args:
         goal: facts that have to be true.
-        start: states to begin with: ways are kept that are good where walks lead from there.
         careful: whether they are to spare many states, so that more time for them is worth it.
     """
 
@@ -50,7 +42,6 @@ class PatternBounds:
         self,
         table: OperatorTable,
         goal: Sequence[int],
-        start: Words,
         deadline: Deadline,
         *,
         careful: bool,
@@ -59,7 +50,6 @@ class PatternBounds:
         self._goal = table.test(goal, ())
         self._causes = _causes(table)
         self._deadline = deadline
-        self._ways: list[list[tuple[Pattern, Ints]]] = []
         seconds, part = limits().quick_seconds, limits().quick_share
         if careful:
             seconds, part = limits().careful_seconds, limits().careful_share
@@ -69,12 +59,10 @@ class PatternBounds:
         largest = int(seconds / part * _A_SECOND) + 1
         sizes = [min(size, largest) for size in (_SIZES if careful else _SIZES[:1])]
         patterns = self._patterns(sizes, deadline, share)
-        for order in _orders(len(patterns)):
-            if self._ways and share.reached() is not None:
-                deadline.check()
-                break
-            self._ways.append(self._dealt([patterns[k] for k in order], share if self._ways else deadline))
-        self._keep_best(_walks(table, start, deadline))
+        self._ways = [self._dealt(patterns, deadline)]
+        if share.reached() is None:
+            self._ways.append(self._dealt(patterns[::-1], share))
+        deadline.check()
 
     @property
     def states(self) -> int:
@@ -83,11 +71,6 @@ class PatternBounds:
 
     def __call__(self, states: Words) -> Ints:
         """A bound for each state; ``FAR`` where no goal can be reached."""
-        best: Ints = self._best(states).max(axis=0, initial=0)
-        return best
-
-    def _best(self, states: Words) -> Ints:
-        """The sum of each way in each state."""
         found = np.zeros((len(self._ways), len(states)), np.int64)
         index: dict[int, Ints] = {}
         for total, way in zip(found, self._ways, strict=True):
@@ -96,7 +79,8 @@ class PatternBounds:
                 if id(pattern) not in index:
                     index[id(pattern)] = pattern.index(states)
                 np.minimum(total + distance[index[id(pattern)]], FAR, out=total)
-        return found
+        best: Ints = found.max(axis=0, initial=0)
+        return best
 
     def _patterns(self, sizes: list[int], deadline: Deadline, share: Deadline) -> list[tuple[Pattern, Ints]]:
         """Patterns with their goals: for each field of the goal what it depends on, the nearest first."""
@@ -150,37 +134,6 @@ class PatternBounds:
             left[inside] -= np.minimum(used[pattern.classes[inside]], left[inside])
         return way
 
-    def _keep_best(self, sample: Words) -> None:
-        """Drop the ways that add nothing to others in any of some states."""
-        found = self._best(sample)
-        kept: list[int] = []
-        best = np.full(len(sample), -1, np.int64)
-        while len(kept) < len(self._ways):
-            gains = np.maximum(found - best, 0).sum(axis=1)
-            k = int(gains.argmax())
-            if not gains[k]:
-                break
-            kept.append(k)
-            best = np.maximum(best, found[k])
-        self._ways = [self._ways[k] for k in kept]
-
-
-def _walks(table: OperatorTable, start: Words, deadline: Deadline) -> Words:
-    """States that random walks from some states lead through."""
-    dice = np.random.default_rng(0)
-    here = start[dice.integers(0, len(start), _WALKERS)]
-    seen = [start[:_WALKERS], here]
-    for _ in range(_STEPS):
-        deadline.check()
-        rows, chosen = table.applicable(here)
-        if not len(rows):
-            break
-        order = dice.permutation(len(rows))
-        first = order[np.unique(rows[order], return_index=True)[1]]
-        here = table.after(here[rows[first]], chosen[first])
-        seen.append(here)
-    return np.concatenate(seen)
-
 
 def _causes(table: OperatorTable) -> list[dict[int, int]]:
     """For each field, which others operators look at or change when they change it, and how often."""
@@ -190,11 +143,3 @@ def _causes(table: OperatorTable) -> list[dict[int, int]]:
             for other in {*conditions, *effects} - {field}:
                 found[field][other] = found[field].get(other, 0) + 1
     return found
-
-
-def _orders(count: int) -> list[list[int]]:
-    """Some orders of patterns: as they are, from behind, and from others on."""
-    straight = list(range(count))
-    turned = [straight[k:] + straight[:k] for k in range(count)]
-    orders = {tuple(order): None for each in turned for order in (each, each[::-1])}
-    return [list(order) for order in orders][:_WAYS]

@@ -113,14 +113,14 @@ class PackedProblem:
 
     def _searched(self, starts: Words, paid: Ints, below: int) -> tuple[PackedSearch, int | None]:
         if self._bounds is None and self.bounded:
-            self._bounds = self._made(starts)
+            self._bounds = self._made()
         if not self._careful:
             search = self._search(below, limits().few_states)
             try:
                 search.add(starts, paid)
                 return search, search.run()
             except TooManyPackedStatesError:
-                self._bounds, self._careful = self._made(starts, careful=True), True
+                self._bounds, self._careful = self._made(careful=True), True
         search = self._search(below, limits().exact_states if self.exact else limits().packed_states)
         search.add(starts, paid)
         return search, search.run()
@@ -135,11 +135,11 @@ class PackedProblem:
         if not self.bounded:
             return np.zeros(len(states), np.int64)
         if self._bounds is None:
-            self._bounds = self._made(states)
+            self._bounds = self._made()
         return self._bounds(states)
 
     def _search(self, below: int, most_states: int) -> PackedSearch:
         return PackedSearch(self.table, self.goal, self.bounds, self._deadline, below, most_states)
 
-    def _made(self, start: Words, *, careful: bool = False) -> PatternBounds:
-        return PatternBounds(self.table, self._wanted, start, self._deadline, careful=careful)
+    def _made(self, *, careful: bool = False) -> PatternBounds:
+        return PatternBounds(self.table, self._wanted, self._deadline, careful=careful)
