@@ -8,6 +8,7 @@ from random import Random
 import pytest
 
 import serendipity
+from benchmarks.techniques import without
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.classical import planner
@@ -26,7 +27,7 @@ from serendipity.testing.builders import task as build
 from serendipity.testing.generator.calls import random_call
 from serendipity.testing.generator.families import AGENTS, FAMILIES
 from serendipity.testing.oracle import best
-from tests.search.small_tasks import ONE_EPOCH, beside_the_plan, of_a_family
+from tests.search.small_tasks import ONE_EPOCH, beside_the_plan, fetching, of_a_family
 
 pytestmark = pytest.mark.skipif(library() is None, reason="the kernel is not compiled here")
 
@@ -90,6 +91,18 @@ def test_the_best_window_of_one_epoch_is_found(draw: object, most: tuple[int, ..
             better += 1
             assert incumbent.node.start == optimum.window.start, seed
     assert better > 30
+
+
+@pytest.mark.parametrize("seed", [15, 17, 61, 75, 80, 85])
+def test_like_things_that_the_plan_is_about_are_told_apart(seed: int) -> None:
+    """Where they were not, too dear an answer was the best."""
+    dice = Random(seed)
+    task, options = fetching(dice), ONE_EPOCH.but(discount=dice.choice(["1/2", "9/10"]))
+    with without("like fields"):
+        context, expected, _ = _looked_at(task, options)
+    _, found, progress = _looked_at(task, options)
+    assert context.keys.cost(found.key) == context.keys.cost(expected.key)
+    assert progress.bound == found.key
 
 
 def test_a_call_that_it_settles() -> None:
