@@ -13,7 +13,7 @@ from typing import Any, Final
 from search.kernel.library import library
 from serendipity.evaluation.measuring.record import Lines
 from serendipity.evaluation.reproduction.pool import on_dask
-from serendipity.evaluation.reproduction.rows import KINDS, Row
+from serendipity.evaluation.reproduction.rows import KINDS, Row, sharing
 from serendipity.evaluation.reproduction.suite import TaskFolder, find_tasks
 from serendipity.evaluation.reproduction.work import Assignment, Call, TaskRows, killed, solve, unknown
 from serendipity.model import Deadline, InputError, Options, UsageError
@@ -153,7 +153,8 @@ def reproduce(
         raise UsageError(f"jobs: expected at least 1, got {jobs}")
     tasks = find_tasks(Path(folder))
     book = None if journal is None else Journal(Path(journal))
-    known = {} if book is None else _by_call(book.read(), proved=True)
+    shared: dict[Any, Any] = {}
+    known = {} if book is None else _by_call(book.read(), shared, proved=True)
     whole = deadline or Deadline()
     options, left = Options(time_limit=time_limit, memory_limit=memory_limit), whole.left()
     limits = (options.time_limit, options.memory_limit, None if left is None else time() + left)
@@ -168,7 +169,7 @@ def reproduce(
         for record in records:
             if book is not None:
                 book.append(record)
-            known |= _by_call([record])
+            known |= _by_call([record], shared)
             done += 1
             helped += sum(row.opportunity for row in record.rows)
             report(Progress(done, len(tasks), helped))
@@ -197,14 +198,19 @@ def _key(task: TaskFolder | TaskRows, call: Call) -> _Key:
     return task.test, task.fingerprint, call
 
 
-def _by_call(records: Iterable[TaskRows], *, proved: bool = False) -> dict[_Key, Row]:
-    """The rows by what they answer; with ``proved`` those only that no limit could change."""
-    return {
-        _key(record, Call(row.mode, row.discount)): row
-        for record in records
-        for row in record.rows
-        if row.proved or not proved
-    }
+def _by_call(records: Iterable[TaskRows], shared: dict[Any, Any], *, proved: bool = False) -> dict[_Key, Row]:
+    """The rows by what they answer; with ``proved`` those only that no limit could change.
+
+    Args:
+        shared: values that others have, too, each once.
+    """
+    rows = ((record, sharing(row, shared)) for record in records for row in record.rows)
+    found: dict[_Key, Row] = {}
+    for record, row in rows:
+        if row.proved or not proved:
+            test, fingerprint, call = _key(record, Call(row.mode, row.discount))
+            found[test, shared.setdefault(fingerprint, fingerprint), shared.setdefault(call, call)] = row
+    return found
 
 
 def _work(assignments: Sequence[Assignment], jobs: int, dask: str | None) -> Generator[TaskRows]:

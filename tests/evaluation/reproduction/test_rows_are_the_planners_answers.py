@@ -46,6 +46,14 @@ def test_processes_give_the_same_rows(suite: Path, run: Reproduction) -> None:
     assert without_times(reproduce(suite, modes=MODES, discounts=DISCOUNTS, jobs=2)) == without_times(run)
 
 
+def test_rows_share_values_that_are_equal(run: Reproduction) -> None:
+    """A large batch took almost three times as much memory."""
+    known: dict[object, object] = {}
+    for row in run.rows:
+        for value in (row.cost, row.best_tie, row.discount):
+            assert known.setdefault((type(value), value), value) is value
+
+
 @pytest.mark.long
 def test_a_dask_cluster_gives_the_same_rows(suite: Path, run: Reproduction) -> None:
     again = reproduce(suite, modes=MODES, discounts=DISCOUNTS, jobs=1, dask="local")
