@@ -67,8 +67,9 @@ def _help(found: Explanation) -> Iterator[str]:
     assert gone is not None
     assert parts is not None
     if gone.removed:
-        steps = f"step {gone.first}" if gone.first == gone.last else f"steps {gone.first} to {gone.last}"
-        yield f"Of the plan of {answer.human}, {steps} disappear: {'; '.join(gone.removed)}."
+        single = gone.first == gone.last
+        steps = f"step {gone.first} disappears" if single else f"steps {gone.first} to {gone.last} disappear"
+        yield f"Of the plan of {answer.human}, {steps}: {'; '.join(gone.removed)}."
     if gone.replacement:
         yield f"Instead: {'; '.join(gone.replacement)}."
     elif gone.removed:

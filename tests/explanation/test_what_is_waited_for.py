@@ -127,3 +127,17 @@ def test_without_what_it_waits_for_an_action_begins_sooner(call: Call) -> None:
         elif wait.why == "bystander":
             without = altered(call.task, wait, left_out=True)
             assert plays(without, sooner) or plays(altered(call.task, wait), sooner)
+
+
+def test_a_single_step_disappears() -> None:
+    about = task(
+        init="a", goal="d", actions={"far h": "a -> d !a @ 3", "near h": "a c -> d !a @ 1", "aid r": "-> c"}
+    )
+    said = [
+        text
+        for topic, text in serendipity.explain(
+            about, serendipity.plan(about, discount=1, horizon=2)
+        ).sentences
+        if topic == "help"
+    ]
+    assert said[0] == "Of the plan of h, step 1 disappears: far h."
