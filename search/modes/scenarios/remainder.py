@@ -138,7 +138,9 @@ class Certain:
         known = self._known.get(beginning, _UNKNOWN)
         if known.least < min(known.worth, most) and (again or self._asked.get(beginning, 0) < most):
             self._asked[beginning] = most
-            found = self._find(*beginning, deadline, min(known.worth, most))
+            found = _UNKNOWN
+            with suppress(LimitReachedError):
+                found = self._find(*beginning, deadline, min(known.worth, most))
             best = min(known, found, key=lambda one: one.worth)
             known = best._replace(least=min(max(known.least, found.least), best.worth))
             self._known[beginning] = known
@@ -302,7 +304,7 @@ class Certain:
             max_window=self.max_window,
             keys=keys,
             successors=context.successors(idle=idle),
-            bounds=Bounds(context.bound, context.steps, no_bound, None, context.team_bound),
+            bounds=Bounds(context.bound, context.steps, no_bound, None, self._scenario.context.team_bound),
             prefix=InLayers([[step] for step in self.steps]),
             on_the_way=PrivateRest(last, context.bound, keys, horizon),
             suffix=self.suffix,

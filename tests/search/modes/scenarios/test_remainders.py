@@ -7,10 +7,12 @@ import pytest
 from search import PreparedTask
 from search.call.context import SearchContext
 from search.modes.scenarios.lines import Line
-from search.modes.scenarios.measure import FOLLOWING, Member, Worths
+from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, INSIDE, Member, Worths
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
 from search.modes.scenarios.variants import Variants
+from search.spaces.windowed import Windowed
 from serendipity.model import Deadline, Options
+from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.plans import Step, Window
 from tests.search.modes.scenarios.test_policies_equal_brute_force import lifted
 
@@ -58,6 +60,18 @@ def test_what_is_worth_too_much_is_not_told_apart() -> None:
     assert most <= dearer.least < best.worth < dearer.worth
     assert certain.remainder(start, 0, Deadline(), dearer.least) is dearer
     assert certain.remainder(start, 0, Deadline()) == best
+
+
+def test_the_limit_of_a_part_is_no_end_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is made before a space is searched came to its end there, and so did the whole call."""
+
+    def ended(*_: object) -> Windowed:
+        raise LimitReachedError("time-limit")
+
+    monkeypatch.setattr(Certain, "_space", ended)
+    certain, start, _ = _certain()
+    inside = start._replace(phase=INSIDE, start=1)
+    assert certain.remainder(inside, 1, Deadline()) == Remainder(0, INFINITE_WORTH)
 
 
 def test_at_the_horizon_no_bound_is_handed_on() -> None:
