@@ -38,6 +38,9 @@ class _Label(NamedTuple):
 _SHARE: Final = 0.8
 """The share of the time that is left for the scenarios one by one, and one more of them."""
 
+_OFFER: Final = 0.1
+"""The same for what is best beside one sequence."""
+
 _NONE: Final = _Label(INFINITE_WORTH)
 _Places = dict[Member, _Label]
 
@@ -88,26 +91,54 @@ class SequenceSearch:
             guide = line.guide(line.first(), 0, deadline)
             if guide is not None:
                 epochs = range(1, self._horizon + 1)
-                self._offer({epoch: guide.at(epoch)[0] for epoch in epochs}, deadline)
+                self._offer({epoch: guide.at(epoch)[0] for epoch in epochs})
             yield
-        self._offer({}, self._deadline.part(_SHARE / 2))
+        self._offer({})
         yield
 
     def _root(self) -> _Sequence:
         places = tuple({line.first(): _Label(0)} for line in self._lines)
         return _Sequence(0, places, NOTHING, 0, None)
 
-    def _offer(self, robots: dict[int, JointAction], deadline: Deadline) -> None:
+    def _offer(self, robots: dict[int, JointAction]) -> None:
         """Play a sequence against every scenario, if there is time."""
-        node: _Sequence | None = self._root()
+        node, deadline = None, self._deadline.part(_OFFER)
+        for epoch in range(1, self._horizon + 1):
+            node = _Sequence(epoch, (), robots.get(epoch, NOTHING), 0, node)
         try:
-            while node is not None and node.epoch < self._horizon:
-                node = self._child(node, robots.get(node.epoch + 1, NOTHING), deadline)
+            places = [self._best_beside(i, robots, deadline) for i in range(len(self._lines))]
         except LimitReachedError:
             self._deadline.check()
             return
-        if node is not None:
+        if node is not None and all(places):
+            node.places = tuple(places)
             self._complete(node)
+
+    def _best_beside(self, number: int, robots: dict[int, JointAction], deadline: Deadline) -> _Places:
+        """Where the best that a scenario can do beside a sequence leads to; nowhere, if it is too dear."""
+        line, tie = self._lines[number], count()
+        limit, first = self._limit(number), line.first()
+        last = max((epoch for epoch, done in robots.items() if done.actions), default=0)
+        queue = [(line.least(first, 0), 0, next(tie), first, _Label(0))]
+        paid = {(0, first): 0}
+        while queue:
+            _, late, _, at, label = heappop(queue)
+            if at.phase == OVER or -late == self._horizon:
+                return {at: label}
+            epoch = 1 - late
+            for way in line.ways(at, epoch, robots.get(epoch, NOTHING), limit - label.paid):
+                deadline.tick()
+                spent, place = label.paid + way.paid, (epoch, way.after)
+                total = spent + line.least(way.after, epoch)
+                is_idle_then = way.after.phase != OVER or epoch >= last
+                if is_idle_then and total < limit and spent < paid.get(place, INFINITE_WORTH):
+                    paid[place] = spent
+                    heappush(queue, (total, -epoch, next(tie), way.after, _Label(spent, way, (at, label))))
+        return {}
+
+    def _limit(self, number: int) -> int:
+        """What a scenario pays at which a sequence is no better than the best one known."""
+        return self._question.measure.limit(self._question.members, self._floors, number, self.upper)
 
     def run(self) -> Iterator[None]:
         """Look for better sequences until there are none; yield for each; see :meth:`guided`."""
@@ -143,13 +174,12 @@ class SequenceSearch:
 
     def _child(self, node: _Sequence, robots: JointAction, deadline: Deadline) -> _Sequence | None:
         """The sequence an epoch later; None if some scenario has no place left."""
-        question, epoch, after = self._question, node.epoch + 1, []
+        epoch, after = node.epoch + 1, []
         self.generated += 1
         for i, line in enumerate(self._lines):
             places: _Places = {}
             ended: list[tuple[int, Member, _Label]] = []
-            # What it pays at which the sequence is no better than the best one known.
-            limit = question.measure.limit(question.members, self._floors, i, self.upper)
+            limit = self._limit(i)
             for m, label in node.places[i].items():
                 deadline.tick()
                 if m.phase == OVER:  # the suffix goes on, as long as robots are idle
