@@ -63,6 +63,9 @@ typedef struct {
     int outcome, is_fresh; /* why a slice ends; whether there was no new bound in it yet */
     double until;        /* when it ends */
     uint64_t last;       /* the agent to whom what follows is left: the last one, as a bit */
+    int is_back;         /* whether all epochs are over and are gone through backwards, */
+    int32_t layer;       /* from which layer, */
+    Cost least;          /* and the least from the state under the cursor */
 } Epochs;
 
 static void epochs_free(Epochs *e) {
@@ -254,6 +257,25 @@ static int take_state(Epochs *e, const Word *state, Cost paid) {
     return 1;
 }
 
+/* Something that a set leads to, with what is left from there, if it was met. */
+static int look_back(Epochs *e, const Word *made, Cost paid) {
+    const Table *t = e->is_end ? &e->ends : &e->layers[e->layer + 1];
+    if (e->is_end) keep_what_matters(e, made);
+    int32_t id = met(t, e->row);
+    Cost rest = id == NONE ? INFINITE_COST : node_of(t, id)->rest;
+    e->hopeless = e->is_end && too_dear(e, paid, rest);
+    if (rest != INFINITE_COST && paid + rest < e->least) e->least = paid + rest;
+    return 1;
+}
+
+/* What is left from a state of a layer; NONE: it was not met. */
+static Cost rest_from(Epochs *e, int32_t layer, const Word *state) {
+    memcpy(e->other, state, (size_t)e->problem.words * sizeof(Word));
+    represent(&e->problem, &e->alike[layer], e->other);
+    int32_t id = met(&e->layers[layer], e->other);
+    return id == NONE ? NONE : node_of(&e->layers[layer], id)->rest;
+}
+
 /* What a set makes of the state under the cursor; 0: no need to go on. */
 static int come_to(Epochs *e, const Word *state, int32_t depth, Cost paid) {
     int32_t words = e->problem.words;
@@ -268,6 +290,7 @@ static int come_to(Epochs *e, const Word *state, int32_t depth, Cost paid) {
         e->found = depth;
         return 0;
     }
+    if (e->is_back) return look_back(e, made, paid);
     if (++e->sets > MOST_WAYS) return e->outcome = HOPELESS, 0;
     if (e->is_end ? take_end(e, made, paid) : take_state(e, made, paid)) return 1;
     return e->outcome == RUNNING ? 0 : lacks(e, e->is_end ? &e->ends : &e->layers[e->n_layers - 1]);
@@ -377,6 +400,27 @@ static int epochs_run(Epochs *e, Cost limit, double seconds, size_t allowed) {
         if (now() >= end) return RUNNING;
         e->sets = 0, e->outcome = FOUND;
         if (!from_state(e, state_of(from, e->cursor), node_of(from, e->cursor)->spent, e->given)) return e->outcome;
+    }
+    return FOUND;
+}
+
+/* A slice of going back, once all epochs are over: the least that is left from each state of each layer to what can be
+   left behind, and a bound on what follows; no more than what of the limit was left on the cheapest way to the state. */
+static int epochs_go_back(Epochs *e, const int32_t *given, Cost limit, double seconds) {
+    double end = now() + seconds;
+    if (!e->is_back) e->is_back = 1, e->layer = e->n_layers - 1, e->cursor = 0, e->target = NULL;
+    for (; e->layer >= 0; e->layer--, e->cursor = 0) {
+        const Table *t = &e->layers[e->layer];
+        if (e->layer + 1 < e->n_layers) e->alike_now = &e->alike[e->layer + 1];
+        for (; e->cursor < t->count; e->cursor++) {
+            if (now() >= end) return RUNNING;
+            Node *node = node_of(t, e->cursor);
+            e->limit = e->least = limit - node->spent;
+            e->is_end = 1, from_state(e, state_of(t, e->cursor), 0, NONE);
+            e->is_end = 0;
+            if (e->layer + 1 < e->n_layers) from_state(e, state_of(t, e->cursor), 0, given[e->layer]);
+            node->rest = e->least;
+        }
     }
     return FOUND;
 }

@@ -32,6 +32,8 @@ SIGNATURES: Final = {
     "epochs_states": (c_int64, [c_void_p]),
     "epochs_leavings": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "epochs_left": (None, [c_void_p, c_int32, c_void_p]),
+    "epochs_back": (c_int, [c_void_p, c_void_p, c_int64, c_double]),
+    "epochs_rest": (c_int64, [c_void_p, c_int32, c_char_p]),
     "epochs_sets": (c_int32, [c_void_p, c_int32, c_void_p, c_void_p]),
 }
 """By name the type of the result, and those of the arguments."""

@@ -16,11 +16,13 @@ from search.modes.scenarios.measure import (
     Worths,
 )
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
+from search.modes.scenarios.timetables import Timetable
 from search.modes.scenarios.variants import Variants
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option, together
 from search.packed.operators import Operator, applicable
 from search.packed.successor_generator import Successors
+from search.strategies.conditions import asks_for_nothing_else
 from serendipity.model.resources.deadline import Deadline
 
 
@@ -97,6 +99,7 @@ class Line:
         self._suffixes: dict[tuple[int, int, int], Sequence[tuple[Operator, JointAction]]] = {}
         self._horizon = scenario.horizon
         self._max_window = self.certain.max_window
+        self._timetable: Timetable | None = None
         self._tells_starts = options.preservation == "state" or self._max_window < scenario.horizon
 
     def first(self) -> Member:
@@ -212,8 +215,12 @@ class Line:
 
     def floor(self, at: Member, epoch: int) -> int:
         """A bound on what is left to pay after an epoch, where it was asked for; else 0."""
-        found = self.certain.known(at, epoch) if at.phase != OVER else None
-        return 0 if found is None else found.least
+        return self.certain.floor(at, epoch) if at.phase != OVER else 0
+
+    def raise_floor(self, way: Way, epoch: int, least: int) -> None:
+        """Note that nothing less is left to pay before an epoch in which something is done."""
+        if way.after.phase != OVER:
+            self.certain.raise_floor(way.after, epoch, least - way.paid)
 
     def least(self, at: Member, epoch: int) -> int:
         """A bound that is had at once on what is left to pay after an epoch."""
@@ -224,11 +231,37 @@ class Line:
         if epoch == self._horizon:  # exact, whatever bound was handed on
             done = at.phase == FOLLOWING and all(goal.holds(at.state) for goal in self._context.goals)
             return self._worths.epoch if done else INFINITE_WORTH
-        known = self.certain.known(at, epoch)
-        if known is not None:
-            return known.least
-        rest = self._worths.of_key(self._context.bound(at.state))
-        return min(rest + self._worths.epoch, INFINITE_WORTH)
+        context, window, of_key = self._context, self._worths.epoch, self._worths.of_key
+        known = self.certain.floor(at, epoch)
+        if self.certain.known(at, epoch) is not None:
+            return known
+        rest = of_key(max(context.bound(at.state), context.team_bound(at.state)))
+        least = min(rest + window, INFINITE_WORTH)
+        if at.phase == FOLLOWING and self._timetable is not None:
+            beside = of_key(self._timetable.least(epoch, at.state)) + window
+            alone = of_key(sum(part.weight for _, part in self._steps[epoch:])) + window
+            least = max(least, min(beside, alone, least + window))
+        return max(least, known)
+
+    @property
+    def is_tabulated(self) -> bool:
+        """Whether states beside the human's plan are bounded."""
+        return self._timetable is not None and self._timetable.is_there
+
+    def tabulate(self, least: int, limit: int, deadline: Deadline) -> None:
+        """Bound states beside the human's plan, where only a window of one epoch can be worth so little.
+
+        Args:
+            least: bound on the scenario.
+            limit: what is worth as much or more is of no interest.
+            deadline: what is there by then is taken.
+        """
+        epoch, context, key = self._worths.epoch, self._context, self._worths.key
+        if not asks_for_nothing_else(context) or least >= limit:
+            return
+        if limit <= 2 * epoch + self._worths.of_key(context.bound(context.packed.init)):
+            steps = [op for op, _ in self._steps]
+            self._timetable = Timetable(context, steps, key(least - epoch), key(limit - epoch), deadline)
 
     def left_alone(self, at: Member, epoch: int) -> tuple[int, ...]:
         """What the human does after an epoch if nobody helps: their suffix, or the rest of their plan."""
@@ -264,6 +297,31 @@ class Line:
             return rest, rest
         found = self.certain.remainder(at, epoch, deadline, most, again=again)
         return found.least, found.worth
+
+
+def undominated(
+    lines: Sequence[Line], each: Sequence[Sequence[tuple[int, Way]]]
+) -> list[list[tuple[int, Way]]]:
+    """Ways of each scenario with bounds, cheapest first, without ends of windows that leave nobody more room.
+
+    What robots see of an end only matters to scenarios that may look the same, and go on.
+    """
+    seen = [[lines[way.after.scenario].seen(way) for _, way in ways] for ways in each]
+    goes_on = [
+        {look for look, (_, way) in zip(looks, ways, strict=True) if way.after.phase != OVER}
+        for looks, ways in zip(seen, each, strict=True)
+    ]
+    found = []
+    for i, (looks, ways) in enumerate(zip(seen, each, strict=True)):
+        alike = set[object]().union(*goes_on[:i], *goes_on[i + 1 :])
+        kept, best = list[tuple[int, Way]](), INFINITE_WORTH
+        for look, (bound, way) in sorted(zip(looks, ways, strict=True), key=lambda one: one[1][0]):
+            if way.after.phase != OVER or bound < best or not kept:
+                kept.append((bound, way))
+            if way.after.phase == OVER and look not in alike:
+                best = min(best, bound)
+        found.append(kept)
+    return found
 
 
 class Question(NamedTuple):

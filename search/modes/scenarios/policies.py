@@ -11,13 +11,17 @@ from dataclasses import dataclass, field
 from heapq import heapify, heapreplace
 from typing import Final, NamedTuple
 
-from search.modes.scenarios.lines import Guide, Question, Way
-from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, OVER, Member
+from search.modes.scenarios.lines import Guide, Question, Way, undominated
+from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, INSIDE, OVER, Member
 from search.modes.scenarios.played import Course, Played
 from search.packed.joint_actions import NOTHING, JointAction
 
 _SHARE: Final = 0.2
 """The share of the time that is left for a first look at each scenario of a group by itself."""
+
+
+_TABLES: Final = 0.4
+"""The same for tables of the states beside all plans."""
 
 
 class Choice(NamedTuple):
@@ -45,6 +49,7 @@ class Group:
         upper: of the best policy known; infinite without one.
         choice: its first epoch; None where it leaves everybody alone, or one scenario goes on for certain.
         choices: those that may be best by their bounds, as a heap; None before it was looked at.
+        reach: choices worth as much or more were left out of these.
     """
 
     epoch: int
@@ -53,6 +58,7 @@ class Group:
     upper: int = INFINITE_WORTH
     choice: Choice | None = None
     choices: list[tuple[int, int, Choice]] | None = field(default=None, repr=False)
+    reach: int = 0
 
     @property
     def is_settled(self) -> bool:
@@ -99,11 +105,20 @@ class PolicySearch:
         """Bring the bounds of the root together, to a limit; yield whenever they have changed much."""
         self._look(self.root)
         yield
+        self._tabulate()
         for scenario in (*(line.number for line in self._lines), None):
             if not self.root.is_settled:
                 self._probe(self.root, None if scenario is None else self._guide(self.root, scenario))
                 yield
         yield from self._search()
+
+    def _tabulate(self) -> None:
+        """Bound the states beside each plan, as far as a better policy may come to them."""
+        members = self.root.members
+        least = [line.least(m, 0) for line, m in zip(self._lines, members, strict=True)]
+        for i, line in enumerate(self._lines):
+            limit = self._measure.limit(members, least, i, self.root.upper)
+            line.tabulate(least[i], limit, self._deadline.part(_TABLES / len(members)))
 
     # -- groups
 
@@ -129,6 +144,9 @@ class PolicySearch:
             return False
         first = group not in self._looked
         self._looked[group] = most
+        if not single and all(m.phase != INSIDE and self._lines[m.scenario].is_tabulated for m in members):
+            self._leave_alone(group)
+            return False
         deadline = self._deadline.part(_SHARE if first else share)
         least = [self._lines[m.scenario].least(m, epoch) for m in members]
         worth = INFINITE_WORTH
@@ -160,18 +178,20 @@ class PolicySearch:
     # -- choices
 
     def _choices(self, group: Group) -> Iterator[Choice]:
-        """All that a group may do in its next epoch, and may be better than the policy that is known."""
+        """All that a group may do in its next epoch, and may be worth less than its reach."""
         members, epoch = group.members, group.epoch + 1
         floors = [self._lines[m.scenario].floor(m, group.epoch) for m in members]
-        limits = [self._measure.limit(members, floors, i, group.upper) for i in range(len(members))]
+        limits = [self._measure.limit(members, floors, i, group.reach) for i in range(len(members))]
         for robots in self._robots(group):
-            each, bounds = [], []
+            each = []
             for m, floor, most in zip(members, floors, limits, strict=True):
-                line = self._lines[m.scenario]
-                each.append(list(line.ways(m, epoch, robots, most)))
-                bounds.append([max(floor, w.paid + line.least(w.after, epoch)) for w in each[-1]])
+                line, bounded = self._lines[m.scenario], list[tuple[int, Way]]()
+                for way in line.ways(m, epoch, robots, most):
+                    line.raise_floor(way, epoch, floor)
+                    bounded.append((max(floor, way.paid + line.least(way.after, epoch)), way))
+                each.append(bounded)
             if all(each):
-                for ways in self._combined(group, each, bounds):
+                for ways in self._combined(group, undominated(self._lines, each)):
                     yield self._choice(group, robots, ways)
 
     def _robots(self, group: Group) -> Iterable[JointAction]:
@@ -181,22 +201,20 @@ class PolicySearch:
         first = group.members[0]
         return self._lines[first.scenario].begun(first.state)
 
-    def _combined(
-        self, group: Group, each: Sequence[Sequence[Way]], bounds: Sequence[Sequence[int]]
-    ) -> Iterator[tuple[Way, ...]]:
-        """A way for each scenario, as far as they may be better together than what is known."""
+    def _combined(self, group: Group, each: Sequence[Sequence[tuple[int, Way]]]) -> Iterator[tuple[Way, ...]]:
+        """A way for each scenario, as far as they may be worth less together than the reach."""
         members, measure = group.members, self._measure
-        least = [min(bound) for bound in bounds]
+        least = [ways[0][0] for ways in each]
         chosen: list[int] = []
 
         def extend(k: int) -> Iterator[tuple[Way, ...]]:
             self._deadline.tick()
-            if measure.value(members, [*chosen, *least[k:]]) >= group.upper:
+            if measure.value(members, [*chosen, *least[k:]]) >= group.reach:
                 return
             if k == len(members):
                 yield ()
                 return
-            for way, bound in sorted(zip(each[k], bounds[k], strict=True), key=lambda pair: pair[1]):
+            for bound, way in each[k]:
                 chosen.append(bound)
                 for rest in extend(k + 1):
                     yield (way, *rest)
@@ -309,23 +327,26 @@ class PolicySearch:
         most, limit = min(most, group.upper), min(limit, most, group.upper)
         if group.lower >= limit:
             return None
-        if group.choices is None:
-            if self._look(group, most) or group.lower >= min(limit, group.upper):
-                return None
+        if group.choices is None and (self._look(group, most) or group.lower >= min(limit, group.upper)):
+            return None
+        if group.choices is None or group.lower >= group.reach:
             self.expanded += 1
+            group.reach = min(most, group.upper)
             choices = [(self._lower(c), n, c) for n, c in enumerate(self._choices(group))]
-            group.choices = [entry for entry in choices if entry[0] < group.upper]
+            group.choices = [entry for entry in choices if entry[0] < group.reach]
             heapify(group.choices)
         self._raise(group)
         limit = min(limit, group.upper)
         if group.lower >= limit:
             return None
+        if group.lower >= group.reach:
+            return group, limit, most
         assert group.choices, "a group without choices is settled"
         value, _, best = group.choices[0]
         paid, after = max((b for b in best.branches if not b[1].is_settled), key=lambda b: b[0] + b[1].upper)
-        second = min((entry[0] for entry in group.choices[1:3]), default=INFINITE_WORTH)
+        second = min((entry[0] for entry in group.choices[1:3]), default=group.reach)
         most = self._measure.branch(min(most, group.upper), paid, value, after.lower)
-        return after, after.lower + max(min(second, limit) - value, 0) + 1, most
+        return after, after.lower + max(min(second, group.reach, limit) - value, 0) + 1, most
 
     def _raise(self, group: Group) -> None:
         """Bring the bounds of a group up to date with those of its most promising choices."""
@@ -339,7 +360,7 @@ class PolicySearch:
             if value <= known:
                 break
             heapreplace(choices, (value, number, best))
-        least = choices[0][0] if choices else INFINITE_WORTH
+        least = min(choices[0][0], group.reach) if choices else group.reach
         group.lower = max(group.lower, min(least, group.upper))
 
     # -- what happens

@@ -112,6 +112,7 @@ class Certain:
         self._facts = [(fact, *found) for fact, found in enumerate(bits) if found is not None]
         self._others = frozenset(fact for fact in task.init if bits[fact] is None)
         self._known: dict[tuple[int, int, int], Remainder] = {}
+        self._floors: dict[tuple[int, int, int], int] = {}
         self._asked: dict[tuple[int, int, int], int] = {}
         self.expanded = self.generated = 0
 
@@ -145,6 +146,18 @@ class Certain:
             known = best._replace(least=min(max(known.least, found.least), best.worth))
             self._known[beginning] = known
         return known
+
+    def floor(self, at: Member, epoch: int) -> int:
+        """A bound on a remainder, as far as one was asked for, or follows from another one; else 0."""
+        beginning = _beginning(at, epoch)
+        known = self._known.get(beginning, _UNKNOWN)
+        return max(known.least, self._floors.get(beginning, 0))
+
+    def raise_floor(self, at: Member, epoch: int, least: int) -> None:
+        """Note that a remainder is worth no less."""
+        beginning = _beginning(at, epoch)
+        if least > self._floors.get(beginning, 0):
+            self._floors[beginning] = least
 
     def learn(self, at: Member, epoch: int, found: Remainder) -> None:
         """Note a remainder that follows from another one."""

@@ -72,7 +72,7 @@ class AllTogether:
         if self._is_over:
             return
         fits = self._amount(self._best.key) < MOST_WEIGHT
-        self._epochs = self._epochs or (_epochs(self._context, self._steps, deadline) if fits else None)
+        self._epochs = self._epochs or (epochs_of(self._context, self._steps, deadline) if fits else None)
         if self._epochs is None:
             self._is_over = True
         else:
@@ -124,7 +124,7 @@ class AllTogether:
         return self._context.amount_from(limit, MOST_WEIGHT)
 
 
-def _epochs(context: SearchContext, steps: Iterable[Operator], deadline: Deadline) -> Epochs | None:
+def epochs_of(context: SearchContext, steps: Iterable[Operator], deadline: Deadline) -> Epochs | None:
     """The kernel's layers of states; None where it can't."""
     packed, kernel = context.packed, library()
     waiting = {op for op in steps if not packed.is_useful(op.action)}

@@ -63,12 +63,13 @@ class Epochs:
     ) -> None:
         task = context.task
         self._kernel, self._after, self.is_hopeless = library, after, False
+        self._told = EncodedProblem(problem)
         self._numbers = {op.action: number for number, op in enumerate(problem.operators)}
         self._operators = problem.operators
         self._given: list[int] = []
         self._fields = [field for field, _ in problem.fields]
         deadline.require(memory_for(problem) + len(problem.operators) ** 2)
-        told, agents = EncodedProblem(problem), array("Q", _human_last(task, problem.operators))
+        agents = array("Q", _human_last(task, problem.operators))
         apart = conflicts(task, problem.operators, deadline, strict=context.options.strict)
         self._alike = _alike(problem, after, apart, lost, deadline)
         planner, mask = after.handle, after.told.row(after.problem.mask)
@@ -76,14 +77,13 @@ class Epochs:
         rows = b"".join([row.to_bytes(size, "little") for row in apart])
         flags = b"".join(_flags(field, values, lost.get(field, ())) for field, values in problem.fields)
         self._epochs = library.epochs_new(
-            ctypes.byref(told.spec), agents.buffer_info()[0], rows, planner, mask, flags, unit
+            ctypes.byref(self._told.spec), agents.buffer_info()[0], rows, planner, mask, flags, unit
         )
         if not self._epochs:
             raise LimitReachedError("memory-limit")
         self._is_under_way = False
-        self._allowed(
-            lambda room: library.epochs_start(self._epochs, told.row(context.packed.init), room), deadline
-        )
+        init = self._told.row(context.packed.init)
+        self._allowed(lambda room: library.epochs_start(self._epochs, init, room), deadline)
 
     def __del__(self) -> None:
         if getattr(self, "_epochs", None):
@@ -128,6 +128,21 @@ class Epochs:
         totals, paid = array("q", bytes(8 * count)), array("q", bytes(8 * count))
         kernel.epochs_leavings(epochs, totals.buffer_info()[0], paid.buffer_info()[0])
         return sorted(map(Leaving, totals, paid, range(count)))
+
+    def go_back(self, limit: int, deadline: Deadline) -> None:
+        """Find out what is left from all states, once all epochs were gone through under a limit."""
+        given, outcome = array("i", self._given or [0]), RUNNING
+        while outcome == RUNNING:
+            deadline.check()
+            outcome = self._kernel.epochs_back(self._epochs, given.buffer_info()[0], limit, SLICE)
+
+    def rest(self, epochs: int, state: int) -> int | None:
+        """Bound on what is left from a packed state after some epochs; None where it was not met.
+
+        It is no more than what of the limit was left there.
+        """
+        found = self._kernel.epochs_rest(self._epochs, epochs, self._told.row(state))
+        return None if found == _NONE else int(found)
 
     def end(self, leaving: Leaving) -> int:
         """The packed state that is left behind, in the fields that matter to what follows."""
