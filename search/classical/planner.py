@@ -99,7 +99,7 @@ class ClassicalPlanner:
         if not self._planner:
             raise LimitReachedError("memory-limit")
         self._tried = 0.0
-        self._tell_alike()
+        self._tell_alike(self._alike or [], Deadline())
         self._asked: int | None = None
         self._most = INFINITE_KEY
         self._floor = 0
@@ -159,8 +159,8 @@ class ClassicalPlanner:
             deadline.check()
             if on_bound is not None:
                 on_bound(self.least)
-            if self._alike is None and self.counts()[2] >= _SOME and self.alike(deadline):
-                self._begin(deadline)
+            if self._alike is None and self.counts()[2] >= _SOME:
+                self.alike(deadline)
             if self._is_settled_symbolically(deadline, on_bound):
                 break
         found = self._unbounded(deadline) if outcome == _UNFIT else self.least
@@ -339,15 +339,18 @@ class ClassicalPlanner:
     def alike(self, deadline: Deadline) -> list[list[int]]:
         """Classes of fields that are alike, by their numbers; the kernel is told of them.
 
-        A search that is under way has to begin anew.
+        A search that is under way begins anew.
         """
         if self._alike is None:
-            self._alike = like_fields(self.problem, deadline)
-            self._tell_alike()
+            found = like_fields(self.problem, deadline)
+            self._tell_alike(found, deadline)
+            self._alike = found
+            if found and self._is_open:
+                self._begin(deadline)
         return self._alike
 
-    def _tell_alike(self) -> None:
-        if self._alike:
-            fields = told(self._alike)
-            if not self._kernel.planner_alike(self._planner, fields.buffer_info()[0], len(fields)):
-                raise LimitReachedError("memory-limit")
+    def _tell_alike(self, classes: list[list[int]], deadline: Deadline) -> None:
+        if classes:
+            kernel, planner, fields = self._kernel, self._planner, told(classes)
+            at, count = fields.buffer_info()
+            self._allowed(lambda room: kernel.planner_alike(planner, at, count, room), deadline)

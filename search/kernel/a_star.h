@@ -85,6 +85,23 @@ static const Ints *allowed_in(AStar *s, const Word *state) {
 
 static void copy_row(const AStar *s, Word *to, const Word *from) { memcpy(to, from, (size_t)s->problem->words * sizeof *to); }
 
+/* Be told which fields are alike.  What is known of a state is known of what stands for it; a search that is under way has to
+   begin anew. */
+static int take_alike(AStar *s, const int32_t *fields, int32_t count, size_t allowed) {
+    Table *t = &s->table;
+    grant(t, allowed);
+    if (!set_alike(&s->alike, fields, count)) return t->wanted = SIZE_MAX, MEMORY;
+    for (int32_t id = 0, known = t->count; id < known; id++) {
+        copy_row(s, s->row, state_of(t, id));
+        if (!represent(s->problem, &s->alike, s->row)) continue;
+        if (!reserve(t, 1)) return MEMORY;
+        const Node *node = node_of(t, id);
+        Node *like = node_of(t, find(t, s->row, NULL));
+        if (node->exact || (!like->exact && node->rest > like->rest)) like->rest = node->rest, like->exact = node->exact;
+    }
+    return FOUND;
+}
+
 /* The number of what stands for a state, or NONE. */
 static int32_t met_like(const AStar *s, const Word *state) {
     copy_row(s, s->like, state);

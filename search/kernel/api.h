@@ -55,10 +55,9 @@ API Planner *planner_new(const Spec *spec) {
 API int planner_begin(Planner *s, const Word *state, int32_t before, Cost limit, size_t allowed) {
     return a_star_begin(&s->a_star, state, before, limit, allowed);
 }
-/* Fields that are alike, class by class, each ends with NONE; whether there was memory.  A search that is under way has to begin
-   anew. */
-API int planner_alike(Planner *s, const int32_t *fields, int32_t count) {
-    return set_alike(&s->a_star.alike, fields, count);
+/* Fields that are alike, class by class, each ends with NONE. */
+API int planner_alike(Planner *s, const int32_t *fields, int32_t count, size_t allowed) {
+    return take_alike(&s->a_star, fields, count, allowed);
 }
 API int planner_run(Planner *s, double seconds, size_t allowed) { return a_star_run(&s->a_star, seconds, allowed); }
 

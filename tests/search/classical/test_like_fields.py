@@ -42,14 +42,18 @@ def test_things_that_cost_and_are_wanted_alike_are(task: Task, sizes: list[int])
     assert list(map(len, planner_of(packed_of(task)).alike(Deadline()))) == sizes
 
 
-def test_costs_are_exact_and_plans_are_plans() -> None:
+@pytest.mark.parametrize("late", [0, 4])
+def test_costs_are_exact_and_plans_are_plans(late: int) -> None:
+    """Also where it is found out late, by what is known of states that others stand for now."""
     several = 0
     for seed in range(60):
         dice = Random(seed)
         packed = packed_of(fetching(dice))
         planner, costs = planner_of(packed), exact(packed)
-        several += bool(planner.alike(Deadline()))
-        for state in dice.sample([*costs], min(40, len(costs))):
+        known: dict[int, int] = {}
+        for number, state in enumerate(dice.sample([*costs], min(40, len(costs)))):
+            if number == late:
+                several += bool(planner.alike(Deadline()))
             cost = costs[state]
             limit = dice.choice([INFINITE_KEY, cost, min(cost + 1, INFINITE_KEY)])
             some = dice.choice([*costs])
@@ -59,6 +63,9 @@ def test_costs_are_exact_and_plans_are_plans() -> None:
             if found < min(limit, INFINITE_KEY):
                 for plan in (planner.known_plan(state, Deadline()), planner.best_so_far(state)):
                     assert _weight(packed, planner, state, plan or []) == cost, seed
+                known[state] = cost
+        for state, cost in known.items():
+            assert _weight(packed, planner, state, planner.known_plan(state, Deadline()) or []) == cost, seed
     assert several > 30
 
 
