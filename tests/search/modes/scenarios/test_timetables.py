@@ -2,11 +2,13 @@
 
 from fractions import Fraction
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from search import PreparedTask
 from search.call.context import SearchContext
+from search.kernel.library import library
 from search.modes.scenarios import Candidate
 from search.modes.scenarios.lines import Line
 from search.modes.scenarios.measure import FOLLOWING, Worths
@@ -48,6 +50,7 @@ def test_they_are_never_above_what_is_left(
         reached = {way.after for way in ways if way.after.phase == FOLLOWING}
 
 
+@pytest.mark.skipif(library() is None, reason="there is no kernel here")
 def test_one_says_what_comes_too_late() -> None:
     """A robot lifts a thing before the last epoch, or in vain; private distances know no epochs."""
     task, candidates = lifted()
