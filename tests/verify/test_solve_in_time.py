@@ -66,18 +66,15 @@ def test_beside_bystanders_the_rule_has_to_be_left_out() -> None:
     assert solve(beside, Options(nobody_pays=False)).bystanders["c"][0].epoch == 2
 
 
-def test_a_head_start_is_over_when_the_plan_is_predicted() -> None:
-    """Who waits for a head start pays for it, though resting until the script does it would be free.
-
-    The verifier took the dearer plan for no optimal one, and refuted the answer.
-    """
+def test_nothing_is_begun_after_a_head_start_where_the_goal_comes_by_itself() -> None:
+    """Who begins something pays for what they waited before, and need not; an answer of cost 1 was proved."""
     made = build(goal="f", actions={"do h": " -> f @ 0", "look r": " -> seen"})
     made = made.with_script(Script(facts=[(5, "f")]))
-    for mode, cost in (("serendipity", 0), ("individual", 1)):
+    for mode in ("serendipity", "individual"):
         answer = serendipity.plan(made, mode=mode, waiting_cost="0.5", head_start=2)
-        assert (answer.human_cost, answer.cost) == (1, cost)
+        assert (answer.human_cost, answer.cost, answer.opportunity) == (0, 0, False)
         assert serendipity.verify(made, answer).verdict == "proved"
-        assert solve(made, answer.options).cost == cost
+        assert solve(made, answer.options).cost == 0
 
 
 @pytest.mark.parametrize("horizon", [None, "inf"])
