@@ -4,12 +4,12 @@
         [--stride N] [--calls individual,composite-inf] [--techniques]
     python -m benchmarks.ablation -o FILE.jsonl --table
 
-Limits are seconds of processor time.  A call is asked again without each strategy that made its answer
-better, raised its bound or settled it, or took a twentieth of its time: without any other it would be the
-same call.  With ``--techniques`` it is asked without each technique of the kernel and each bound instead,
-if it takes a hundredth of its time.  What is in the file already is not asked again.  ``lost``: calls
-decided with it alone, by family; ``gap``: the change of the sum over all calls of log((cost + 1) /
-(bound + 1)) without it.
+Limits are seconds by the clock, since other processes do some of the work.  A call is asked again without
+each strategy that made its answer better, raised its bound or settled it, or took a twentieth of its time:
+without any other it would be the same call.  With ``--techniques`` it is asked without each technique of
+the kernel and each bound instead, if it takes a hundredth of its time.  What is in the file already is not
+asked again.  ``lost``: calls decided with it alone, by family; ``gap``: the change of the sum over all
+calls of log((cost + 1) / (bound + 1)) without it.
 """
 
 import time
@@ -19,7 +19,6 @@ from itertools import product
 from math import log
 from pathlib import Path
 from random import Random
-from types import SimpleNamespace
 from typing import Annotated, Any, Final, NamedTuple
 
 import typer
@@ -34,7 +33,6 @@ from serendipity import SerendipityError, Task
 from serendipity.evaluation.benchmark.contenders import MODES
 from serendipity.evaluation.measuring.record import Lines
 from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, table
-from serendipity.model.resources import deadline
 from serendipity.model.telling import Line
 
 _TAKES: Final = 0.05
@@ -75,7 +73,6 @@ def main(
         pairs = {(name,): _pairs(name, whole, known) for name in names}
         print(as_markdown([table(("without",), pairs, _columns(gaps)), told]), end="")
         return
-    deadline.time = SimpleNamespace(perf_counter=time.process_time)  # type: ignore[attr-defined]
     for suite in suites.split(","):
         for family, name, task in SUITES[suite](stride):
             for call, limit in product(calls.split(","), map(float, limits.split(","))):
