@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
-from typing import Final
+from typing import Final, NamedTuple
 
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade.call import Request
@@ -32,23 +32,29 @@ _SHARE: Final = 0.5
 """The share of the time for what regret compares with."""
 
 
+class PricedScenarios(NamedTuple):
+    """Scenarios of a call, and what help has to keep in each.
+
+    Attributes:
+        last: ``T``.
+    """
+
+    task: Task
+    options: Options
+    candidates: Sequence[Candidate]
+    rules: Sequence[Kept]
+    last: int
+
+
 class OverScenarios:
     """A call over scenarios whose answers pay for what they leave; ``idle`` is the answer of idle robots."""
 
     adds_up = True
 
-    def __init__(
-        self,
-        task: Task,
-        options: Options,
-        candidates: Sequence[Candidate],
-        rules: Sequence[Kept],
-        last: int,
-        idle: Answer,
-    ) -> None:
-        self._task, self._options, self._last, self._idle = task, options, last, idle
-        self._rules, self._shares = rules, [one.weight for one in candidates]
-        self._prices = [Prices(task, rule) for rule in rules]
+    def __init__(self, asked: PricedScenarios, idle: Answer) -> None:
+        self._task, self._options, candidates, self._rules, self._last = asked
+        self._shares, self._idle = [one.weight for one in candidates], idle
+        self._prices = [Prices(self._task, rule) for rule in self._rules]
 
     def least(self, kept: Literals, paid: Literals) -> Fraction:
         """See :class:`.Question`."""
@@ -109,21 +115,17 @@ class AtWorst(OverScenarios):
 
     def __init__(
         self,
-        task: Task,
-        options: Options,
-        candidates: Sequence[Candidate],
-        rules: Sequence[Kept],
-        last: int,
+        asked: PricedScenarios,
         idle: Answer,
         solve: Callable[[Literals, Sequence[Figures]], Iterator[Answer]],
         floors: Sequence[Figures],
     ) -> None:
-        super().__init__(task, options, candidates, rules, last, idle)
+        super().__init__(asked, idle)
         self._solve, self._floors = solve, floors
         self._is_asked_by_itself = False
         self._most = tuple(max(floor[i] for floor in floors) for i in (0, 1))
-        plans = (task.cost_of(one.plan) for one in candidates)
-        self._alone = self._worth([(cost + options.window_weight, cost) for cost in plans])[1]
+        plans = (self._task.cost_of(one.plan) for one in asked.candidates)
+        self._alone = self._worth([(cost + self._options.window_weight, cost) for cost in plans])[1]
         self._idle = idle._replace(cost=self._alone, objective=self._alone)
 
     def keep(self, kept: Literals, paid: Literals) -> Iterator[Answer]:
@@ -210,7 +212,8 @@ def at_worst(
         own = [candidates[k] for k in numbers]
         idle = next(solve_scenarios(call.prepared, options, own, deadline))
         solve = partial(solved, numbers, deadline)
-        return AtWorst(call.task, options, own, [rules[k] for k in numbers], last, idle, solve, floors)
+        scenarios = PricedScenarios(call.task, options, own, [rules[k] for k in numbers], last)
+        return AtWorst(scenarios, idle, solve, floors)
 
     floors, proved = [_FREE] * len(candidates), True
     for k in every if call.options.risk == "regret" else ():

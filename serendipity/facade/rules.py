@@ -24,7 +24,7 @@ from serendipity.facade.kept import (
     with_literals,
 )
 from serendipity.facade.leftovers import OnePlan, priced
-from serendipity.facade.leftovers_over_scenarios import Literals, OverScenarios, at_worst
+from serendipity.facade.leftovers_over_scenarios import Literals, OverScenarios, PricedScenarios, at_worst
 from serendipity.model import Condition, Deadline, HumanPlan, Options, Step, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.errors import LIMITS, limit_reason
@@ -110,7 +110,7 @@ def over_scenarios(call: Request, candidates: Sequence[Candidate]) -> Iterator[A
         if call.options.risk != "mean":
             return at_worst(asked, candidates, rules, last, lambda kept: [*_keeping_more(under, kept)])
         idle = next(_solved(call, candidates))
-        question = OverScenarios(call.task, call.options, candidates, rules, last, idle)
+        question = OverScenarios(PricedScenarios(call.task, call.options, candidates, rules, last), idle)
         return priced(
             call.options, question, lambda literals, _: _solved(asked, [*_keeping_more(under, literals)])
         )

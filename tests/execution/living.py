@@ -4,7 +4,7 @@ import json
 from random import Random
 from typing import Any
 
-from serendipity.execution import Execution, LogLine, Omniscient, Person, log_lines, moment_of
+from serendipity.execution import Execution, LogLine, Omniscient, Person, log_lines, moment_of, replay
 from serendipity.model import Condition, Task
 from verify.base.optimal_plans import OptimalPlans
 
@@ -40,6 +40,22 @@ def as_lines(run: Execution) -> list[LogLine]:
     """The lines of an execution's log, by way of JSON."""
     lines = json.loads(json.dumps(list(log_lines(run, seed=1))))
     return [LogLine(number, line) for number, line in enumerate(lines, start=1)]
+
+
+def replayed(task: Task, run: Execution) -> Execution:
+    """The same again by its log, which comes to the same."""
+    again = replay(task, as_lines(run))
+    assert (again.state, again.cost, again.human_cost) == (run.state, run.cost, run.human_cost)
+    return again
+
+
+def lived_short_of_a_robot(task: Task, run: Execution, person: Person) -> Execution:
+    """An execution after six epochs, the first robot out of order from the fifth on."""
+    for epoch in range(6):
+        run.step(person.choose(moment_of(run)))
+        if epoch == 3:
+            run.drop([task.agents[task.robots[0]]])
+    return run
 
 
 def live(

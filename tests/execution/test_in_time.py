@@ -11,13 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity.execution import Execution, log_lines, moment_of, person_of, replay
+from serendipity.execution import Execution, log_lines, moment_of, person_of
 from serendipity.model import Condition, Script, Task
 from serendipity.robot import Epoch, Report, Simulated
 from serendipity.testing.builders import Builder
 from serendipity.testing.oracle import human_plans
 from serendipity.testing.strategies.time import tasks_in_time
-from tests.execution.living import as_lines, lived, verdicts
+from tests.execution.living import lived, lived_short_of_a_robot, replayed, verdicts
 
 DISCOUNTS = st.sampled_from(["0", "0.5", "0.9", "1"])
 SEEDS = st.integers(0, 2**32)
@@ -65,13 +65,7 @@ def test_who_is_told_and_the_team_never_pay_more(task: Task, discount: str) -> N
 def test_a_log_of_robots_that_fail_replays(task: Task, discount: str, seed: int) -> None:
     task, dice = _without_robot_goals(task), Random(seed)
     run = Execution(task, discount=discount, adapter=Simulated(dice, fail=0.3, slow=0.3))
-    person = person_of(task, "noisy:0.2", dice)
-    for epoch in range(6):
-        run.step(person.choose(moment_of(run)))
-        if epoch == 3:
-            run.drop([task.agents[task.robots[0]]])
-    again = replay(task, as_lines(run))
-    assert (again.state, again.cost, again.human_cost) == (run.state, run.cost, run.human_cost)
+    replayed(task, lived_short_of_a_robot(task, run, person_of(task, "noisy:0.2", dice)))
 
 
 @pytest.mark.parametrize("human", ["observant", "omniscient"])

@@ -12,7 +12,7 @@ from serendipity.execution import Execution, Replanner, as_text, log_lines, mome
 from serendipity.model import InputError, Task
 from serendipity.robot import Simulated
 from serendipity.testing.strategies import tasks
-from tests.execution.living import as_lines, other_goals
+from tests.execution.living import other_goals, replayed
 
 
 @given(tasks(), st.integers(0, 2**32))
@@ -27,8 +27,7 @@ def test_with_faults_and_doubts_and_changes(task: Task, seed: int) -> None:
             run.change({dice.choice(task.facts): dice.random() < 0.5})
         if epoch == 4:
             run.drop([task.agents[dice.choice(task.robots)]])
-    again = replay(task, as_lines(run))
-    assert (again.state, again.cost, again.human_cost) == (run.state, run.cost, run.human_cost)
+    again = replayed(task, run)
     assert list(log_lines(again))[1:] == [
         _with_seconds(line, told) for line, told in zip(list(log_lines(run))[1:], again.events, strict=True)
     ]

@@ -9,13 +9,13 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity.execution import Execution, moment_of, person_of, replay
+from serendipity.execution import Execution, moment_of, person_of
 from serendipity.model import Condition, Script, Task
 from serendipity.robot import Simulated
 from serendipity.testing.builders import Builder
 from serendipity.testing.generator.in_time import random_local_call
 from serendipity.testing.oracle import human_plans
-from tests.execution.living import as_lines, lived, other_goals
+from tests.execution.living import lived, lived_short_of_a_robot, other_goals, replayed
 from tests.execution.test_simulation_in_time import Stubborn
 from tests.search.time.test_people_who_see_what_is_near import answered, kitchen
 
@@ -46,8 +46,7 @@ def test_they_never_pay_more_than_alone_and_their_runs_replay(seed: int) -> None
     run = _near(task, discount=("0", "0.5", "0.9", "1")[seed % 4])
     assert run.done and run.human_cost <= alone
     assert not any(missed.why == "broken" for passed in run.passed for missed in passed.unfinished)
-    again = replay(task, as_lines(run))
-    assert (again.state, again.cost, again.human_cost) == (run.state, run.cost, run.human_cost)
+    replayed(task, run)
 
 
 @pytest.mark.long
@@ -65,8 +64,7 @@ def test_nor_where_robots_do_not_know_what_they_want(seed: int) -> None:
     task, alone = _lived(seed)
     run = _near(task, goals=other_goals(task, Random(seed)))
     assert run.done and run.human_cost <= alone
-    again = replay(task, as_lines(run))
-    assert (again.state, again.cost, again.human_cost) == (run.state, run.cost, run.human_cost)
+    replayed(task, run)
 
 
 @pytest.mark.long
@@ -98,13 +96,7 @@ def test_a_log_of_robots_that_fail_replays(seed: int) -> None:
     (task, _), dice = _lived(seed), Random(seed)
     robots = Simulated(dice, fail=0.3, slow=0.3)
     run = Execution(task, discount="0.5", human_model="local", adapter=robots)
-    person = person_of(task, "local", dice)
-    for epoch in range(6):
-        run.step(person.choose(moment_of(run)))
-        if epoch == 3:
-            run.drop([task.agents[task.robots[0]]])
-    again = replay(task, as_lines(run))
-    assert (again.state, again.cost, again.human_cost) == (run.state, run.cost, run.human_cost)
+    replayed(task, lived_short_of_a_robot(task, run, person_of(task, "local", dice)))
 
 
 @pytest.mark.parametrize("walk", [1, 3])
