@@ -64,7 +64,7 @@ def test_a_journal_goes_on(tmp_path: Path) -> None:
         ("serendipity", 6),
     ]
     journal.append(record)
-    assert journal.read() == [record, record]
+    assert [*journal.read()] == [record, record]
 
 
 def newer(name: str, folder: Path) -> Path:

@@ -112,10 +112,11 @@ def _listed(text: str) -> list[Any]:
 
 
 def _answer(form: str, run: "Reproduction", tables: "Tables") -> str | bytes:
+    from serendipity.evaluation.reproduction.rows import COLUMNS
     from serendipity.evaluation.reproduction.tables import as_json
 
     if form == "csv":
-        return as_csv([*run.table().columns], (row.cells() for row in run.rows))
+        return as_csv(COLUMNS, (row.cells() for row in run.rows))
     if form == "json":
         return json_of(as_json(run, tables))
     return written(run.table(), form) if form in ROWS else _text(run, tables)

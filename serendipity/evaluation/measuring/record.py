@@ -27,8 +27,8 @@ class Lines:
     def __init__(self, path: Path, what: str, begins: tuple[bytes, ...]) -> None:
         self.path, self._what, self._begins = path, what, begins
 
-    def read(self, decoded: Callable[[Any, int], T]) -> list[T]:
-        """The values that are there already.
+    def read(self, decoded: Callable[[Any, int], T]) -> Iterator[T]:
+        """The values that are there already, one by one.
 
         Args:
             decoded: what a value on a line of some number stands for; it may fail like a look-up.
@@ -36,24 +36,29 @@ class Lines:
         Raises:
             InputError: the file is something else.
         """
+        cut_off, whole = b"", 0
         try:
-            text = self.path.read_bytes()
+            with self.path.open("rb") as lines:
+                for number, line in enumerate(lines, start=1):
+                    if not line.endswith(b"\n"):
+                        cut_off = line
+                        break
+                    whole += len(line)
+                    yield self._value(decoded, line, number)
         except FileNotFoundError:
-            return []
+            return
         except OSError as error:
             raise InputError(f"can't be read: {error.strerror}", self.path) from None
-        whole, _, cut_off = text.rpartition(b"\n")
-        values = []
-        for number, line in enumerate(whole.splitlines(), start=1):
-            try:
-                values.append(decoded(json.loads(line), number))
-            except (AttributeError, ValueError, KeyError, TypeError, RecursionError):
-                raise InputError(f"expected {self._what}", self.path, number) from None
         if cut_off:
             if not any(cut_off.startswith(begin[: len(cut_off)]) for begin in self._begins):
                 raise InputError(f"expected {self._what}", self.path)
-            os.truncate(self.path, len(text) - len(cut_off))
-        return values
+            os.truncate(self.path, whole)
+
+    def _value(self, decoded: Callable[[Any, int], T], line: bytes, number: int) -> T:
+        try:
+            return decoded(json.loads(line), number)
+        except (AttributeError, ValueError, KeyError, TypeError, RecursionError):
+            raise InputError(f"expected {self._what}", self.path, number) from None
 
     def append(self, value: Any) -> None:
         """Add a line, which is on disk on return; or a UsageError, and the file is as it was before."""

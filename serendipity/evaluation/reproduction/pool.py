@@ -20,6 +20,13 @@ _CHUNK: Final = 1.0
 _AHEAD: Final = 2
 """Chunks for each thread of the cluster at a time: what is not sent yet is in nobody's memory there."""
 
+_FORGETFUL: Final = {
+    "distributed.worker.profile.enabled": False,  # 10 MiB a minute, for an hour
+    "distributed.admin.low-level-log-length": 10,  # messages, with all that is in them
+    "distributed.admin.system-monitor.log-length": 100,
+}
+"""What Dask keeps for those who look into it, and what keeps growing for an hour."""
+
 Work = Callable[[Assignment], TaskRows]
 
 
@@ -105,27 +112,28 @@ def _hushed() -> Iterator[None]:
 
 @contextmanager
 def _client(address: str, jobs: int) -> Iterator[Any]:
-    client = _connected(address, jobs)
-    with _hushed():
-        try:
-            yield client
-        finally:
-            with suppress(OSError, TimeoutError):  # of a cluster that is gone
-                client.close()
-                if address == "local":
-                    client.cluster.close()
+    try:
+        import dask
+        import distributed  # noqa: F401  (sets what is changed below)
+    except ImportError:
+        raise UsageError("--dask: needs Dask: install serendipity-planner[dask]") from None
+    with dask.config.set(_FORGETFUL):
+        client = _connected(address, jobs)
+        with _hushed():
+            try:
+                yield client
+            finally:
+                with suppress(OSError, TimeoutError):  # of a cluster that is gone
+                    client.close()
+                    if address == "local":
+                        client.cluster.close()
 
 
 def _connected(address: str, jobs: int) -> Any:
-    try:
-        import dask
-        from distributed import Client, LocalCluster
-    except ImportError:
-        raise UsageError("--dask: needs Dask: install serendipity-planner[dask]") from None
+    from distributed import Client, LocalCluster
+
     if address == "local":
-        with dask.config.set({"distributed.worker.profile.enabled": False}):  # 10 MiB a minute, for an hour
-            cluster = LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address="127.0.0.1:0")
-        return Client(cluster)
+        return Client(LocalCluster(n_workers=jobs, threads_per_worker=1, dashboard_address="127.0.0.1:0"))
     try:
         return Client(address, timeout="10s")
     except (OSError, ValueError) as error:

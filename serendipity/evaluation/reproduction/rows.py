@@ -1,6 +1,6 @@
 """One row per task, mode and discount."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
@@ -29,7 +29,6 @@ SHORT: Final = COLUMNS.index("best_tie")
 """Number of columns that are printed."""
 
 _COSTS: Final = ("cost", "human_cost", "best_tie", "worst_tie")
-_SHARED: Final = (*_COSTS, "test", "mode", "discount", "status")
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,13 +89,6 @@ class Row:
         window = None if start is None else Window(start, data["window_end"])
         discount = as_written(data["discount"])
         return cls(**plain, **costs, discount=discount, window=window, reason=data.get("reason"))
-
-
-def sharing(row: Row, known: dict[Any, Any]) -> Row:
-    """The same row; values that others have are theirs: a large batch has few different ones."""
-    own = {name: getattr(row, name) for name in _SHARED}
-    same = {name: known.setdefault((type(value), value), value) for name, value in own.items()}
-    return replace(row, **same)
 
 
 def exact_cost(value: float | None) -> Fraction | None:

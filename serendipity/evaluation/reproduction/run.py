@@ -1,7 +1,7 @@
 """A folder of tasks through modes x discounts: in parallel, and resumable."""
 
 import json
-from collections.abc import Callable, Generator, Iterable, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from fractions import Fraction
@@ -12,10 +12,11 @@ from typing import Any, Final
 
 from search.kernel.library import library
 from serendipity.evaluation.measuring.record import Lines
+from serendipity.evaluation.reproduction.packed import Rows
 from serendipity.evaluation.reproduction.pool import on_dask
-from serendipity.evaluation.reproduction.rows import KINDS, Row, sharing
-from serendipity.evaluation.reproduction.suite import TaskFolder, find_tasks
-from serendipity.evaluation.reproduction.work import Assignment, Call, TaskRows, killed, solve, unknown
+from serendipity.evaluation.reproduction.rows import KINDS, Row
+from serendipity.evaluation.reproduction.suite import find_tasks
+from serendipity.evaluation.reproduction.work import Assignment, Call, TaskRows, killed, solve
 from serendipity.model import Deadline, InputError, Options, UsageError
 from serendipity.model.arguments import DEADLINE, FUNCTION, LIST, PATH, TEXT, WHOLE, expect, expect_or_none
 from serendipity.model.keywords import Mode
@@ -38,8 +39,8 @@ class Journal:
         self.path = path
         self._lines = Lines(path, "a journal of `serendipity reproduce`", _BEGINS)
 
-    def read(self) -> list[TaskRows]:
-        """The finished tasks that are there already; errors as of :meth:`Lines.read`."""
+    def read(self) -> Iterator[TaskRows]:
+        """The finished tasks that are there already, one by one; errors as of :meth:`Lines.read`."""
         return self._lines.read(self._record)
 
     def append(self, record: TaskRows) -> None:
@@ -81,7 +82,7 @@ class Reproduction(Tabular):
 
     modes: tuple[str, ...]
     discounts: tuple[Fraction, ...]
-    rows: tuple[Row, ...]
+    rows: Sequence[Row]
 
     def __repr__(self) -> str:
         return f"Reproduction({len(self.rows)} rows, {self.unproved} of them unproved)"
@@ -153,34 +154,30 @@ def reproduce(
         raise UsageError(f"jobs: expected at least 1, got {jobs}")
     tasks = find_tasks(Path(folder))
     book = None if journal is None else Journal(Path(journal))
-    shared: dict[Any, Any] = {}
-    known = {} if book is None else _by_call(book.read(), shared, proved=True)
+    rows = Rows(tasks, calls)
+    for record in () if book is None else book.read():
+        rows.put(record, proved=True)
     whole = deadline or Deadline()
     options, left = Options(time_limit=time_limit, memory_limit=memory_limit), whole.left()
     limits = (options.time_limit, options.memory_limit, None if left is None else time() + left)
-    keys = {(task, call): _key(task, call) for task in tasks for call in calls}
-    missing = {task: tuple(call for call in calls if keys[task, call] not in known) for task in tasks}
-    assignments = [Assignment(task, of, *limits) for task, of in missing.items() if of]
+    missing = zip(tasks, map(rows.missing, range(len(tasks))), strict=True)
+    assignments = [Assignment(task, of, *limits) for task, of in missing if of]
     report = on_progress or (lambda _: None)
     done = len(tasks) - len(assignments)
-    helped = sum(known[key].opportunity for key in keys.values() if key in known)
+    helped = sum(row.opportunity for row in rows)
     report(Progress(done, len(tasks), helped))
     with closing(_work(assignments, jobs, dask)) as records:
         for record in records:
             if book is not None:
                 book.append(record)
-            known |= _by_call([record], shared)
+            rows.put(record)
             done += 1
             helped += sum(row.opportunity for row in record.rows)
             report(Progress(done, len(tasks), helped))
             if whole.reached() is not None:
                 break
-    rows = (known.get(key) or unknown(task.test, call) for (task, call), key in keys.items())
     each_mode, each_discount = (tuple(dict.fromkeys(values)) for values in zip(*calls, strict=True))
-    return Reproduction(each_mode, each_discount, tuple(rows))
-
-
-_Key = tuple[str, str, Call]
+    return Reproduction(each_mode, each_discount, rows)
 
 
 def _calls(modes: Iterable[str], discounts: Iterable[Number]) -> tuple[Call, ...]:
@@ -192,25 +189,6 @@ def _calls(modes: Iterable[str], discounts: Iterable[Number]) -> tuple[Call, ...
             raise UsageError(f"modes: expected some of {', '.join(MODES)}, got '{mode}'")
     exact = dict.fromkeys(Options(discount=level).discount for level in levels)
     return tuple(Call(mode, discount) for mode in wanted for discount in exact)
-
-
-def _key(task: TaskFolder | TaskRows, call: Call) -> _Key:
-    return task.test, task.fingerprint, call
-
-
-def _by_call(records: Iterable[TaskRows], shared: dict[Any, Any], *, proved: bool = False) -> dict[_Key, Row]:
-    """The rows by what they answer; with ``proved`` those only that no limit could change.
-
-    Args:
-        shared: values that others have, too, each once.
-    """
-    rows = ((record, sharing(row, shared)) for record in records for row in record.rows)
-    found: dict[_Key, Row] = {}
-    for record, row in rows:
-        if row.proved or not proved:
-            test, fingerprint, call = _key(record, Call(row.mode, row.discount))
-            found[test, shared.setdefault(fingerprint, fingerprint), shared.setdefault(call, call)] = row
-    return found
 
 
 def _work(assignments: Sequence[Assignment], jobs: int, dask: str | None) -> Generator[TaskRows]:

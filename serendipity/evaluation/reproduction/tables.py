@@ -1,6 +1,6 @@
 """Means and counts by discount (Table I), times by mode (Table II), the paper's examples; as JSON and CSV."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import product
 from statistics import fmean, median
@@ -86,10 +86,10 @@ def table_1(run: Reproduction) -> list[Entry]:
     known = TABLE_1 if _papers_own(run) else {}
     entries = []
     for discount, (variant, mode, cost) in product(run.discounts, _variants(run.modes)):
-        rows = [row for row in run.rows if row.mode == mode and row.discount == discount]
-        costs = [(value, row) for row in rows if (value := cost(row)) is not None]
+        rows = ((cost(row), row.human_cost) for row in _rows(run, mode, discount))
+        costs = [(value, alone) for value, alone in rows if value is not None]
         mean = sum((value for value, _ in costs), Fraction(0)) / len(costs) if costs else None
-        improved = sum(row.human_cost is not None and value < row.human_cost for value, row in costs)
+        improved = sum(alone is not None and value < alone for value, alone in costs)
         theirs = known.get(variant, {}).get(discount, (None, None))
         entries.append(Entry(discount, variant, mean, improved, len(costs), *theirs))
     return entries
@@ -100,10 +100,17 @@ def table_2(run: Reproduction) -> list[Times]:
     known = TABLE_2 if _papers_own(run) else {}
     times = []
     for mode in run.modes:
-        told = [row.seconds for row in run.rows if row.mode == mode and row.status != "error"]
+        rows = (row for discount in run.discounts for row in _rows(run, mode, discount))
+        told = [row.seconds for row in rows if row.status != "error"]
         seconds = told or [0.0]
         times.append(Times(mode, len(told), fmean(seconds), median(seconds), max(seconds), known.get(mode)))
     return times
+
+
+def _rows(run: Reproduction, mode: str, discount: Fraction) -> Iterator[Row]:
+    """Those of a call, which stand as far from each other as there are calls."""
+    first = run.modes.index(mode) * len(run.discounts) + run.discounts.index(discount)
+    return (run.rows[i] for i in range(first, len(run.rows), len(run.modes) * len(run.discounts)))
 
 
 def examples() -> list[dict[str, Any]]:

@@ -52,7 +52,7 @@ def _in_pool(work: Callable[[A], B], left: list[A], workers: int) -> Generator[B
         futures = {pool.submit(work, assignment): assignment for assignment in left}
         for future in as_completed(futures):
             done = future.result()
-            left.remove(futures[future])
+            left.remove(futures.pop(future))
             yield done
     except BrokenProcessPool:
         return True

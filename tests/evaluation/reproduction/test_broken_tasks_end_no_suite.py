@@ -98,13 +98,15 @@ def test_a_chunk_ends_after_a_second(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.long
-def test_workers_of_this_machine_keep_no_profiles() -> None:
-    """Each second of a deep call makes theirs larger."""
+def test_dask_keeps_neither_profiles_nor_messages() -> None:
+    """Each second of a deep call makes profiles larger, each of the last 1,000 messages has a chunk in it."""
     pytest.importorskip("distributed", reason="needs the extra 'dask'")
     import dask
 
     with _client("local", 1) as client:
         assert set(client.run(dask.config.get, "distributed.worker.profile.enabled").values()) == {False}
+        sent = [*client.cluster.scheduler.stream_comms.values(), client.scheduler_comm]
+        assert [each.recent_message_log.maxlen for each in sent] == [10, 10]
 
 
 @pytest.mark.long

@@ -1,6 +1,10 @@
 """However a suite is run, its rows are what ``plan`` answers."""
 
+import pickle
+import tracemalloc
+from dataclasses import replace
 from fractions import Fraction
+from gc import collect
 from pathlib import Path
 from typing import Any
 
@@ -8,13 +12,33 @@ import pytest
 
 import serendipity
 from serendipity.evaluation.reproduction import COLUMNS, Progress, Reproduction, reproduce
+from serendipity.evaluation.reproduction import run as run_module
+from serendipity.evaluation.reproduction.packed import Rows
+from serendipity.evaluation.reproduction.suite import TaskFolder
 from serendipity.evaluation.reproduction.tables import table_1
+from serendipity.evaluation.reproduction.work import Assignment, Call, TaskRows, unknown
+from serendipity.model import Window
 from serendipity.pddl.write import write_pddl
 from serendipity.testing.builders import task as build
 from tests.evaluation.reproduction.conftest import PRESETS
 
 MODES = ("individual", "serendipity", "communication")
 DISCOUNTS = ("0.6", "0.9")
+CALLS = ("0", "0.3", "0.5", "0.7", "0.9")
+
+
+def folder(number: int) -> TaskFolder:
+    return TaskFolder(str(number), Path(f"test{number}"), f"{number:x}")
+
+
+def numbered(assignment: Assignment) -> TaskRows:
+    """Rows of which no two have the same cost."""
+    test, first = assignment.task.test, int(assignment.task.test) * len(CALLS)
+    rows = (
+        replace(unknown(test, call), status="optimal", cost=Fraction(first + i, 4), seconds=0.1 + i)
+        for i, call in enumerate(assignment.calls)
+    )
+    return TaskRows(test, assignment.task.fingerprint, tuple(rows))
 
 
 def without_times(run: Reproduction) -> list[dict[str, Any]]:
@@ -46,12 +70,46 @@ def test_processes_give_the_same_rows(suite: Path, run: Reproduction) -> None:
     assert without_times(reproduce(suite, modes=MODES, discounts=DISCOUNTS, jobs=2)) == without_times(run)
 
 
-def test_rows_share_values_that_are_equal(run: Reproduction) -> None:
-    """A large batch took almost three times as much memory."""
-    known: dict[object, object] = {}
-    for row in run.rows:
-        for value in (row.cost, row.best_tie, row.discount):
-            assert known.setdefault((type(value), value), value) is value
+def test_a_batch_takes_no_more_memory_the_longer_it_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It grew by half a KiB for each row."""
+    monkeypatch.setattr(run_module, "find_tasks", lambda _: tuple(map(folder, range(500))))
+    monkeypatch.setattr(run_module, "solve", numbered)
+    taken: dict[int, int] = {}
+
+    def look(progress: Progress) -> None:
+        if progress.done in (300, 500):
+            collect()
+            taken[progress.done], _ = tracemalloc.get_traced_memory()
+
+    tracemalloc.start()
+    try:
+        rows = reproduce("suite", modes=["serendipity"], discounts=CALLS, on_progress=look).rows
+    finally:
+        tracemalloc.stop()
+    assert taken[500] - taken[300] < 100_000, "for 1,000 rows"
+    assert [row.cost for row in rows] == [Fraction(n, 4) for n in range(2500)]
+
+
+def test_rows_are_as_they_were_put() -> None:
+    """Where their bytes don't say all of them, too."""
+    tasks, calls = [folder(0)], [Call("serendipity", Fraction(n)) for n in range(4)]
+    rows, odd = Rows(tasks, calls), Fraction(10**20 + 1, 3 * 10**15)
+    none = [unknown("0", call) for call in calls]
+    assert [*rows] == none
+    done = replace(none[0], status="optimal", cost=odd, human_cost=Fraction(1, 3), window=Window(2, 5))
+    broken = replace(none[2], status="error", reason="why")
+    rows.put(TaskRows("0", tasks[0].fingerprint, (done, none[1], broken)))
+    rows.put(TaskRows("0", "another", tuple(none)))
+    rows.put(TaskRows("0", tasks[0].fingerprint, (none[0],)), proved=True)
+    assert rows[:] == (done, none[1], broken, none[3])
+    assert rows[-1] == none[3]
+    assert rows.missing(0) == (*calls[1:],)
+    again = pickle.loads(pickle.dumps(rows))
+    assert again == rows
+    assert hash(again) == hash(rows)
+    rows.put(TaskRows("0", tasks[0].fingerprint, (replace(done, cost=None),)))
+    assert again != rows
+    assert rows[0].cost is None
 
 
 @pytest.mark.long
