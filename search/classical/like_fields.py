@@ -77,18 +77,17 @@ class _Likes:
             if other is None:
                 return False
             exchange.append((number, other))
-        goal = self._goal
-        literals = {tuple(_exchanged(word, a, b, shift) for word in pair) for pair in goal.forbidden}
-        return literals == {*goal.forbidden} and self._allows(exchange)
+        literals = {tuple(_exchanged(word, a, b, shift) for word in pair) for pair in self._goal.forbidden}
+        return literals == {*self._goal.forbidden} and self._allows(exchange)
 
     def _told(self, number: int, a: int = 0, b: int = 0, shift: int = 0) -> Hashable:
         """All that counts of an operator, with two fields exchanged."""
         op: Operator = self._operators[number]
-        words = (_exchanged(word, a, b, shift) for word in (op.need_mask, op.need, ~op.keep, op.put))
-        forbidden = frozenset(
-            (_exchanged(field, a, b, shift), _exchanged(value, a, b, shift)) for field, value in op.forbidden
-        )
-        return *words, forbidden, op.agents, self._weights[number]
+        words, forbidden = [op.need_mask, op.need, ~op.keep, op.put], [*op.forbidden]
+        if a:
+            words = [_exchanged(word, a, b, shift) for word in words]
+            forbidden = [(_exchanged(x, a, b, shift), _exchanged(y, a, b, shift)) for x, y in forbidden]
+        return *words, frozenset(forbidden), op.agents, self._weights[number]
 
 
 def _exchanged(word: int, a: int, b: int, shift: int) -> int:

@@ -11,6 +11,7 @@ Costs are scaled to integers by the least common denominator, so ties are exact.
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from math import lcm
 from typing import Final
 
@@ -48,7 +49,7 @@ def require_room(bits: int) -> None:
         )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class CostLayout:
     """Widths of the fields, low to high: announced, actions, start, length, cost, objective.
 
@@ -62,22 +63,22 @@ class CostLayout:
     cost_bits: int
     epoch_weight: int
 
-    @property
+    @cached_property
     def start_shift(self) -> int:
         """Lowest bit of the start field (horizon + 1 - xi1)."""
         return self.action_shift + ACTIONS_BITS
 
-    @property
+    @cached_property
     def length_shift(self) -> int:
         """Lowest bit of the window's length."""
         return self.start_shift + _EPOCH_BITS
 
-    @property
+    @cached_property
     def cost_shift(self) -> int:
         """Lowest bit of the scaled cost."""
         return self.length_shift + _EPOCH_BITS
 
-    @property
+    @cached_property
     def objective_shift(self) -> int:
         """Lowest bit of the scaled objective."""
         return self.cost_shift + self.cost_bits

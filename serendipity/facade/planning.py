@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, Final, Literal, Unpack
 from search import PreparedTask
 from serendipity.facade import one_plan, ties
 from serendipity.facade.call import Given, Request, Solver, checked_call, options_from
-from serendipity.facade.in_time import answers_in_time
 from serendipity.facade.logs import record, recorded
 from serendipity.facade.memory import SessionMemory
 from serendipity.facade.prepared import HELD
@@ -215,6 +214,8 @@ def _begun(
         chosen = chosen.but(head_start=max(0, chosen.head_start - memory.passed))
     solver = _solver(chosen) if classical is None else _with_classical(_solver(chosen), classical, chosen)
     read = _unsure(chosen, given, said)
+    if needs_time(prepared.task, options=chosen):
+        import_module("serendipity.facade.in_time")  # before time counts, and only for such calls
     call = checked_call(prepared, chosen, given, visible, cancelled, deadline)
     require_metered(call.task, chosen)
     unsure = None if read is None else read(call.task)
@@ -231,8 +232,11 @@ def _begun(
     in_time = needs_time(call.task, options=chosen, plan=call.given)
     if in_time and classical is not None:
         raise UsageError(f"classical: {in_time}, which it does not know")
-    found = answers_in_time(call, solver) if in_time else solver(call)
-    return call, ((call, answer) for answer in found)
+    if in_time:
+        from serendipity.facade.in_time import answers_in_time
+
+        return call, ((call, answer) for answer in answers_in_time(call, solver))
+    return call, ((call, answer) for answer in solver(call))
 
 
 def _unsure(options: Options, given: Given, said: Mapping[str, Any]) -> "Callable[[Task], Unsure] | None":

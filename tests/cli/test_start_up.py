@@ -27,6 +27,7 @@ def test_only_the_command_that_is_called_loads() -> None:
     loaded = modules_after(f"from serendipity.cli.app import main\nassert main({command!r}) == 0")
     assert not loaded & {f"serendipity.cli.{name.replace('-', '_')}" for name in NAMES if name != "plan"}
     assert not loaded & {"logging", "tempfile", "random", "json", "serendipity.scenarios.generate"}
+    assert not loaded & {"serendipity.facade.in_time", "serendipity.facade.rules", "search.modes.scenarios"}
 
 
 def test_a_signal_is_listened_to_before_anything_loads() -> None:
