@@ -132,3 +132,25 @@ def test_what_the_human_would_do_alone_has_no_price() -> None:
     expected = best(messy(), options, plan)
     assert (expected.cost, expected.opportunity, expected.saving_alone) == (9, False, 1)
     assert serendipity.verify(messy(), answer).verdict == "proved"
+
+
+def test_a_price_that_makes_help_a_tie_is_proved() -> None:
+    """Joint plans of the same total were refuted: without the price of what they leave they would be help."""
+    built = build(
+        agents="hum bot",
+        human="hum",
+        init="at0",
+        goal="at2",
+        actions={
+            "open0 bot": "-> open0 tired",
+            "stroll0 hum": "-> at1 !at0",
+            "walk1 hum": "at1 -> at2 !at1 @ 3 | open0 -> at2 !at1 @ 3",
+        },
+    )
+    asked = {"discount": "0.9", "window_weight": 0, "leave_price": "*=0.3"}
+    for mode in ("composite", "communication", "serendipity"):
+        answer = serendipity.plan(built, mode=mode, **asked)
+        assert (answer.cost, answer.saving, answer.opportunity) == (4, 0, False)
+        assert serendipity.verify(built, answer).verdict == "proved"
+        for told in (replace(answer, saving=0.5), replace(answer, opportunity=True)):
+            assert serendipity.verify(built, told).verdict == "refuted"

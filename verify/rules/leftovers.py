@@ -17,8 +17,15 @@ def left(prices: Prices, state: State) -> dict[int, Fraction]:
     return {fact: price for fact, (true, price) in prices.items() if (fact in state) is not true}
 
 
-def unpriced(result: Result, price: Fraction) -> Result:
-    """A result as if what it leaves had cost nothing, which claims no more than that it can be had."""
+def unpriced(result: Result, price: Fraction, alone: Fraction | None) -> Result:
+    """A result as if what it leaves had cost nothing, which claims no more than that it can be had.
+
+    Args:
+        alone: what it costs without robots: then less may be an opportunity; None if not known.
+    """
+    cost = as_written(result.cost or 0)
+    turned = not result.opportunity and alone is not None and cost - price < alone <= cost
+    gained = as_written(result.human_cost or 0) - cost if turned else Fraction(0)
 
     def less(value: float | None, amount: Fraction) -> float | None:
         return None if value is None else figure(as_written(value) - amount)
@@ -30,7 +37,8 @@ def unpriced(result: Result, price: Fraction) -> Result:
         lower_bound=0.0,
         cost=less(result.cost, price),
         objective=less(result.objective, price),
-        saving=less(result.saving, -price),
+        opportunity=result.opportunity or turned,
+        saving=less(result.saving, -price - gained) if result.opportunity or turned else result.saving,
     )
 
 

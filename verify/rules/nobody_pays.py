@@ -196,13 +196,14 @@ def _priced_claims(
     if result.opportunity and as_written(result.saving or 0) <= idle:
         return (Claim("cost", "refuted", wording.LEFT_TOO_DEAR),)
     price = sum(left(rule.prices, last_state(task, result)).values(), Fraction(0))
-    said = unpriced(result, price)
+    alone = None if result.human_cost is None else as_written(result.human_cost) - idle
+    said = unpriced(result, price, alone)
     weight = options.window_weight if options.windowed else Fraction(0)
     below = as_written(result.lower_bound or 0)
     if result.status == "optimal":
         below = as_written(result.objective) + (weight if result.window is None else 0)
-    asks = options.windowed and not result.opportunity and result.human_cost is not None
-    alone = as_written(result.human_cost or 0) - idle if asks else None
+    if not options.windowed or result.opportunity:
+        alone = None  # then nothing is better, whatever it costs
     # first of all, since what examines may take its time
     verdict = Leftovers(solved, rule.prices, weight, alone).none_below(below)
     claims = [claim for claim in examine(bound(()), said) if claim.claim not in UNPRICED]
