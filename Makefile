@@ -152,6 +152,7 @@ bench-extra: $(READY)
 fuzz: $(READY)  ## thousands of random tasks: all methods have to agree; the slow tests
 	@$(BIN)/serendipity crosscheck --count 10000 --judges search,automata -o build/disagreement
 	@$(BIN)/serendipity crosscheck --count 1000 --judges search,automata,paper,cbc -o build/disagreement
+	@for n in 2 3; do $(BIN)/serendipity crosscheck --people $$n --count 5000 -o build/disagreement || exit; done
 	@HYPOTHESIS_PROFILE=fuzz $(BIN)/python -m pytest -m "slow or not slow"
 
 PLATFORMS := any manylinux_2_17_x86_64 manylinux_2_17_aarch64 musllinux_1_2_x86_64 musllinux_1_2_aarch64 \

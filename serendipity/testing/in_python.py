@@ -1,5 +1,6 @@
 """A small task, without its script, as the text of a program."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 from serendipity.model import Condition, GroundAction, Task
@@ -18,6 +19,16 @@ def in_python(task: Task) -> str:
         variants = " | ".join(_action(task.actions[i], facts) for i in ids)
         lines.append(f"        {name!r}: {variants!r},")
     return "\n".join(["task(", *lines, "    },", ")"])
+
+
+def told_with_people(task: Task) -> str:
+    """The same of a task with bystanders, who are robots there, and what they want and begin, in words."""
+    deeds, names = task.script.deeds, task.agents
+    actions = {action: None for deed in deeds for action in deed.variants} | dict.fromkeys(task.actions)
+    everybody = replace(task, actions=tuple(sorted(actions, key=lambda action: action.key)))
+    wants = (f"{names[who]} wants {_literals(goal, list(task.facts))}" for who, goal in task.own_goals)
+    begins = (f"{names[deed.agent]} begins in epoch {deed.epoch}: {deed.name}" for deed in deeds)
+    return "\n".join([in_python(everybody), *wants, *begins])
 
 
 def _matters(task: Task, fact: int) -> bool:

@@ -61,6 +61,7 @@ def renamed(call: Call) -> Call:
         init=frozenset(facts - 1 - f for f in task.init),
         goal=condition(task.goal),
         robot_goal=condition(task.robot_goal),
+        own_goals=tuple(sorted((agents - 1 - agent, condition(goal)) for agent, goal in task.own_goals)),
         actions=actions,
         script=script,
     )

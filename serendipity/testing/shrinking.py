@@ -127,24 +127,53 @@ def _smaller_tasks(task: Task) -> Iterator[Task]:
     for i, action in enumerate(task.actions):
         if action.cost not in (0, 1):
             yield _with_action(task, i, replace(action, cost=Fraction(1)))
-    yield from _without_idle_robots(task)
+    yield from _with_less_happening(task)
+    yield from _without_idle_agents(task)
+
+
+def _with_less_happening(task: Task) -> Iterator[Task]:
+    """The task with less in its script, and without what a bystander wants."""
+    script = task.script
+    for k in range(len(script.deeds)):
+        yield replace(task, script=replace(script, deeds=script.deeds[:k] + script.deeds[k + 1 :]))
+    for k in range(len(script.facts)):
+        yield replace(task, script=replace(script, facts=script.facts[:k] + script.facts[k + 1 :]))
+    for k in range(len(task.own_goals)):
+        yield replace(task, own_goals=task.own_goals[:k] + task.own_goals[k + 1 :])
 
 
 def _with_action(task: Task, i: int, action: GroundAction) -> Task:
     return replace(task, actions=(*task.actions[:i], action, *task.actions[i + 1 :]))
 
 
-def _without_idle_robots(task: Task) -> Iterator[Task]:
-    """The task without one of the robots that can do nothing; one robot there has to be."""
-    busy = {agent for action in task.actions for agent in action.participants}
-    for robot in task.robots:
-        if robot not in busy and len(task.robots) > 1:
-            agents = tuple(name for agent, name in enumerate(task.agents) if agent != robot)
-            actions = tuple(
-                replace(action, participants=tuple(who - (who > robot) for who in action.participants))
-                for action in task.actions
-            )
-            yield replace(task, agents=agents, human=task.human - (task.human > robot), actions=actions)
+def _without_idle_agents(task: Task) -> Iterator[Task]:
+    """The task without somebody who does and can do nothing; one robot there has to be."""
+    every = (*task.actions, *(action for deed in task.script.deeds for action in deed.variants))
+    busy = {agent for action in every for agent in action.participants}
+    idle = [*(task.robots if len(task.robots) > 1 else ()), *sorted(task.script.people)]
+    yield from (_without(task, agent) for agent in idle if agent not in busy)
+
+
+def _without(task: Task, gone: int) -> Task:
+    """The task without an agent."""
+    ids = {agent: agent - (agent > gone) for agent in range(len(task.agents)) if agent != gone}
+
+    def moved(action: GroundAction) -> GroundAction:
+        return replace(action, participants=tuple(ids[agent] for agent in action.participants))
+
+    deeds = tuple(
+        replace(deed, agent=ids[deed.agent], variants=tuple(map(moved, deed.variants)))
+        for deed in task.script.deeds
+    )
+    people = frozenset(ids[agent] for agent in task.script.people if agent != gone)
+    return replace(
+        task,
+        agents=tuple(task.agents[agent] for agent in ids),
+        human=ids[task.human],
+        actions=tuple(map(moved, task.actions)),
+        own_goals=tuple((ids[agent], goal) for agent, goal in task.own_goals if agent != gone),
+        script=replace(task.script, deeds=deeds, people=people),
+    )
 
 
 def _smaller_conditions(condition: Condition) -> Iterator[Condition]:

@@ -10,6 +10,7 @@ from serendipity.model.task.plans import PlanEntry
 from serendipity.pddl.write import composite_files, task_files
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
+from serendipity.testing.in_python import told_with_people
 from serendipity.writing.together import write_together
 
 PLAN: Final = "plan.txt"
@@ -29,7 +30,7 @@ def write_case(
         OSError: it can't be written.
     """
     call = found.call
-    has_files = not call.task.script.people  # whose plans are no part of PDDL: the seed has to do
+    has_files = not call.task.script.people  # whose plans are no part of PDDL
     texts = {
         folder / agent / name: text
         for agent, pair in (task_files(call.task).items() if has_files else ())
@@ -43,6 +44,9 @@ def write_case(
     lines = [f"# {judge}: {words}" for judge, words in found.said.items()]
     if len(call.task.named) < len(call.task.actions):
         lines.append("# variants of one action are written under names of their own, which may hide it")
+    if not has_files:
+        lines += [f"# {line}" for line in told_with_people(call.task).splitlines()]
+        lines.append(f"# asked: {shlex.join(call.command_words())}")
     if again is not None:
         lines.append(again)
     elif call.seed is not None:

@@ -15,7 +15,7 @@ from serendipity.testing.builders import task as build
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
 from serendipity.testing.oracle.answers import Solver
-from serendipity.testing.strategies import calls
+from serendipity.testing.strategies import calls, calls_among_people
 from serendipity.testing.strategies.time import bystander_tasks, calls_in_time
 from tests.facade.over_scenarios import as_brute_force_has_it
 from tests.search.modes.scenarios.strategies import options_over, scenarios
@@ -159,7 +159,7 @@ def ruled(draw: st.DrawFn, asked: st.SearchStrategy[Call]) -> Call:
 
 def as_brute_force(call: Call) -> None:
     try:
-        if call.human_plan and Solver(call.task, call.options, call.human_plan, given=True)._improvable:
+        if call.human_plan and Solver(call.task, call.options, call.human_plan, given=True).improvable:
             return  # beside a plan that is not optimal the answer without the rule comes first
         expected = best(call.task, call.options, call.human_plan)
     except (UsageError, PlanError):
@@ -178,6 +178,20 @@ def as_brute_force(call: Call) -> None:
 @given(ruled(bystander_tasks().flatmap(lambda task: calls_in_time(modes=_MODES, of=st.just(task)))))
 @settings(max_examples=25)
 def test_bystanders_pay_nothing_as_in_brute_force(call: Call) -> None:
+    as_brute_force(call)
+
+
+@pytest.mark.long
+@given(calls_among_people(people=(1, 1)))
+@settings(max_examples=60)
+def test_one_person_is_helped_by_the_rules_as_in_brute_force(call: Call) -> None:
+    as_brute_force(call)
+
+
+@pytest.mark.long
+@given(calls_among_people(people=(2, 3)))
+@settings(max_examples=80)
+def test_two_and_three_people_are_helped_by_the_rules_as_in_brute_force(call: Call) -> None:
     as_brute_force(call)
 
 

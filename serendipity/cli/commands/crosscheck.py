@@ -14,6 +14,7 @@ from serendipity.model import Deadline, UsageError
 
 if TYPE_CHECKING:
     from serendipity.testing.disagreement import Disagreement
+    from serendipity.testing.generator import PlanCall
 
 _MODES: Final = ("individual", "serendipity", "communication", "composite")
 _DISCOUNTS: Final = ("0", "0.5", "0.9")
@@ -33,12 +34,22 @@ def crosscheck(
             "program, false-certificates.",
         ),
     ] = False,
+    people: Annotated[
+        int | None,
+        option(
+            "--people N",
+            "Random calls among so many people, one of whom is helped, under rules of help, which search and "
+            "brute force know; other judges answer where no rule is in force.",
+            min=1,
+            max=3,
+        ),
+    ] = None,
     judges: Annotated[
         str,
         option(
             "--judges NAME,...",
             "Who answers: search, automata, paper, cbc, program, exhaustive; or false-certificates. "
-            "By default search, automata, and without time paper.",
+            "By default search, automata, and without time and people paper.",
         ),
     ] = "",
     judge: Annotated[
@@ -78,11 +89,12 @@ def crosscheck(
     """
     from serendipity.testing import crosscheck as checking
     from serendipity.testing import shrinking
-    from serendipity.testing.generator import PlanCall, random_call, random_call_in_time
+    from serendipity.testing.generator import PlanCall
     from serendipity.testing.judges import by_command, by_name
     from serendipity.testing.written_case import write_case
 
-    names = (judges or ("search,automata" if in_time else "search,automata,paper")).split(",")
+    kind, drawn = _drawn(in_time, people)
+    names = (judges or ("search,automata" if kind else "search,automata,paper")).split(",")
     for name in names:
         if name not in (*checking.JUDGES, checking.FALSE_CERTIFICATES):
             known = ", ".join((*checking.JUDGES, checking.FALSE_CERTIFICATES))
@@ -94,7 +106,7 @@ def crosscheck(
     compared = partial(
         checking.compare,
         judges=chosen,
-        laws={} if in_time else checking.LAWS,  # which are about sessions and limits without time
+        laws={} if kind else checking.LAWS,  # which are about sessions and limits without time
         outside=outside,
         time_limit=time_limit,
         memory_limit=memory_limit,
@@ -110,7 +122,6 @@ def crosscheck(
         if first is None:
             first = secrets.randbelow(10**9)
             output.say(f"seed {first}\n")
-        drawn = random_call_in_time if in_time else random_call
         calls, total = (drawn(first + k) for k in range(count)), count
     else:
         given = task.load(Deadline(time_limit, memory_limit))
@@ -139,12 +150,23 @@ def crosscheck(
     words = [word for name in judge or () for word in ("--judge", name)]
     words += [word for text in judge_command or () for word in ("--judge-command", text)]
     words += ["--judges", checking.FALSE_CERTIFICATES] if found.law == checking.FALSE_CERTIFICATES else []
-    again_in_time = None
-    if in_time:
-        again_in_time = " ".join(
-            ["serendipity crosscheck --in-time --count 1 --seed", str(found.call.seed), *words]
+    once_more = None
+    if kind:
+        once_more = " ".join(
+            ["serendipity crosscheck", kind, "--count 1 --seed", str(found.call.seed), *words]
         )
-    commands = write_case(found, folder, [] if in_time else words, again=again_in_time)
+    commands = write_case(found, folder, [] if kind else words, again=once_more)
     plans = "".join(f"{whose}: {steps}\n" for whose, steps in found.plans.items())
     output.say(f"after {checked} calls without, a disagreement: {found}\n{plans}reproduce: {commands}\n")
     return ExitCode.REFUTED
+
+
+def _drawn(in_time: bool, people: int | None) -> tuple[str, Callable[[int], "PlanCall"]]:
+    """The words that ask for a kind of random calls, and what draws them from a seed."""
+    from serendipity.testing.generator import random_call, random_call_among, random_call_in_time
+
+    if in_time and people is not None:
+        raise UsageError("--people: goes without --in-time")
+    if people is not None:
+        return f"--people {people}", partial(random_call_among, people)
+    return ("--in-time", random_call_in_time) if in_time else ("", random_call)

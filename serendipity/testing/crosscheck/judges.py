@@ -10,11 +10,12 @@ from serendipity.facade.call import options_from
 from serendipity.facade.certify import check, verify
 from serendipity.facade.planning import plan
 from serendipity.model import INFINITE, Deadline, Options, PlanError, Result, UsageError
-from serendipity.model.task.gate import needs_time
+from serendipity.model.task.gate import is_bound, needs_time
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.judges import OutsideJudge, fault
 from serendipity.testing.judges import said as said_by
+from serendipity.testing.oracle import best
 from serendipity.testing.oracle.truth import Truth, UnknownTruthError
 from serendipity.testing.own_laws import LAWS, Law
 from serendipity.testing.told_plans import claimed_plan, told_plan
@@ -30,6 +31,8 @@ def may_be_refused(call: PlanCall) -> bool:
         given = None if told is None else call.task.plan_from_names(told, early)
     except (UsageError, PlanError):
         return True
+    if is_bound(call.task, options):
+        return _refused_by_brute_force(call, options)
     if needs_time(call.task, options=options, plan=given):
         # By the end, or after a head start, there may be no plan any more, or not the one that is given.
         return options.horizon is not None or bool(options.head_start)
@@ -39,6 +42,15 @@ def may_be_refused(call: PlanCall) -> bool:
     if tied and len(list(islice(plans.plans(), options.max_ties + 1))) > options.max_ties:
         return True
     return _lacks_horizon(call, options, None if plan is None else len(plan))
+
+
+def _refused_by_brute_force(call: PlanCall, options: Options) -> bool:
+    given = None if call.human_plan is None else call.task.plan_from_names(call.human_plan)
+    try:
+        best(call.task, options, given)
+    except (UsageError, PlanError):
+        return True
+    return False
 
 
 def _lacks_horizon(call: PlanCall, options: Options, length: int | None) -> bool:
@@ -68,7 +80,7 @@ class Figures:
 
 
 BRUTE_FORCE: Final = "brute force"
-"""Who says what is best beside humans who replan in time, whom no program knows."""
+"""Who says what is best where no program does: beside humans who replan in time, and under rules of help."""
 
 Judge = Callable[[PlanCall, Deadline], Result]
 
@@ -123,8 +135,8 @@ def compare(
     answers: dict[str, Result] = {}
     sound = True
     for name, judge in judges.items():
-        if name != "search" and "human_model" in call.options:
-            continue  # no program knows what the human does: the verifier plays it
+        if name != "search" and _only_verified(call):
+            continue
         figures, words, answer = _asked(call, judge, known, limits)
         said[name] = words
         sound = sound and figures is not None
@@ -203,9 +215,24 @@ def _asked(
     return figures, str(figures), result if result.status != "unknown" else None
 
 
+def _only_verified(call: PlanCall) -> bool:
+    """Whether no program answers: it knows neither what a human does who replans, nor rules of help.
+
+    The verifier does, and so does brute force.
+    """
+    try:
+        options = options_from(call.keywords())
+    except UsageError:
+        return False
+    return options.human_model != "omniscient" or is_bound(call.task, options)
+
+
 def _misjudged(call: PlanCall, answer: Result | None) -> str | None:
-    """What is not so of an answer in time that no program knows, by brute force; None where all is."""
-    if answer is None or "human_model" not in call.options or not call.task.needs_time:
+    """What is not so of an answer that no program knows, by brute force; None where all is."""
+    if answer is None:
+        return None
+    in_time = answer.options.human_model != "omniscient" and call.task.needs_time
+    if not in_time and not is_bound(call.task, answer.options):
         return None
     try:
         return Truth(call.task).fault(answer)

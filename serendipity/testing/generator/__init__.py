@@ -1,8 +1,17 @@
 """Seeded random tasks and calls: those of ``serendipity crosscheck``."""
 
+from serendipity.testing.generator.among_people import random_call_among
 from serendipity.testing.generator.calls import PlanCall, random_call
 from serendipity.testing.generator.families import FAMILIES, family_task
 from serendipity.testing.generator.in_time import random_call_in_time
 from serendipity.testing.generator.tasks import random_task
 
-__all__ = ["FAMILIES", "PlanCall", "family_task", "random_call", "random_call_in_time", "random_task"]
+__all__ = [
+    "FAMILIES",
+    "PlanCall",
+    "family_task",
+    "random_call",
+    "random_call_among",
+    "random_call_in_time",
+    "random_task",
+]

@@ -26,7 +26,7 @@ _CHOICES: dict[str, tuple[str, ...]] = {
 _ODD = 0.2
 """The share of calls with numbers that are hard to add up."""
 
-_FLAGS = {"keep_prefix": "", "no_block": "--allow-block", "nobody_pays": "--somebody-pays"}
+_FLAGS = {"keep_prefix": "", "no_block": "--allow-block", "nobody_pays": "--somebody-pays", "noticed": ""}
 """Options that are true or false, each with what says that it is false."""
 
 

@@ -102,11 +102,16 @@ def _with_robot_goal(dice: Random, task: Task) -> Task:
     return replace(task, robot_goal=Condition((fact,), ()) if true else Condition((), (fact,)))
 
 
-def corridor(dice: Random) -> Task:
-    """A walk between places; robots open shortcuts, block ways, or take part in a carry."""
-    agents = ("hum", "rob", "bot")[: dice.choice((2, 2, 3))]
+def corridor(dice: Random, crowds: Sequence[int] = (2, 2, 3), sizes: tuple[int, int] = (3, 6)) -> Task:
+    """A walk between places; robots open shortcuts, block ways, or take part in a carry.
+
+    Args:
+        crowds: how many agents, one of these.
+        sizes: how many places, from and to.
+    """
+    agents = AGENTS[: dice.choice(crowds)]
     builder = Builder(agents)
-    places = [f"at{i}" for i in range(dice.randint(3, 6))]
+    places = [f"at{i}" for i in range(dice.randint(*sizes))]
     for i, (a, b) in enumerate(pairwise(places)):
         cost = dice.choice(("1", "2", "3"))
         builder.action(f"walk{i}", (0,), a, f"{b} !{a}", cost)
@@ -202,7 +207,7 @@ def strips(
         crowds: how many agents, one of these.
         costs: what the human's and joint actions may cost.
     """
-    agents = ("hum", "rob", "bot")[: dice.choice(crowds)]
+    agents = AGENTS[: dice.choice(crowds)]
     builder = Builder(agents)
     facts = [f"f{i}" for i in range(dice.randint(*sizes))]
 

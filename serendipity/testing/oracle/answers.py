@@ -32,17 +32,32 @@ class Optimum:
 class Solver:
     """One call with one ``pi_H`` (None: the human has no plan alone).
 
+    Args:
+        task: the task.
+        options: in force.
+        human_plan: ``pi_H``.
+        given: whether it is given.
+        unit: how many units a cost of 1 has; None: as few as do.
+
     Raises:
         PlanError: ``pi_H`` can't be done beside the script.
         UsageError: the horizon is missing or too short, or what ``pi_H`` reaches does not last so long.
     """
 
-    def __init__(self, task: Task, options: Options, human_plan: HumanPlan | None, *, given: bool) -> None:
+    def __init__(
+        self,
+        task: Task,
+        options: Options,
+        human_plan: HumanPlan | None,
+        *,
+        given: bool,
+        unit: int | None = None,
+    ) -> None:
         self.task = task
         self.options = options
         self.human_plan = human_plan
         self.given = given
-        self.plans = Plans(task, options, human_plan)
+        self.plans = Plans(task, options, human_plan, unit)
 
     def solve(self) -> Optimum:
         """The optimum."""
@@ -94,20 +109,20 @@ class Solver:
         idle = self._idle(baseline)
         if idle is not None and found.label[1] >= idle:
             return False
-        if not self.plans.robots_goal or not self._improvable:
+        if not self.plans.robots_goal or not self.improvable:
             return True
         unaided = min(self._without_robots()._limited(baseline), key=WindowPlan.order, default=None)
         return unaided is None or (found.objective, found.label[1]) < (unaided.objective, unaided.label[1])
 
     def _idle(self, baseline: Label | None) -> int | None:
         """Cost of the answer with all robots idle: less than the baseline if a given plan can be improved."""
-        if baseline is None or self.plans.robots_goal or not self._improvable:
+        if baseline is None or self.plans.robots_goal or not self.improvable:
             return None if baseline is None else baseline[1]
         found = min(self._without_robots()._candidates(baseline), key=WindowPlan.order)
         return found.label[1]
 
     @property
-    def _improvable(self) -> bool:
+    def improvable(self) -> bool:
         """Whether a plan is given that costs more than an optimal one."""
         worth = self.plans.optimum_alone()
         return self.given and worth is not None and worth[0] < self.plans.cost_of_plan()
@@ -120,9 +135,7 @@ class Solver:
         plan: HumanPlan = tuple(own.index(i) for i in given)
         if isinstance(given, TimedPlan):
             plan = TimedPlan(plan, given.starts, given.length)
-        alone = Solver(task, unpriced(self.options), plan, given=False)
-        alone.plans.unit = self.plans.unit
-        return alone
+        return Solver(task, unpriced(self.options), plan, given=False, unit=self.plans.unit)
 
     def _max_cost(self, baseline: Label | None) -> int | None:
         limit = self.options.max_cost

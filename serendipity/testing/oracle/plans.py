@@ -40,13 +40,16 @@ class Plans:
         task: the task.
         options: in force.
         human_plan: ``pi_H``.
+        unit: how many units a cost of 1 has; None: as few as do.
 
     Raises:
         PlanError: ``pi_H`` can't be done beside the script.
         UsageError: the horizon is missing or too short, or what ``pi_H`` reaches does not last so long.
     """
 
-    def __init__(self, task: Task, options: Options, human_plan: HumanPlan | None) -> None:
+    def __init__(
+        self, task: Task, options: Options, human_plan: HumanPlan | None, unit: int | None = None
+    ) -> None:
         self.task = task
         self.options = options
         self.human_plan = human_plan
@@ -57,7 +60,7 @@ class Plans:
         self.length = 0 if human_plan is None else task.epochs_of(human_plan)
         self.robots_goal = bool(task.robot_goal) and options.mode != "individual"
         self.horizon = self._horizon()
-        self.unit = smallest_unit(task, options)
+        self.unit = smallest_unit(task, options) if unit is None else unit
         self._starts = dict(zip(task.starts_of(human_plan), human_plan, strict=True)) if human_plan else {}
         self._steps: dict[object, list[tuple[Moment, Label]]] = {}
         self._priced = cache(self.price)

@@ -10,9 +10,11 @@ from typing import Final
 from serendipity.model import Condition, HumanPlan, Options, Result, Task, UsageError, surroundings
 from serendipity.model.answers.recognition import Recognition
 from serendipity.model.numbers import agrees, excess
+from serendipity.model.task.gate import is_bound
 from serendipity.model.task.plans import PlanEntry
 from serendipity.model.task.plans_in_time import cost_alone, times_of
 from serendipity.testing.oracle import Alone, Moment, Optimum, best, human_plans
+from serendipity.testing.oracle.answers import Solver
 from serendipity.testing.oracle.assistance import by_rounds, explore, mean_over_all_policies
 from serendipity.testing.oracle.best import shifted
 from serendipity.testing.oracle.reactions import best_reaction
@@ -127,10 +129,16 @@ class Truth:
             return [self._assisted(options)]
         if options.human_model != "omniscient":
             return [self._replanned(options, plan)]
+        if plan is not None and is_bound(self.task, options):
+            late = shifted(self.task, plan, options.head_start)
+            if Solver(self.task, options, late, given=True).improvable:
+                raise UnknownTruthError  # where the best answer without the rule keeps it counts first
         plans = [plan]
         if options.ties != "fixed" and options.mode in ("serendipity", "communication") and plan is None:
+            if self.task.needs_time:
+                return [best(self.task, options)]
             plans = list(islice(human_plans(self.task), _MOST_TIES)) or plans
-            if len(plans) == _MOST_TIES or self.task.needs_time:
+            if len(plans) == _MOST_TIES:
                 raise UnknownTruthError
         return [best(self.task, options.but(ties="fixed"), plan) for plan in plans]
 

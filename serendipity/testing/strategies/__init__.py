@@ -17,7 +17,7 @@ except ImportError as error:
     ) from None
 
 from serendipity.testing.call import Call
-from serendipity.testing.strategies.calls import MODES, calls, options, plans, results
+from serendipity.testing.strategies.calls import MODES, calls, calls_among_people, options, plans, results
 from serendipity.testing.strategies.tasks import (
     corridor_tasks,
     errand_tasks,
@@ -42,6 +42,7 @@ __all__ = [
     "Call",
     "bystander_tasks",
     "calls",
+    "calls_among_people",
     "calls_in_time",
     "corridor_tasks",
     "errand_tasks",

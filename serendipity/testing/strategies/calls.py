@@ -10,7 +10,9 @@ from serendipity.facade.call import options_from
 from serendipity.facade.planning import plan as plan_of
 from serendipity.model import HumanPlan, Options, Result, Task
 from serendipity.model.keywords import Horizon, Mode
+from serendipity.testing.asking import call_of
 from serendipity.testing.call import Call
+from serendipity.testing.generator.among_people import MOST_PEOPLE, random_call_among
 from serendipity.testing.generator.calls import random_options
 from serendipity.testing.generator.human_plans import plan_after_detour
 from serendipity.testing.oracle import human_plans, optimal_human_plan
@@ -53,6 +55,17 @@ def calls(
     if ties and given is None and 1 < len(tied) <= _MOST_TIES:
         chosen = chosen.but(ties=draw(st.sampled_from(_TIES)))
     return Call(task, chosen, given)
+
+
+@st.composite
+def calls_among_people(draw: st.DrawFn, *, people: tuple[int, int] = (1, MOST_PEOPLE)) -> Call:
+    """A call under rules of help: that nobody pays, or little is left changed, or disturbs, and more.
+
+    Args:
+        people: how many, from and to, with the human; the others are bystanders. A seed decides the rest.
+    """
+    number = draw(st.integers(*people))
+    return call_of(random_call_among(number, draw(st.integers(0, 10**9))))
 
 
 @st.composite

@@ -30,7 +30,7 @@ def strips_tasks(
 
     Args:
         facts: how many, from and to; at least 3.
-        robots: how many, from and to; at most 2.
+        robots: how many, from and to; at most 3.
         costs: what the human's and joint actions may cost.
     """
     dice = draw(DICE)

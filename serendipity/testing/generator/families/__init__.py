@@ -14,7 +14,7 @@ from serendipity.testing.generator.families.switches import switches
 
 __all__ = ["AGENTS", "FAMILIES", "SMALL", "family_task"]
 
-AGENTS: Final = ("hum", "rob", "bot")
+AGENTS: Final = ("hum", "rob", "bot", "pal")
 
 FAMILIES: Final[Mapping[str, Callable[[Random, int, tuple[str, ...]], Task]]] = {
     "blocks": blocks,
@@ -38,6 +38,6 @@ def family_task(name: str, seed: int, size: int, agents: int = 2) -> Task:
         name: ``blocks``, ``logistics`` or ``switches``.
         seed: decides all that the others leave open.
         size: how many blocks (at least 2), parcels (1) or switches (3).
-        agents: how many, the human included; at most 3.
+        agents: how many, the human included; at most 4.
     """
     return FAMILIES[name](Random(f"{name} {seed}"), size, AGENTS[:agents])
