@@ -50,7 +50,9 @@ def test_a_plan_that_disturbs_more_than_it_may_is_refuted() -> None:
         assert "help disturbs the human by 1, and may by 0" in str(certificate)
 
 
-@pytest.mark.parametrize("name", ["room2", "flights", "parcels"])
+@pytest.mark.parametrize(
+    "name", ["room2", "room7", pytest.param("flights", marks=pytest.mark.long), "parcels", "office"]
+)
 def test_each_point_of_a_front_is_proved_and_none_dominated(name: str) -> None:
     task, options = serendipity.example(name), {"discount": "0.9", "window_weight": 0}
     front = serendipity.front(task, discount="0.9", verify=True)
