@@ -223,23 +223,17 @@ class _Certifier:
         """
         deadline = self.effort.deadline
         deadline.renew(deadline.within(max(limits().aside_seconds, deadline.elapsed())))
-        try:
-            return self._kind_of_pi_h()
-        except UNDECIDED:
-            return ""
-
-    def _kind_of_pi_h(self) -> str:
-        self._tell_pi_h(self.alone.learn)
-        names = self.result.human_plan
-        canonical = None if names is None else self.plans.canonical()
-        if names is None or canonical is None:
-            return ""
-        if names == tuple(self.task.actions[i].name for i in canonical):
-            return wording.PI_H_IS_CANONICAL
-        plan = replay_human(self.task, names, self.effort.deadline)
-        if self.task.cost_of(plan) == self.task.cost_of(canonical):
-            return wording.PI_H_IS_OPTIMAL
-        return wording.PI_H_IS_GIVEN
+        with suppress(*UNDECIDED):
+            self._tell_pi_h(self.alone.learn)
+            names = self.result.human_plan
+            canonical = None if names is None else self.plans.canonical()
+            if names is not None and canonical is not None:
+                if names == tuple(self.task.actions[i].name for i in canonical):
+                    return wording.PI_H_IS_CANONICAL
+                cost = self.task.cost_of(replay_human(self.task, names, deadline))
+                optimal = cost == self.task.cost_of(canonical)
+                return wording.PI_H_IS_OPTIMAL if optimal else wording.PI_H_IS_GIVEN
+        return ""
 
     # -- claims that need an optimiser
 

@@ -9,7 +9,7 @@ from serendipity.model import INFINITE, Claim, Result, Step
 from serendipity.model.answers.certificate import ClaimVerdict
 from serendipity.model.numbers import agrees, as_written
 from verify.base import wording
-from verify.base.subproblem import PricedPlan, Subproblem
+from verify.base.subproblem import PricedPlan
 from verify.base.undecided import UNDECIDED, UndecidedError, during, why
 from verify.calls.answer import CallAnswer, answer, best_plan, is_help
 from verify.calls.call import ExaminedCall, Score
@@ -17,7 +17,7 @@ from verify.calls.methods import decide, decide_without_horizon
 from verify.calls.results import found_result, plan_steps
 from verify.certificate.savings import savings_fault
 from verify.programs.alone import cost_alone
-from verify.programs.effort import Attempt, Minimum, SolverCall
+from verify.programs.effort import Attempt, SolverCall
 from verify.rules import Checker
 from verify.solvers.mip import solver_version
 
@@ -160,9 +160,7 @@ class Examiner:
             return "refuted", wording.NOTHING_HAS_OBJECTIVE.format(self._amount(nothing[0] - shift)), None
         if self._robots_alone_undercut(least - shift):
             return "refuted", wording.NOTHING_HAS_OBJECTIVE.format(self._amount(call.baseline or 0)), None
-        question = self._question().below(least - 1)
-        minimum = self._decide(question)
-        found = minimum.settled()
+        found = self._decide(least - 1)
         if found is not None:
             return "refuted", wording.BELOW_BOUND, found
         return "proved", wording.NONE_BELOW.format(bound), None
@@ -194,13 +192,6 @@ class Examiner:
 
     # -- helpers
 
-    @property
-    def _endless(self) -> bool:
-        return self.call.horizon == INFINITE
-
-    def _question(self) -> Subproblem:
-        return self.call.endless if self._endless else self.call.question
-
     def _known(self, units: int | None) -> float | None:
         """What a solver's bound says of the answer's objective: no more than was asked for."""
         call, claimed = self.call, self.result.lower_bound
@@ -220,15 +211,16 @@ class Examiner:
         return not self.call.robots_goal and self.call.is_optimal
 
     def _better(self, score: Score) -> PricedPlan | None:
-        if not self._endless:
+        if self.call.horizon != INFINITE:
             return self.call.better(self.call.question, score)
-        return self._decide(self.call.endless.below(score[0] - 1)).settled()
+        return self._decide(score[0] - 1)
 
-    def _decide(self, question: Subproblem) -> Minimum:
+    def _decide(self, most: int) -> PricedPlan | None:
+        """Some plan with no greater objective; None: proved that there is none."""
         call = self.call
-        if self._endless:
-            return decide_without_horizon(question, call.effort, call.plans)
-        return decide(question, call.effort, call.plans)
+        if call.horizon == INFINITE:
+            return decide_without_horizon(call.endless.below(most), call.effort, call.plans).settled()
+        return decide(call.question.below(most), call.effort, call.plans).settled()
 
     def _score(self) -> Score:
         """Objective and cost of the result's own plan, recomputed."""

@@ -19,21 +19,12 @@ def require_programs(result: Result, method: str = "program") -> None:
     """
     if method not in ("auto", "program"):
         raise UsageError(f"proof: goes with method program, not {method}")
-    decided = _decided_otherwise(result)
-    if decided is not None:
-        raise NoProgramError(decided)
-
-
-def _decided_otherwise(result: Result) -> str | None:
-    options = result.options
     if result.mode == "assistance":
-        return "mode assistance"
-    if result.mode == "individual":
-        return None
-    unpredicted = result.mode == "composite" and result.human_plan is None and options.horizon is None
-    if options.horizon == INFINITE or unpredicted:
-        return "plans without a horizon"
-    return None
+        raise NoProgramError("mode assistance")
+    horizon = result.options.horizon
+    unpredicted = result.mode == "composite" and result.human_plan is None and horizon is None
+    if result.mode != "individual" and (horizon == INFINITE or unpredicted):
+        raise NoProgramError("plans without a horizon")
 
 
 def main_claim(result: Result) -> str | None:

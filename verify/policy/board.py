@@ -49,7 +49,8 @@ class Board:
         self.deadline = deadline
         self.ties = options.ties
         self._no_block = bool(options.no_block)
-        self._bits = FactBits(range(len(task.facts))).of
+        self._facts = FactBits(range(len(task.facts)))
+        self._bits = self._facts.of
         humans = self._of(task.human)
         robots = self._of(task.robots[0])
         self._scale = lcm(1, *(task.actions[i].cost.denominator for i in (*humans, *robots)))
@@ -224,11 +225,9 @@ class Board:
     def _edge(self, i: int, unit: int, length: int) -> BitOperator | None:
         """An action as an edge; None where it changes nothing that matters."""
         action: GroundAction = self.task.actions[i]
-        add, delete = self._bits(action.add) & self._relevant, self._bits(action.delete) & self._relevant
-        if not add and not delete:
-            return None
-        weight = int(action.cost * self._scale) * unit + length
-        return BitOperator(self._bits(action.pre), self._bits(action.neg), add, delete, weight, i)
+        edge = self._facts.operator(action, int(action.cost * self._scale) * unit + length, i)
+        edge = edge._replace(add=edge.add & self._relevant, delete=edge.delete & self._relevant)
+        return edge if edge.add or edge.delete else None
 
 
 def _within(edge: BitOperator, facts: int) -> BitOperator:

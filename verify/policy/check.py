@@ -1,11 +1,12 @@
 """From a result of mode ``assistance`` to claims."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from time import perf_counter
 
 from serendipity.model import Claim, Deadline, PlanStep, Result, Task
+from serendipity.model.answers.certificate import ClaimVerdict
 from serendipity.model.numbers import agrees
 from verify.base import wording
 from verify.base.obligations import needed
@@ -40,10 +41,11 @@ def check_run(task: Task, board: Board, result: Result) -> None:
         raise BrokenError("replay", "plan: an agent acts twice in one epoch")
     state, totals = board.start, [Fraction(0), Fraction(0)]
     for epoch in range(1, max((step.epoch for step in result.plan), default=0) + 1):
-        cost, state = _supporter(board, state, done.get((epoch, False), "noop"), epoch)
+        name = done.get((epoch, False), "noop")
+        cost, state = _done(board.moves(state), name, "the supporter can't", epoch)
         totals[1] += cost
         if not board.goal.holds(state):
-            cost, state = _human(board, state, done.get((epoch, True)), epoch)
+            cost, state = _done(board.replies(state), done.get((epoch, True)), "the human would not", epoch)
             totals[0] += cost
         elif (epoch, True) in done:
             raise BrokenError("replay", f"plan, epoch {epoch}: the goal holds before '{done[epoch, True]}'")
@@ -53,19 +55,15 @@ def check_run(task: Task, board: Board, result: Result) -> None:
         raise BrokenError("cost", f"plan: costs {totals[0]} and {totals[1]}, not what agent_costs says")
 
 
-def _supporter(board: Board, state: int, name: str, epoch: int) -> tuple[Fraction, int]:
-    found = next(((cost, after) for cost, after, action in board.moves(state) if action == name), None)
+def _done(
+    possible: Iterable[tuple[Fraction, int, str | None]], name: str | None, fault: str, epoch: int
+) -> tuple[Fraction, int]:
+    """What an action costs, and the state after it."""
+    found = next(((cost, after) for cost, after, action in possible if action == name), None)
     if found is None:
-        raise BrokenError("replay", f"plan, epoch {epoch}: the supporter can't do '{name}'")
+        what = "wait" if name is None else f"do '{name}'"
+        raise BrokenError("replay", f"plan, epoch {epoch}: {fault} {what}")
     return found
-
-
-def _human(board: Board, state: int, name: str | None, epoch: int) -> tuple[Fraction, int]:
-    for reply in board.replies(state):
-        if reply.name == name:
-            return reply.cost, reply.state
-    what = "wait" if name is None else f"do '{name}'"
-    raise BrokenError("replay", f"plan, epoch {epoch}: the human would not {what}")
 
 
 def _check_step(task: Task, step: PlanStep) -> None:
@@ -120,30 +118,33 @@ class _Checker:
             yield from self._undecided(why(error))
             return
         if result.status == "infeasible":
-            yield self._unless_replay_only("infeasible") or self._infeasible(board)
+            doing = "looking at every state of the game"
+            yield self._examined("infeasible", doing, lambda: self._infeasible(board))
         elif result.policy is not None:
             yield from self._with_policy(board)
         elif result.lower_bound is not None:
-            yield self._unless_replay_only("lower_bound") or self._bounded(board)
+            yield self._bounded(board)
         else:
             yield Claim("replay", "not_in_scope", wording.NOTHING_TO_EXAMINE)
 
-    def _unless_replay_only(self, name: str) -> Claim | None:
-        return Claim(name, "not_in_scope", wording.NEEDS_MORE_THAN_A_WALK) if self._replay_only else None
+    def _examined(self, name: str, doing: str, examine: Callable[[], tuple[ClaimVerdict, str]]) -> Claim:
+        """A claim that takes more than a walk through the policy's own states."""
+        if self._replay_only:
+            return Claim(name, "not_in_scope", wording.NEEDS_MORE_THAN_A_WALK)
+        try:
+            with during(doing):
+                return Claim(name, *examine())
+        except UNDECIDED as error:
+            return Claim(name, "undecided", why(error))
 
     def _undecided(self, reason: str) -> Iterator[Claim]:
         """Every claim that a proof needs."""
         return (Claim(name, "undecided", reason) for name in needed(self._result))
 
-    def _infeasible(self, board: Board) -> Claim:
-        try:
-            with during("looking at every state of the game"):
-                end = board.goal.holds(board.start) or board.start not in lost_states(board)
-        except UNDECIDED as error:
-            return Claim("infeasible", "undecided", why(error))
-        if end:
-            return Claim("infeasible", "refuted", wording.POLICY_ENDS)
-        return Claim("infeasible", "proved", wording.RUNS_FOR_EVER)
+    def _infeasible(self, board: Board) -> tuple[ClaimVerdict, str]:
+        if board.goal.holds(board.start) or board.start not in lost_states(board):
+            return "refuted", wording.POLICY_ENDS
+        return "proved", wording.RUNS_FOR_EVER
 
     def _with_policy(self, board: Board) -> Iterator[Claim]:
         assert self._result.policy is not None
@@ -171,34 +172,31 @@ class _Checker:
         worth = wording.POLICY_AT_MOST if may_be_less(self._result) else wording.POLICY_VALUES
         yield Claim("cost", "proved", worth.format(show(value)))
         if self._result.status == "optimal":
-            best = self._unless_replay_only("optimal") or self._optimal(board, value)
+            proving = "proving the lower bounds"
+            best = self._examined("optimal", proving, lambda: self._optimal(board, value))
             yield best
             yield replace(best, claim="lower_bound", reason=wording.same_as(best))
         else:
-            yield self._unless_replay_only("lower_bound") or self._bounded(board)
+            yield self._bounded(board)
 
     def _bounded(self, board: Board) -> Claim:
         """A bound that comes without a proof: whether both together, without turns, pay as much."""
-        try:
-            bounds = stated_bounds(self._result)
+        bounds = stated_bounds(self._result)
+
+        def examine() -> tuple[ClaimVerdict, str]:
             if not agrees(self._result.lower_bound, least_sum(bounds)):
-                return Claim(
-                    "lower_bound", "refuted", wording.BOUND_EXPECTED.format(float(least_sum(bounds)))
-                )
+                return "refuted", wording.BOUND_EXPECTED.format(float(least_sum(bounds)))
             trivial = bounds.lower == NOTHING or board.goal.holds(board.start)
             if trivial or board.at_least(board.start, bounds.lower):
-                return Claim("lower_bound", "proved", wording.TOGETHER_PAY.format(show(bounds.lower)))
-        except UNDECIDED as error:
-            return Claim("lower_bound", "undecided", why(error))
-        return Claim("lower_bound", "undecided", wording.TOGETHER_MIGHT)
+                return "proved", wording.TOGETHER_PAY.format(show(bounds.lower))
+            return "undecided", wording.TOGETHER_MIGHT
 
-    def _optimal(self, board: Board, value: Costs) -> Claim:
+        return self._examined("lower_bound", "adding up what both pay", examine)
+
+    def _optimal(self, board: Board, value: Costs) -> tuple[ClaimVerdict, str]:
         assert self._result.policy is not None
         try:
-            with during("proving the lower bounds"):
-                Floors(board, self._result.policy).prove(value)
+            Floors(board, self._result.policy).prove(value)
         except KeyError as error:
-            return Claim("optimal", "undecided", f"the task has no fact {error}")
-        except UNDECIDED as error:
-            return Claim("optimal", "undecided", why(error))
-        return Claim("optimal", "proved", wording.FLOORS_REACH)
+            return "undecided", f"the task has no fact {error}"
+        return "proved", wording.FLOORS_REACH

@@ -2,8 +2,10 @@
 
 from fractions import Fraction
 
+from serendipity.model.answers.policy import Decision
 from verify.policy.board import NOTHING, Board, Costs, Reply
-from verify.policy.reading import Listed, combine, plus, show
+from verify.policy.ending import END, forced
+from verify.policy.reading import combine, plus, show
 
 
 class BrokenError(Exception):
@@ -25,7 +27,7 @@ class Walk:
         listed: the policy.
     """
 
-    def __init__(self, board: Board, listed: dict[int, Listed]) -> None:
+    def __init__(self, board: Board, listed: dict[int, Decision]) -> None:
         self._board = board
         self._listed = listed
         self._onward: dict[int, list[int]] = {}
@@ -37,24 +39,19 @@ class Walk:
         Raises:
             BrokenError: it is not closed, does not end, or a value is wrong.
         """
-        board = self._board
-        if board.start not in self._listed:
-            self._require_met()
-            return self._idle(board.start)
-        pending = [board.start]
+        start = self._board.start
+        pending = [start] if start in self._listed else []
         while pending:
             state = pending.pop()
             if state not in self._onward:
                 self._round(state)
                 pending.extend(self._onward[state])
-        self._require_met()
-        self._require_an_end()
-        return self._listed[board.start].value
-
-    def _require_met(self) -> None:
-        """No state is listed that the policy does not meet."""
         if len(self._onward) < len(self._listed):
             raise BrokenError("replay", "a state is listed that the policy does not meet")
+        if start not in self._listed:
+            return self._idle(start)
+        self._require_an_end()
+        return self._listed[start].value
 
     def _idle(self, state: int) -> Costs:
         """Doing nothing for ever."""
@@ -107,7 +104,7 @@ class Walk:
         listed = self._listed.get(reply.state)
         return self._idle(reply.state) if listed is None else listed.value
 
-    def _compare(self, listed: Listed, value: Costs) -> None:
+    def _compare(self, listed: Decision, value: Costs) -> None:
         if listed.value != value:
             raise BrokenError(
                 "cost",
@@ -117,14 +114,9 @@ class Walk:
 
     def _require_an_end(self) -> None:
         """Every run ends: with certainty; where ties are expected, with probability 1."""
-        settled = set(self._ends) if self._board.ties in ("expected", "optimistic") else set()
-        every = all if self._board.ties in ("robust", "fixed") else any
-        grows = True
-        while grows:
-            onward = self._board.deadline.each(self._onward.items())
-            more = {s for s, after in onward if not after or every(x in settled for x in after)}
-            grows = not more <= settled
-            settled |= more
-        surely = self._board.ties != "expected" or settled == set(self._onward)
+        ties, onward = self._board.ties, self._onward.items()
+        choices = {s: [[*after, *[END] * (s in self._ends)]] for s, after in onward}
+        settled = forced(choices, self._board.deadline, every=ties in ("robust", "fixed"))
+        surely = ties != "expected" or settled.issuperset(choices)
         if self._board.start not in settled or not surely:
             raise BrokenError("replay", "a run of the policy may go on for ever")

@@ -6,8 +6,10 @@ from verify.policy.board import Board
 
 _MOST_STATES = 50_000
 
+END = -1
+
 Choices = dict[int, list[list[int]]]
-"""Per state with the supporter to move, for each of its moves the states that may follow; none: the end."""
+"""Per state with the supporter to move, for each of its moves the states that may follow, or the end."""
 
 
 def lost_states(board: Board) -> set[int]:
@@ -18,7 +20,7 @@ def lost_states(board: Board) -> set[int]:
     choices = _explore(board)
     if board.ties == "expected":
         return set(choices) - _almost_surely(choices, board.deadline)
-    return set(choices) - _forced(choices, board.deadline, every=board.ties == "robust")
+    return set(choices) - forced(choices, board.deadline, every=board.ties == "robust")
 
 
 def _explore(board: Board) -> Choices:
@@ -39,14 +41,14 @@ def _explore(board: Board) -> Choices:
                 after = [reply.state for reply in board.replies(middle)]
                 final = [s for s in after if board.goal.holds(s)]
                 choices[state].append([s for s in after if s not in final])
-                choices[state][-1] += [-1] * bool(final)
+                choices[state][-1] += [END] * bool(final)
                 pending.extend(s for s in after if s not in final)
     return choices
 
 
-def _forced(choices: Choices, deadline: Deadline, *, every: bool) -> set[int]:
+def forced(choices: Choices, deadline: Deadline, *, every: bool) -> set[int]:
     """States from which the end is reached; against the human if ``every``, else with them."""
-    good, grows, kind = {-1}, True, all if every else any
+    good, grows, kind = {END}, True, all if every else any
     while grows:
         found = deadline.each(choices.items())
         more = {s for s, moves in found if any(not a or kind(x in good for x in a) for a in moves)}
@@ -57,11 +59,11 @@ def _forced(choices: Choices, deadline: Deadline, *, every: bool) -> set[int]:
 
 def _almost_surely(choices: Choices, deadline: Deadline) -> set[int]:
     """States from which some policy ends with probability 1."""
-    safe = {-1, *choices}
+    safe = {END, *choices}
     while True:
         left = ((s, moves) for s, moves in deadline.each(choices.items()) if s in safe)
         kept = {s: [a for a in moves if safe.issuperset(a)] for s, moves in left}
-        reached = _forced(kept, deadline, every=False)
+        reached = forced(kept, deadline, every=False)
         if reached == safe:
             return safe
         safe = reached

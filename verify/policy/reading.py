@@ -1,27 +1,19 @@
 """A policy as bits, and what the human's choices make of values."""
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 from serendipity.model import Policy
+from serendipity.model.answers.policy import Decision
 from verify.policy.board import Board, Costs, Reply
 
 
-@dataclass(frozen=True, slots=True)
-class Listed:
-    """What a policy says of a state."""
-
-    action: str
-    value: Costs
-
-
-def read_decisions(board: Board, policy: Policy) -> dict[int, Listed]:
+def read_decisions(board: Board, policy: Policy) -> dict[int, Decision]:
     """What the policy does, by state.
 
     Raises:
         ValueError: two entries for one state, or an unknown fact.
     """
-    listed: dict[int, Listed] = {}
+    listed: dict[int, Decision] = {}
     for decision in board.deadline.each(policy.decisions):
         try:
             state = board.state(decision.state)
@@ -29,7 +21,7 @@ def read_decisions(board: Board, policy: Policy) -> dict[int, Listed]:
             raise ValueError(f"the task has no fact {error}") from None
         if state in listed:
             raise ValueError(f"two entries for one state, one of them does '{decision.action}'")
-        listed[state] = Listed(decision.action, decision.value)
+        listed[state] = decision
     return listed
 
 
@@ -48,6 +40,6 @@ def plus(reply: Reply, rest: Costs) -> Costs:
     return rest[0] + reply.cost, rest[1]
 
 
-def show(value: Costs | None) -> str:
+def show(value: Costs) -> str:
     """A value for people."""
-    return "infinite" if value is None else f"({value[0]}, {value[1]})"
+    return f"({value[0]}, {value[1]})"

@@ -40,12 +40,12 @@ def minimise(question: Subproblem, effort: Effort, plans: OptimalPlans) -> Minim
 
 
 def _without_epochs(question: Subproblem, effort: Effort) -> Minimum:
-    """The empty plan, or none."""
-    minimum = _nothing_to_do(question)
-    if isinstance(effort.proof, ProofReader):
-        return recorded.read_without_epochs(effort.proof, question, minimum)
+    """The empty plan, which has no window, or none."""
+    too_much = (question.most or 0) < 0 or (question.most_cost or 0) < 0
+    none = too_much or question.rule == WINDOW or not question.goal.holds(question.task.init)
+    minimum = Minimum("none") if none else Minimum("found", PricedPlan((), None, 0, 0), 0)
     if effort.proof is not None:
-        recorded.write(effort.proof, question, recorded.without_epochs(question), minimum)
+        recorded.refuted_without_epochs(effort.proof, question, minimum)
     return minimum
 
 
@@ -140,11 +140,3 @@ def _better(a: PricedPlan | None, b: PricedPlan | None) -> PricedPlan | None:
     if a is None or b is None:
         return a or b
     return min(a, b, key=lambda found: (found.objective, found.cost))
-
-
-def _nothing_to_do(question: Subproblem) -> Minimum:
-    """No epoch at all: the empty plan or none; it has no window."""
-    too_much = (question.most or 0) < 0 or (question.most_cost or 0) < 0
-    if too_much or question.rule == WINDOW or not question.goal.holds(question.task.init):
-        return Minimum("none")
-    return Minimum("found", PricedPlan((), None, 0, 0), 0)

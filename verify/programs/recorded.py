@@ -21,6 +21,8 @@ Cut = tuple[int, State]
 BESIDE_ANY: Final = "beside any of"
 """In the name of a program in which the human may be on any of their optimal plans."""
 
+_OTHER_LIMIT: Final = "program {!r}: the limit is {}, the claim's is {}"
+
 _WORDS: Final = {
     FREE: "all plans",
     WINDOW: "every window",
@@ -76,7 +78,40 @@ def refute(
         checker.refute(checker.program(entry, "program"))
     except (checker.MalformedProofError, checker.RejectedProofError) as error:
         raise UndecidedError(f"no proof: {error}") from None
-    writer.add(entry)
+    writer.programs.append(entry)
+
+
+def refuted(
+    proof: ProofWriter | ProofReader, made: Entry, model: Model, limit: int | None, deadline: Deadline
+) -> None:
+    """Refute a program and write it down, or take it from a proof that the checker has accepted.
+
+    Args:
+        made: what of its entry follows from the program.
+
+    Raises:
+        UndecidedError: it could not be refuted, or the proof's next program is another one.
+    """
+    if not isinstance(proof, ProofReader):
+        refute(proof, made, model, limit, (), deadline)
+        return
+    entry = proof.take()
+    require_same(entry, made)
+    if entry["limit"] != limit:
+        raise UndecidedError(_OTHER_LIMIT.format(entry["name"], entry["limit"], limit))
+
+
+def refuted_without_epochs(proof: ProofWriter | ProofReader, question: Subproblem, minimum: Minimum) -> None:
+    """The same where there is no epoch, so that the answer is known: the empty plan, or none."""
+    limit, model = question.most if minimum.found is None else -1, Model(question.deadline)
+    model.family = "eq. 3"
+    model.add({}, "<=", 0 if question.goal.holds(question.task.init) else -1)
+    model.family = "eq. 12"
+    model.add({}, "<=", 0 if question.rule != WINDOW else -1)
+    if question.most_cost is not None:
+        model.family = "eq. 11"
+        model.add({}, "<=", min(question.most_cost, 0))
+    refuted(proof, _described(question, model), model, limit, question.deadline)
 
 
 def read(
@@ -96,50 +131,18 @@ def read(
         encoding.bound_suffix(xi2, state, suffix_least(question, state, xi2, plans))
     assert encoding.model is not None
     require_same(entry, _described(question, encoding.model))
-    if "solution" in entry and entry["limit"] != question.most:
-        return _answered(entry, question, _found(entry, question, encoding, plans))
-    return _answered(entry, question, None)
-
-
-def read_without_epochs(reader: ProofReader, question: Subproblem, minimum: Minimum) -> Minimum:
-    """The same where there is no epoch, so that the answer is known.
-
-    Raises:
-        UndecidedError: the next program is another one, or does not answer the question.
-    """
-    entry = reader.take()
-    require_same(entry, _described(question, without_epochs(question)))
-    return _answered(entry, question, minimum.found)
-
-
-def without_epochs(question: Subproblem) -> Model:
-    """The program of a question without epochs: the empty plan, or none."""
-    model = Model(question.deadline)
-    model.family = "eq. 3"
-    model.add({}, "<=", 0 if question.goal.holds(question.task.init) else -1)
-    model.family = "eq. 12"
-    model.add({}, "<=", 0 if question.rule != WINDOW else -1)
-    if question.most_cost is not None:
-        model.family = "eq. 11"
-        model.add({}, "<=", min(question.most_cost, 0))
-    return model
-
-
-def _answered(entry: Entry, question: Subproblem, found: PricedPlan | None) -> Minimum:
-    """What is proved where an entry's limit is refuted."""
     name, limit = entry["name"], entry["limit"]
-    if found is not None:
+    if "solution" in entry and limit != question.most:
+        found = _found(entry, question, encoding, plans)
         if limit != found.objective - 1 or (question.most is not None and found.objective > question.most):
             raise UndecidedError(f"program {name!r}: the limit is not one below the claim's optimum")
         return Minimum("found", found, found.objective)
     if limit != question.most:
-        raise UndecidedError(f"program {name!r}: the limit is {limit}, the claim's is {question.most}")
+        raise UndecidedError(_OTHER_LIMIT.format(name, limit, question.most))
     return Minimum("none")
 
 
-def _found(
-    entry: Entry, question: Subproblem, encoding: ProgramEncoding, plans: OptimalPlans
-) -> PricedPlan | None:
+def _found(entry: Entry, question: Subproblem, encoding: ProgramEncoding, plans: OptimalPlans) -> PricedPlan:
     """The plan that an entry's solution stands for."""
     assert encoding.model is not None
     values = [0] * len(encoding.model.upper)

@@ -16,14 +16,10 @@ MADE_AGAIN: Final = ("name", "unit", "columns", "objective", "rows")
 
 
 class ProofWriter:
-    """Collects the programs that a certificate rests on."""
+    """Collects the programs that a certificate rests on, refuted."""
 
     def __init__(self) -> None:
         self.programs: list[Entry] = []
-
-    def add(self, entry: Entry) -> None:
-        """One more program, refuted."""
-        self.programs.append(entry)
 
     def to_dict(self, claim: str, encoding: str) -> dict[str, Any]:
         """The JSON object of a proof file.

@@ -81,10 +81,8 @@ class _Tree:
     def _closed(self, relaxed: Relaxed, bounds: Bounds) -> list[list[Any]] | None:
         """Multipliers of a leaf, or None where neither the relaxation nor a single row closes it."""
         found = self._closed_by_duals(relaxed, bounds)
-        if found is None and (single := self._combination.single(bounds)) is not None:
-            row, sign = single
-            found = [[row, f"{sign}/1"]]
-        return found
+        single = self._combination.single(bounds) if found is None else None
+        return found if single is None else [[single[0], f"{single[1]}/1"]]
 
     def _closed_by_duals(self, relaxed: Relaxed, bounds: Bounds) -> list[list[Any]] | None:
         if relaxed.values is not None:
@@ -118,7 +116,8 @@ class _Tree:
             ]
             if fractional:
                 return self._best_split(relaxed, bounds, [x for *_, x in nsmallest(_TRIED, fractional)])
-            self._require_none([round(value) for value in relaxed.values])
+            if self._combination.allows([round(value) for value in relaxed.values]):
+                raise UndecidedError("the program has a solution that the solver did not find")
         for x, (low, high) in enumerate(zip(self._model.lower, self._model.upper, strict=True)):
             low, high = bounds.get(x, (low, high))
             if low < high:
@@ -146,15 +145,6 @@ class _Tree:
         if child.values is None or (self._limit is not None and child.objective > self._limit + _WHOLE):
             return inf
         return max(0.0, round(child.objective - relaxed.objective, 6))
-
-    def _require_none(self, values: list[int]) -> None:
-        """Return if whole values are no solution within the limit.
-
-        Raises:
-            UndecidedError: they are one, so the program is not refuted, whatever a solver said.
-        """
-        if self._combination.allows(values):
-            raise UndecidedError("the program has a solution that the solver did not find")
 
 
 def _text(numerator: int, denominator: int) -> str:

@@ -17,9 +17,6 @@ from verify.base.execution import unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.scenarios.reading import condition
 
-Fault = str
-"""One line: what is wrong."""
-
 PlanNames = tuple[str, ...]
 
 Costs = tuple[Fraction | None, Fraction | None]
@@ -86,7 +83,7 @@ def considered_plans(
 
 def faults(
     task: Task, recognised: Recognition, options: Options, original: Task, deadline: Deadline
-) -> Iterator[Fault]:
+) -> Iterator[str]:
     """Everything that is wrong with a recognition, in order.
 
     Args:
@@ -133,7 +130,7 @@ def _own_faults(
     costs: Costs,
     options: Options,
     deadline: Deadline,
-) -> Iterator[Fault]:
+) -> Iterator[str]:
     for what, said, cost in zip(
         ("with", "without"), (goal.with_observed, goal.without_observed), costs, strict=True
     ):

@@ -1,10 +1,11 @@
 """The claims of an answer over scenarios, as far as rules make them (semantics 8, 11)."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from time import perf_counter
+from typing import NamedTuple
 
 from serendipity.model import Claim, Condition, Deadline, HumanPlan, PlanError, Result, Task
 from serendipity.model.answers.certificate import ClaimVerdict
@@ -38,15 +39,8 @@ from verify.scenarios.timelines import (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Scenario:
-    """What an answer has to consider.
-
-    Attributes:
-        name: as the answer should call it.
-        goal: what the human wants.
-        plan: names of what they mean to do.
-    """
+class Scenario(NamedTuple):
+    """What an answer has to consider; the plan by names."""
 
     name: str
     goal: Condition
@@ -65,7 +59,6 @@ def claims_over_scenarios(
     """The claims of an answer over scenarios; where one scenario is left it is an answer of section 3.
 
     Args:
-        task: the task that was asked; where there are candidate goals its own plays no part.
         result: the answer, perhaps of another form than such answers have.
         original: the task as it was given, where this one is in single epochs.
         deadline: what is not examined by then stays undecided.
@@ -225,7 +218,7 @@ def _expected(
             own = name if len(plans) == 1 else f"{name or 'plan'} {number}"
             found.append(Scenario(own, goal, plan, Fraction(share) / len(plans)))
     total = sum((scenario.probability for scenario in found), Fraction(0))
-    shares = [replace(scenario, probability=scenario.probability / total) for scenario in found]
+    shares = [scenario._replace(probability=scenario.probability / total) for scenario in found]
     return shares, wording.ALL_OPTIMAL if known is None else wording.POSTERIOR, fault
 
 

@@ -17,6 +17,7 @@ class Measure:
         weights: their probabilities; they add up to 1.
         floors: objective and cost that each scenario allows by itself.
         prices: of what each leaves changed.
+        plain: leave costs out where no two policies differ in them alone.
 
     Attributes:
         is_mean: whether what scenarios pay adds up; else the greatest counts.
@@ -32,6 +33,8 @@ class Measure:
         weights: Sequence[Fraction],
         floors: Sequence[Figures],
         prices: Sequence[Prices] = (),
+        *,
+        plain: bool = False,
     ) -> None:
         options, own = calls[0].options, calls[0].prices
         each = [[price * own.scale for _, price in one.values()] for one in prices]
@@ -43,7 +46,9 @@ class Measure:
         self._scale = parts * self._own
         dearest = max(own.team, default=0) * len(calls[0].task.agents) * (int(calls[0].horizon) + 1)
         most = dearest + max(map(sum, each), default=0)
-        self._unit = 8 * parts * (int(most * self._fine) + 1)
+        tied = 0 < own.epoch <= parts * most
+        self._ties = int(tied or not plain)
+        self._unit = 4 * parts * (int(most * self._fine) + 1) if self._ties else 1
         self.epoch = own.epoch * self._fine * self._unit
         least = [self._number(floor, self._own) for floor in floors]
         self.ahead = [-floor if options.risk == "regret" else 0 for floor in least]
@@ -52,19 +57,19 @@ class Measure:
 
     def pay(self, units: int) -> int:
         """Units of cost, which count for the objective, too."""
-        return units * self._fine * (self._unit + 1)
+        return units * self._fine * (self._unit + self._ties)
 
     def price(self, amount: Fraction) -> int:
         """An amount of cost likewise."""
-        return int(amount * self._own) * (self._unit + 1)
+        return int(amount * self._own) * (self._unit + self._ties)
 
     def joined(self, parts: Iterable[int]) -> int:
         """Contributions together."""
         return sum(parts) if self.is_mean else max(parts)
 
-    def room(self, below: int, others: Sequence[int]) -> int:
-        """What one has to be below for all together to be below so much."""
-        return below - sum(others) if self.is_mean else below
+    def room(self, below: int, parts: Sequence[int], k: int) -> int:
+        """What number ``k`` has to be below for all together to be below so much."""
+        return below - sum(parts) + parts[k] if self.is_mean else below
 
     def number(self, figures: Figures) -> int:
         """Objective and cost as one number."""
@@ -80,4 +85,4 @@ class Measure:
         return Fraction(objective, self._scale), Fraction(value - objective * self._unit, self._scale)
 
     def _number(self, figures: Figures, scale: int) -> int:
-        return int(figures[0] * scale) * self._unit + int(figures[1] * scale)
+        return int(figures[0] * scale) * self._unit + self._ties * int(figures[1] * scale)

@@ -8,7 +8,6 @@ left to pay by distances in the human's automaton.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from serendipity.model import Step
@@ -25,12 +24,8 @@ Group = tuple[int, tuple[Member, ...]]
 """Scenarios that are not told apart, and after how many epochs."""
 
 
-@dataclass(frozen=True, slots=True)
-class Better:
-    """A policy that is better than the one asked about: its value, and what robots do until they see more."""
-
-    value: int
-    robots: tuple[Step, ...]
+Better = tuple[int, tuple[Step, ...]]
+"""The value of a policy that is better than the one asked about, and what robots do until they see more."""
 
 
 class _Choice(NamedTuple):
@@ -76,14 +71,14 @@ class PolicySearch:
     def better(self, than: int) -> Better | None:
         """The best policy of a value below ``than``; None: proved that there is none."""
         floors = self._measure.floors
-        self._most = [self._room(than, floors, k) - at.ahead for k, at in enumerate(self._first)]
+        self._most = [self._measure.room(than, floors, k) - at.ahead for k, at in enumerate(self._first)]
         shift, root = _levelled(0, self._first)
         try:
             value = self._value(root, than - shift)
         except RecursionError:
             raise UndecidedError("the plans are too long to look at every policy") from None
         self._effort.attempts.append(Attempt("policies", decided=True, states=self._looked_at))
-        return None if value is None else Better(value + shift, tuple(self._until_told_apart(root)))
+        return None if value is None else (value + shift, tuple(self._until_told_apart(root)))
 
     def _until_told_apart(self, group: Group) -> Iterator[Step]:
         following = [group]
@@ -129,7 +124,7 @@ class PolicySearch:
         epoch, members = group
         rests = [self._simple(epoch, at) for at in members]
         for k, at in enumerate(members if len(members) > 1 else ()):
-            rest = self._single(epoch, at, self._room(below, rests, k))
+            rest = self._single(epoch, at, self._measure.room(below, rests, k))
             if rest is None:
                 return None
             rests[k] = rest
@@ -137,16 +132,13 @@ class PolicySearch:
         for robots in self._robots(members):
             choices = []
             for k, at in enumerate(members):
-                found = list(self._choices(epoch + 1, at, robots[k], self._room(best, rests, k)))
+                found = list(self._choices(epoch + 1, at, robots[k], self._measure.room(best, rests, k)))
                 if not found:
                     break
                 choices.append(sorted(found, key=lambda choice: choice.bound))
             else:
                 best = self._combined(group, robots[0], choices, best)
         return best if best < below else None
-
-    def _room(self, below: int, rests: Sequence[int], k: int) -> int:
-        return self._measure.room(below, [*rests[:k], *rests[k + 1 :]])
 
     def _robots(self, members: Sequence[Member]) -> Iterator[tuple[BitOperator, ...]]:
         """What robots may do by themselves in the whole group, in each of its scenarios."""
@@ -203,7 +195,7 @@ class PolicySearch:
         for k, part in enumerate(parts.values()):
             shift, after = _levelled(epoch, [choice.after for choice in part])
             shift += sum(choice.paid for choice in part)
-            value = self._value(after, self._room(below, values, k) - shift)
+            value = self._value(after, self._measure.room(below, values, k) - shift)
             if value is None:
                 return below
             values[k] = value + shift

@@ -18,6 +18,7 @@ from verify.programs.effort import Effort, NoProgramError
 from verify.scenarios.check import beyond_rules
 from verify.scenarios.measure import Measure
 from verify.scenarios.policies import Better, PolicySearch
+from verify.scenarios.program import refute_policies
 from verify.scenarios.timelines import Figures, Timeline, answered, close, differing, figures, measured
 
 _ROUNDED = 1 - Fraction(1, 10**9)
@@ -56,7 +57,7 @@ class ScenariosProof:
             verdict, reason = "undecided", why(error)
         bound = self.result.lower_bound if verdict == "proved" else None
         task, discount = self.lines[0].task, self.result.options.discount
-        example = None if better is None else tuple(plan_step(task, s, discount) for s in better.robots)
+        example = None if better is None else tuple(plan_step(task, s, discount) for s in better[1])
         spent = self.effort.since(mark)
         yield Claim(first, verdict, reason, example, perf_counter() - started, bound, *spent)
         for name in others:
@@ -76,7 +77,7 @@ class ScenariosProof:
         measure = Measure([call], [Fraction(1)], [(Fraction(0), Fraction(0))], [line.prices])
         alone = measure.number(_figures(call, None))
         better = PolicySearch([call], measure, [line]).better(alone)
-        return measure.figures(alone if better is None else better.value)
+        return measure.figures(alone if better is None else better[0])
 
     @cached_property
     def _idle(self) -> Figures:
@@ -105,16 +106,20 @@ class ScenariosProof:
     def _best(self) -> tuple[ClaimVerdict, str, Better | None]:
         """Whether a policy is better than the answer says."""
         weights, prices = [line.weight for line in self.lines], [line.prices for line in self.lines]
-        measure = Measure(self._calls, weights, self._floors, prices)
+        measure = Measure(self._calls, weights, self._floors, prices, plain=self.effort.proof is not None)
         limit = self._limit(measure)
         if measure.joined(measure.floors) >= limit:
             return "proved", wording.EACH_ADDS_UP, None
         if self.effort.proof is not None:
-            raise NoProgramError("scenarios whose best answers by themselves don't come to the answer")
+            kept = any(line.original or line.prices or line.task.robot_goal for line in self.lines)
+            if kept or self.effort.encoding != "automata":
+                raise NoProgramError("policies under rules of help, or by the paper's equations")
+            refute_policies(self._calls, measure, limit)
+            return "proved", wording.ALL_POLICIES, None
         better = PolicySearch(self._calls, measure, self.lines).better(limit)
         if better is None:
             return "proved", wording.ALL_POLICIES, None
-        objective, cost = measure.figures(better.value)
+        objective, cost = measure.figures(better[0])
         if self.result.status == "optimal" and not self.result.opportunity and cost >= self._idle[1]:
             return "proved", wording.ALL_POLICIES, None
         return "refuted", wording.BETTER_POLICY.format(float(cost), float(objective)), better

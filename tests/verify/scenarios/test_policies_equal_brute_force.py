@@ -71,11 +71,11 @@ def require_least(calls: list[ExaminedCall], weights: list[Fraction], right: Pol
 
     found = better(_FAR)
     assert found is not None
-    assert measure.figures(found.value) == right.least
-    assert better(found.value) is None
-    tight = better(found.value + 1)
-    assert tight is not None and tight.value == found.value
-    assert measure.joined(measure.floors) <= found.value
+    assert measure.figures(found[0]) == right.least
+    assert better(found[0]) is None
+    tight = better(found[0] + 1)
+    assert tight is not None and tight[0] == found[0]
+    assert measure.joined(measure.floors) <= found[0]
 
 
 def _call(task: Task, options: Options, goal: Condition, plan: HumanPlan) -> ExaminedCall:

@@ -59,18 +59,27 @@ class AutomataEncoding:
         model: the integer program, or None where pruning alone proves that there is no plan.
     """
 
-    def __init__(self, question: Subproblem, *, pruned: bool = True) -> None:
+    def __init__(
+        self,
+        question: Subproblem,
+        *,
+        pruned: bool = True,
+        shared: Model | None = None,
+        control: type[HumanControl] = HumanControl,
+    ) -> None:
         """Build the program.  The horizon has to be at least 1.
 
         Args:
             pruned: leave out what costs and goals exclude; else there is a program, whatever is asked,
                 of all that can be reached if nothing is ever deleted.
+            shared: what it becomes part of, and all that anybody can do counts there, relevant or not.
+            control: which rule the human follows.
         """
-        self.question = question
+        self.question, self._shared, self._control = question, shared, control
         self.deadline = question.deadline
         self.setting: NetworkSetting | None = None
         expected = expected_states(question)
-        part = relevant_part(question, frozenset().union(*expected))
+        part = None if shared else relevant_part(question, frozenset().union(*expected))
         if part is None and not pruned:
             part = whole_task(question)
         if part is None:
@@ -125,7 +134,7 @@ class AutomataEncoding:
         arcs = sum(len(layer) for network in setting.networks for layer in network.layers)
         with during(f"writing a program for {arcs:,} arcs of the agents' automata"):
             self.deadline.require(arcs * BYTES_AN_ARC)
-            return NetworkProgram(self.question, setting, self._groups, complete=self._whole)
+            return NetworkProgram(self.question, setting, self._groups, self._shared, complete=self._whole)
 
     @property
     def model(self) -> Model | None:
@@ -180,7 +189,7 @@ class AutomataEncoding:
         task = question.task
         wanted_true, wanted_false = self._wanted(part, expected)
         weights = self._weights()
-        control = HumanControl(question, expected)
+        control = self._control(question, expected)
         networks: list[Network] = []
         for agent, machine in enumerate(machines):
             if agent == task.human:

@@ -27,15 +27,19 @@ class NetworkProgram:
         question: Subproblem,
         setting: NetworkSetting,
         groups: Iterable[frozenset[int]],
+        shared: Model | None = None,
         *,
         complete: bool,
     ) -> None:
-        """With ``complete`` every relevant fact is represented, as bounds on suffixes need."""
+        """With ``complete`` every relevant fact is represented, as bounds on suffixes need.
+
+        It becomes part of ``shared``, or one of its own.
+        """
         self.question = question
         self.setting = setting
         self.task = setting.task
         self.deadline = setting.deadline
-        self.model = Model(self.deadline)
+        self.model = shared or Model(self.deadline)
         self.flows = Flows(self.model, setting)
         self.facts = SharedFacts(self.flows, groups, set(setting.part.facts) if complete else self._touched())
         self._preconditions()

@@ -1,0 +1,107 @@
+"""That no policy is better is written down as a program, which anybody can check."""
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import serendipity
+from serendipity.model import Options, Task
+from serendipity.testing.oracle.scenarios import PolicyOptimum, PossibleGoal, best_policy
+from tests.search.modes.scenarios.strategies import options_over, scenarios
+from tests.verify.scenarios.studio import helped, studio
+from tests.verify.scenarios.test_policies_equal_brute_force import _call
+from verify.base.undecided import UndecidedError
+from verify.programs.effort import Effort
+from verify.proofs.book import ProofWriter
+from verify.scenarios.measure import Measure
+from verify.scenarios.program import refute_policies
+from verify.scenarios.proof import floor_of
+
+
+def _proof(folder: Path, **options: Any) -> tuple[Path, dict[str, Any]]:
+    file = folder / "proof.json"
+    assert serendipity.verify(studio(), helped(**options), proof=file).verdict == "proved"
+    return file, json.loads(file.read_bytes())
+
+
+@pytest.mark.parametrize("policy", ["watching", "fixed"])
+@pytest.mark.parametrize("risk", ["mean", "worst", "regret"])
+def test_policies_have_proofs(risk: str, policy: str, tmp_path: Path) -> None:
+    file, proof = _proof(tmp_path, risk=risk, policy=policy)
+    assert serendipity.check_proof(file).accepted
+    assert serendipity.check_proof(file, studio(), helped(risk=risk, policy=policy)).accepted
+    assert proof["programs"][-1]["name"] == "all policies over 2 scenarios, 3 epochs"
+
+
+def _without(family: str) -> Callable[[dict[str, Any]], None]:
+    def change(program: dict[str, Any]) -> None:
+        program["rows"] = [row for row in program["rows"] if row["family"] != family]
+        program["tree"] = {"multipliers": []}
+
+    return change
+
+
+_DOCTORED: dict[str, tuple[str, Callable[[dict[str, Any]], Any]]] = {
+    "another limit": ("mean", lambda program: program.update(limit=program["limit"] - 1)),
+    "robots that know": ("mean", _without("semantics 11: robots")),
+    "seeing what is not there": ("mean", _without("semantics 11: what is seen")),
+    "not all count": ("worst", _without("semantics 11: the greatest counts")),
+    "other probabilities": ("mean", lambda program: program["objective"][0].__setitem__(1, 10**6)),
+}
+
+
+@pytest.mark.parametrize("way", _DOCTORED)
+def test_doctored_proofs_are_rejected(way: str, tmp_path: Path) -> None:
+    risk, change = _DOCTORED[way]
+    file, proof = _proof(tmp_path, risk=risk)
+    change(proof["programs"][-1])
+    file.write_text(json.dumps(proof))
+    assert not serendipity.check_proof(file, studio(), helped(risk=risk)).accepted
+
+
+def test_a_policy_that_is_not_the_best_has_no_proof(tmp_path: Path) -> None:
+    """The answer for who commits themselves, said to be that of who watches."""
+    fixed = helped(policy="fixed")
+    claimed = replace(fixed, options=fixed.options.but(policy="watching"))
+    file = tmp_path / "proof.json"
+    assert serendipity.verify(studio(), claimed, proof=file).verdict == "undecided"
+    assert not file.exists()
+    assert serendipity.verify(studio(), claimed).verdict == "refuted"
+
+
+@pytest.mark.long
+@given(scenarios(), st.data())
+@settings(max_examples=10)
+def test_programs_leave_out_no_policy(drawn: tuple[Task, list[Any]], data: st.DataObject) -> None:
+    """What brute force finds is not refuted."""
+    task, found = drawn
+    options = data.draw(options_over(found))
+    horizon = int(options.horizon or max(len(one.plan) for one in found))
+    if 0 < horizon <= 4 and len(task.actions) * horizon <= 45 and len(found) > 1:
+        require_allowed(task, options.but(horizon=horizon), found)
+
+
+def require_allowed(task: Task, options: Options, found: list[PossibleGoal]) -> bool:
+    """Fail if the best policy is refuted; whether all that are better are."""
+    right: PolicyOptimum = best_policy(task, options, found, int(options.horizon or 0))
+    calls = [_call(task, options, one.goal, one.plan) for one in found]
+    floors = [floor_of(call) for call in calls]
+    measure = Measure(calls, [one.weight for one in found], floors, plain=True)
+    value = measure.number(right.least)
+    assert not _refuted(calls, measure, value + 1)
+    return _refuted(calls, measure, value)
+
+
+def _refuted(calls: list[Any], measure: Measure, below: int) -> bool:
+    effort = Effort(method="program", proof=ProofWriter())
+    try:
+        refute_policies([replace(call, effort=effort) for call in calls], measure, below)
+    except UndecidedError:
+        return False
+    return True
