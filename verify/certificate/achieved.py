@@ -66,11 +66,7 @@ def _by_its_plan(said: TiedAnswer, call: ExaminedCall, plans: OptimalPlans) -> S
 
 
 def _require_realised(call: ExaminedCall, result: Result, plans: OptimalPlans) -> None:
-    """Return if the plan is what happens with a human who replans.
-
-    Raises:
-        NotAchievedError: it is not.
-    """
+    """Return if the plan is what happens with a human who replans, or raise a NotAchievedError."""
     claim = realised_claim(call.task, result, plans)
     if claim is not None and claim.verdict == "refuted":
         raise NotAchievedError(wording.tie_breaks(result.human_plan or (), claim.reason))

@@ -21,11 +21,7 @@ class BrokenError(Exception):
 
 
 class Walk:
-    """Walks through every state that a policy can meet.
-
-    Args:
-        listed: the policy.
-    """
+    """Walks through every state that a policy can meet; ``listed`` is what it says of them."""
 
     def __init__(self, board: Board, listed: dict[int, Decision]) -> None:
         self._board = board

@@ -20,11 +20,7 @@ _A_LOOK: Final = 300
 
 
 class Floors:
-    """The lower bounds of one result.
-
-    Args:
-        policy: with its floors.
-    """
+    """The lower bounds of one result, which its policy comes with."""
 
     def __init__(self, board: Board, policy: Policy) -> None:
         self._board = board

@@ -22,12 +22,7 @@ class ProofWriter:
         self.programs: list[Entry] = []
 
     def to_dict(self, claim: str, encoding: str) -> dict[str, Any]:
-        """The JSON object of a proof file.
-
-        Args:
-            claim: what it proves.
-            encoding: who has made the programs.
-        """
+        """The JSON object of a proof file: the claim that it proves, and the encoding of its programs."""
         return {"schema": SCHEMA, "claim": claim, "encoding": encoding, "programs": self.programs}
 
 
@@ -80,10 +75,6 @@ def _difference(name: str, said: Any, made: Any) -> str:
 
 
 def packed(data: Mapping[str, Any], *, small: bool) -> bytes:
-    """A proof file's content.
-
-    Args:
-        small: pack it by gzip; equal proofs are equal files.
-    """
+    """A proof file's content; ``small``: packed by gzip, and equal proofs are equal files."""
     text = json.dumps(data, separators=(",", ":")).encode() + b"\n"
     return gzip.compress(text, mtime=0) if small else text

@@ -30,6 +30,9 @@ _DENOMINATORS: Final = (1, 2, 6, 12, 60, 840, 10**5, 10**7)
 _WHOLE: Final = 1e-6
 """A value that is nearer to an integer is taken for it."""
 
+_LARGEST: Final = 10**15
+"""Of a program's numbers: floats, which the search for a proof goes by, tell larger ones badly apart."""
+
 _TRIED: Final = 32
 """Columns of which both sides are looked at before one is split."""
 
@@ -46,7 +49,8 @@ def refutation(model: Model, limit: int | None, deadline: Deadline) -> Node:
     Raises:
         UndecidedError: some values satisfy the rows, or nobody could tell.
     """
-    if largest(model, deadline) > limits().coefficient or abs(limit or 0) > checker.MOST:
+    most = max(_LARGEST, limits().coefficient)
+    if largest(model, deadline) > most or abs(limit or 0) > checker.MOST:
         raise UndecidedError("costs need more digits than a proof is looked for with")
     return _Tree(model, limit, deadline).grow()
 

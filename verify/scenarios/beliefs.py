@@ -17,8 +17,6 @@ from verify.base.execution import unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.scenarios.reading import condition
 
-PlanNames = tuple[str, ...]
-
 Costs = tuple[Fraction | None, Fraction | None]
 """``cost(G, O)`` and ``cost(G, not O)`` of a goal; None where there is no such plan."""
 
@@ -60,7 +58,7 @@ def compiled(
 
 def considered_plans(
     task: Task, goal: Condition, observed: Sequence[str], options: Options, deadline: Deadline
-) -> Iterator[tuple[PlanNames, PlanNames]]:
+) -> Iterator[tuple[tuple[str, ...], tuple[str, ...]]]:
     """The optimal plans for a goal that embed the observations, the canonical one first.
 
     Args:
@@ -71,7 +69,7 @@ def considered_plans(
         What begins in each plan, which no other shares, and what is done epoch by epoch.
     """
     own = compiled(task, goal, observed, deadline, embed=True)
-    goes_on, seen = unchosen(own), set[PlanNames]()
+    goes_on, seen = unchosen(own), set[tuple[str, ...]]()
     for plan in OptimalPlans(own, alone_of(own, deadline, options)).plans():
         begun = tuple(own.actions[i].name for i in plan if i not in goes_on)
         if begun not in seen:

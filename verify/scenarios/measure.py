@@ -3,10 +3,14 @@
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import lcm
+from typing import Final
 
 from verify.calls.call import ExaminedCall
 from verify.rules.leftovers import Prices
 from verify.scenarios.timelines import Figures
+
+PARTS: Final = 10**9
+"""Of probability, to which those are rounded that have more."""
 
 
 class Measure:
@@ -17,7 +21,7 @@ class Measure:
         weights: their probabilities; they add up to 1.
         floors: objective and cost that each scenario allows by itself.
         prices: of what each leaves changed.
-        plain: leave costs out where no two policies differ in them alone.
+        plain: for a program: no finer parts, and no costs where no two policies differ in them alone.
 
     Attributes:
         is_mean: whether what scenarios pay adds up; else the greatest counts.
@@ -25,6 +29,7 @@ class Measure:
         ahead: by scenario, what it has paid at first, so to say.
         floors: by scenario, what it contributes at least.
         epoch: what an epoch of window adds.
+        slack: by how much all together may be off where probabilities are rounded.
     """
 
     def __init__(
@@ -41,13 +46,15 @@ class Measure:
         self._fine = lcm(*(price.denominator for one in each for price in one))
         self.is_mean = options.risk == "mean"
         parts = lcm(*(weight.denominator for weight in weights)) if self.is_mean else 1
-        self.shares = [int(weight * parts) if self.is_mean else 1 for weight in weights]
+        rough = plain and parts > PARTS
+        parts = min(parts, PARTS) if plain else parts
+        self.shares = [round(weight * parts) if self.is_mean else 1 for weight in weights]
         self._own = self._fine * own.scale
         self._scale = parts * self._own
         dearest = max(own.team, default=0) * len(calls[0].task.agents) * (int(calls[0].horizon) + 1)
         most = dearest + max(map(sum, each), default=0)
-        tied = 0 < own.epoch <= parts * most
-        self._ties = int(tied or not plain)
+        self.slack = len(calls) * calls[0].question.largest if rough else 0
+        self._ties = int(not plain or (not rough and 0 < own.epoch <= parts * most))
         self._unit = 4 * parts * (int(most * self._fine) + 1) if self._ties else 1
         self.epoch = own.epoch * self._fine * self._unit
         least = [self._number(floor, self._own) for floor in floors]

@@ -15,7 +15,7 @@ from verify.programs.automata import AutomataEncoding
 from verify.programs.automata.linear import Sum, plus
 from verify.programs.automata.program import NetworkProgram
 from verify.programs.recorded import described, refuted
-from verify.scenarios.measure import Measure
+from verify.scenarios.measure import PARTS, Measure
 from verify.solvers.model import Model
 
 
@@ -53,6 +53,7 @@ def refute_policies(calls: Sequence[ExaminedCall], measure: Measure, below: int)
     for one, other in combinations(networks, 2):
         _tell_apart(model, one, other)
     name = f"all policies over {len(calls)} scenarios, {calls[0].horizon} epochs"
+    name += f", probabilities in parts of {PARTS}" if measure.slack else ""
     limit = below - 1 if measure.is_mean else len(calls) * (below - 1) - sum(measure.ahead)
     assert effort.proof is not None, "nobody else asks"
     refuted(effort.proof, described(name, 0, model, effort.deadline), model, limit, effort.deadline)

@@ -106,7 +106,7 @@ class ScenariosProof:
     def _best(self) -> tuple[ClaimVerdict, str, Better | None]:
         """Whether a policy is better than the answer says."""
         weights, prices = [line.weight for line in self.lines], [line.prices for line in self.lines]
-        measure = Measure(self._calls, weights, self._floors, prices, plain=self.effort.proof is not None)
+        measure = Measure(self._calls, weights, self._floors, prices)
         limit = self._limit(measure)
         if measure.joined(measure.floors) >= limit:
             return "proved", wording.EACH_ADDS_UP, None
@@ -114,7 +114,8 @@ class ScenariosProof:
             kept = any(line.original or line.prices or line.task.robot_goal for line in self.lines)
             if kept or self.effort.encoding != "automata":
                 raise NoProgramError("policies under rules of help, or by the paper's equations")
-            refute_policies(self._calls, measure, limit)
+            measure = Measure(self._calls, weights, self._floors, plain=True)
+            refute_policies(self._calls, measure, self._limit(measure) - measure.slack)
             return "proved", wording.ALL_POLICIES, None
         better = PolicySearch(self._calls, measure, self.lines).better(limit)
         if better is None:

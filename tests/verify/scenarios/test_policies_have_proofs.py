@@ -39,6 +39,19 @@ def test_policies_have_proofs(risk: str, policy: str, tmp_path: Path) -> None:
     assert proof["programs"][-1]["name"] == "all policies over 2 scenarios, 3 epochs"
 
 
+def test_posteriors_of_many_digits_have_proofs(tmp_path: Path) -> None:
+    """Their parts are no numbers that a solver can tell apart: they count to nine digits."""
+    goals = [{"name": name, "goal": [name], "prior": prior} for name, prior in (("p", "0.3"), ("z", "0.7"))]
+    asked = {"goals": goals, "observed": ["begin_p h"], "beta": 0.37, "horizon": 3}
+    for noise in (None, "miss=0.1,wrong=0.2"):
+        answer = serendipity.plan(studio(), noise=noise, **asked)
+        file = tmp_path / "proof.json"
+        assert serendipity.verify(studio(), answer, proof=file).verdict == "proved"
+        assert serendipity.check_proof(file, studio(), answer).accepted
+        name = json.loads(file.read_bytes())["programs"][-1]["name"]
+        assert name == "all policies over 2 scenarios, 3 epochs, probabilities in parts of 1000000000"
+
+
 def _without(family: str) -> Callable[[dict[str, Any]], None]:
     def change(program: dict[str, Any]) -> None:
         program["rows"] = [row for row in program["rows"] if row["family"] != family]
