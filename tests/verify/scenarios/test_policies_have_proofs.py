@@ -11,11 +11,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity.model import Options, Task
-from serendipity.testing.oracle.scenarios import PolicyOptimum, PossibleGoal, best_policy
+from serendipity.model import Task
+from serendipity.testing.oracle.scenarios import best_policy
 from tests.search.modes.scenarios.strategies import options_over, scenarios
 from tests.verify.scenarios.studio import helped, studio
 from tests.verify.scenarios.test_policies_equal_brute_force import _call
+from tests.verify.scenarios.three_ways import Asked, agreed, calls_over_scenarios, is_small
 from verify.base.undecided import UndecidedError
 from verify.programs.effort import Effort
 from verify.proofs.book import ProofWriter
@@ -95,26 +96,22 @@ def test_programs_leave_out_no_policy(drawn: tuple[Task, list[Any]], data: st.Da
     """What brute force finds is not refuted."""
     task, found = drawn
     options = data.draw(options_over(found))
+    if not is_small((task, found, options)):
+        return
     horizon = int(options.horizon or max(len(one.plan) for one in found))
-    if 0 < horizon <= 4 and len(task.actions) * horizon <= 45 and len(found) > 1:
-        require_allowed(task, options.but(horizon=horizon), found)
-
-
-def require_allowed(task: Task, options: Options, found: list[PossibleGoal]) -> bool:
-    """Fail if the best policy is refuted; whether all that are better are."""
-    right: PolicyOptimum = best_policy(task, options, found, int(options.horizon or 0))
-    calls = [_call(task, options, one.goal, one.plan) for one in found]
-    floors = [floor_of(call) for call in calls]
-    measure = Measure(calls, [one.weight for one in found], floors, plain=True)
-    value = measure.number(right.least)
-    assert not _refuted(calls, measure, value + 1)
-    return _refuted(calls, measure, value)
-
-
-def _refuted(calls: list[Any], measure: Measure, below: int) -> bool:
+    right = best_policy(task, options, found, horizon)
+    calls = [_call(task, options.but(horizon=horizon), one.goal, one.plan) for one in found]
+    measure = Measure(calls, [one.weight for one in found], [floor_of(call) for call in calls], plain=True)
     effort = Effort(method="program", proof=ProofWriter())
-    try:
-        refute_policies([replace(call, effort=effort) for call in calls], measure, below)
-    except UndecidedError:
-        return False
-    return True
+    with pytest.raises(UndecidedError):
+        refute_policies(
+            [replace(call, effort=effort) for call in calls], measure, measure.number(right.least) + 1
+        )
+
+
+@pytest.mark.long
+@given(calls_over_scenarios())
+@settings(max_examples=15)
+def test_search_brute_force_and_certificates_agree(asked: Asked) -> None:
+    if is_small(asked):
+        agreed(asked)
