@@ -6,7 +6,7 @@ start and length at once, so the first proof is already the answer of semantics 
 
 from collections.abc import Callable, Generator, Iterable
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol, TypeVar
+from typing import NamedTuple, Protocol
 
 from search.engine.shortest_paths import LevelQueue
 from serendipity.model.resources.deadline import Deadline
@@ -68,27 +68,16 @@ class Progress:
         return True
 
 
-class Keyed(Protocol):
-    """An incumbent, with its key, that a search improves."""
+class Space(Protocol):
+    """The search space of a mode: its nodes, and how they lead to a better incumbent."""
 
-    key: int
-
-
-N = TypeVar("N")
-Best = TypeVar("Best", bound=Keyed)
-Improved = TypeVar("Improved", bound=Keyed, contravariant=True)
-
-
-class Space(Protocol[N, Improved]):
-    """The search space of a mode: its nodes (``N``), and how they lead to a better incumbent."""
-
-    def roots(self) -> Iterable[tuple[int, N]]:
+    def roots(self) -> Iterable[tuple[int, Node]]:
         """Bounded initial nodes."""
 
-    def alive(self, node: N) -> bool:
+    def alive(self, node: Node) -> bool:
         """Whether no better node makes this one superfluous."""
 
-    def expand(self, node: N, best: Improved) -> Iterable[tuple[int, N]]:
+    def expand(self, node: Node, best: Incumbent) -> Iterable[tuple[int, Node]]:
         """Bounded successors; complete plans met on the way are offered to ``best``."""
 
 
@@ -100,8 +89,8 @@ class Ties(NamedTuple):
 
 
 def best_first(
-    space: Space[N, Best],
-    best: Best,
+    space: Space,
+    best: Incumbent,
     progress: Progress,
     deadline: Deadline,
     ties: Ties | None = None,
@@ -157,7 +146,7 @@ def best_first(
     return False
 
 
-def solve_space(space: Space[N, Best], best: Best, deadline: Deadline) -> Best:
+def solve_space(space: Space, best: Incumbent, deadline: Deadline) -> Incumbent:
     """The incumbent once :func:`best_first` has come to its end; see there."""
     for _ in best_first(space, best, Progress(), deadline):
         pass

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from search.bounds.first_interaction import no_team_bound
 from search.call.context import SearchContext
-from search.engine.best_first import Incumbent, Node, Progress, Space
+from search.engine.best_first import Incumbent, Progress, Space
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.spaces.factory import free_space, window_space
 from search.spaces.fixed_human_plan import follow_plan
@@ -240,7 +240,7 @@ class Call:
         team = context.team_bound
         return (context.bound(init) if team is no_team_bound else team(init)) + window
 
-    def space(self, deadline: Deadline, limit: int, *, idle: bool = False) -> Space[Node, Incumbent]:
+    def space(self, deadline: Deadline, limit: int, *, idle: bool = False) -> Space:
         """All plans of the call with a key below a limit; where ``idle``, robots do nothing."""
         context, plan, epochs = self.under(deadline), self.plan, self.epochs
         if not context.options.windowed:

@@ -11,9 +11,8 @@ from search.call.prepared_task import PreparedTask
 from search.modes.assistance.bounds.bound import ValueBound
 from search.modes.assistance.bounds.relaxed import joint_lower_bound
 from search.modes.assistance.game.game import Game
-from search.modes.assistance.game.rules import Mean, Worst
+from search.modes.assistance.game.rules import Best, ChoiceRule, First, Mean, Worst
 from search.modes.assistance.game.solution import ZERO, Costs, GameSolution
-from search.modes.assistance.solvers.cheapest_run import CheapestRun
 from search.modes.assistance.solvers.lao_star import LaoStar
 from search.modes.assistance.writing import Writer
 from search.packed.cost_vector import INFINITE_KEY
@@ -83,7 +82,7 @@ def _left_alone(game: Game, lower: Costs, upper: int) -> Answer:
 def _searched(game: Game, options: Options) -> Iterator[Answer]:
     """Answers of the search, which needs to know what the prime does alone."""
     writer = Writer(game, options.ties)
-    search: CheapestRun | LaoStar | None = None
+    search: LaoStar | None = None
     try:
         search = _search(game, options)
         for _ in search.run():
@@ -114,7 +113,7 @@ def _without_his_optimum(game: Game, upper: int, limit: str) -> Iterator[Answer]
         yield _left_alone(game, lower, upper)
 
 
-def _unfinished(game: Game, writer: Writer, search: CheapestRun | LaoStar | None, limit: str) -> Answer:
+def _unfinished(game: Game, writer: Writer, search: LaoStar | None, limit: str) -> Answer:
     """The answer when the time is up: doing nothing is always one, if the prime has a plan."""
     known = GameSolution(None, None) if search is None else search.solution(floors=False)
     if search is not None and known.upper is not None and known.lower == known.upper:
@@ -156,15 +155,17 @@ def _no_plan(game: Game) -> Answer:
     return _said(game.task, "infeasible", PolicyBounds(ZERO, None), reason="no-plan")
 
 
-def _search(game: Game, options: Options) -> CheapestRun | LaoStar:
-    bound = ValueBound(game)
-    no_block = bool(options.no_block)
-    if options.ties in ("fixed", "optimistic"):
-        return CheapestRun(game, bound, fixed=options.ties == "fixed", no_block=no_block)
-    return LaoStar(game, bound, Worst() if options.ties == "robust" else Mean(game), no_block=no_block)
+def _search(game: Game, options: Options) -> LaoStar:
+    rules: dict[str, ChoiceRule] = {
+        "fixed": First(),
+        "optimistic": Best(),
+        "robust": Worst(),
+        "expected": Mean(game),
+    }
+    return LaoStar(game, ValueBound(game), rules[options.ties], no_block=bool(options.no_block))
 
 
-def _answer(writer: Writer, search: CheapestRun | LaoStar, status: Status) -> Answer:
+def _answer(writer: Writer, search: LaoStar, status: Status) -> Answer:
     solution = search.solution(floors=status == "optimal")
     has_policy = status in ("optimal", "feasible")
     return _said(

@@ -89,7 +89,7 @@ class Writer:
         return next((move for move in moves if self._attains(move, solution, rest)), moves[0])
 
     def _attains(self, move: Move, solution: GameSolution, rest: Costs | None) -> bool:
-        """Whether the cheapest run goes on with this move."""
+        """Whether the best run goes on with this move."""
         if rest is None:
             return True
         cost = self._game.pair(move.value)

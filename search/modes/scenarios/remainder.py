@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 from search.bounds.first_interaction import Bounds, no_bound
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
-from search.engine.best_first import Incumbent, Node, Progress, Space, best_first, solve_space
+from search.engine.best_first import Incumbent, Progress, Space, best_first, solve_space
 from search.engine.dominance import ParetoFront
 from search.engine.paths import path_steps, plan_steps
 from search.human.suffix_rules import Asked, Suffix
@@ -224,9 +224,7 @@ class Certain:
         steps = path_steps(best.node) if best.node is not None else ()
         return Remainder(min(least + window, INFINITE_WORTH), min(worth + window, INFINITE_WORTH), steps)
 
-    def _searched(
-        self, space: Space[Node, Incumbent], best: Incumbent, deadline: Deadline
-    ) -> tuple[int, int]:
+    def _searched(self, space: Space, best: Incumbent, deadline: Deadline) -> tuple[int, int]:
         """Bound and worth of the best plan of a space that is found by a deadline."""
         progress = Progress()
         with suppress(LimitReachedError):

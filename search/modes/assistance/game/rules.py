@@ -1,10 +1,10 @@
-"""Rules for the prime's choice among optimal actions: the worst of them, or their mean."""
+"""Rules for the prime's choice among optimal actions: the worst of them, their mean, the best, the first."""
 
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from search.modes.assistance.game.game import Game
+from search.modes.assistance.game.game import Game, Move
 from search.modes.assistance.game.solution import Costs
 from search.packed.cost_vector import INFINITE_KEY
 
@@ -32,6 +32,26 @@ class Worst:
     def costs(self, game: Game, value: Value) -> Costs | None:
         """The costs in a value; None if infinite."""
         return None if value >= INFINITE_KEY else game.pair(value)
+
+    def counted(self, moves: tuple[Move, ...]) -> tuple[Move, ...]:
+        """Those of the prime's optimal actions that count."""
+        return moves
+
+
+class Best(Worst):
+    """Optimistic: the lexicographically least, as if we chose for the prime."""
+
+    def combine(self, values: Sequence[Value]) -> Value:
+        """See :class:`Worst`."""
+        return min(values)
+
+
+class First(Worst):
+    """Fixed: the one of the smallest name."""
+
+    def counted(self, moves: tuple[Move, ...]) -> tuple[Move, ...]:
+        """See :class:`Worst`."""
+        return moves[:1]
 
 
 class Mean:
@@ -69,6 +89,10 @@ class Mean:
         if value == self.infinite:
             return None
         return Fraction(value[0]) / game.scale, Fraction(value[1]) / game.scale
+
+    def counted(self, moves: tuple[Move, ...]) -> tuple[Move, ...]:
+        """See :class:`Worst`."""
+        return moves
 
 
 ChoiceRule = Worst | Mean

@@ -1,1 +1,1 @@
-"""A* for a chosen prime, LAO* and policy iteration for one who chooses."""
+"""The best policy, by LAO* and, where runs return, policy iteration."""

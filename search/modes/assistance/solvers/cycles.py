@@ -1,6 +1,6 @@
 """Everything looked at solved at once, where runs may return to a state.
 
-Robust: AND-OR Dijkstra (Knuth 1977), a choice is settled in the order of its value.
+AND-OR Dijkstra (Knuth 1977), a choice is settled in the order of its value.
 Expected: policy iteration among policies that end with certainty (Bertsekas and
 Tsitsiklis 1991).  Only strict improvements are made, so policies keep ending although
 some moves are free: in a set of states that is never left, strict improvement
@@ -23,7 +23,7 @@ def solve_all(graph: Graph, deadline: Deadline) -> None:
     model: Model = {}
     for state, moves in graph.choices.items():
         deadline.tick()
-        model[state] = [graph.option(state, move) for move in moves]
+        model[state] = [option for move in moves for option in graph.options(state, move)]
     solve = _mean if isinstance(graph.rule, Mean) else _worst
     values, policy = solve(graph, model, deadline)
     for state in model:
@@ -31,7 +31,7 @@ def solve_all(graph: Graph, deadline: Deadline) -> None:
         if value > graph.low[state]:
             graph.low[state] = value
         if state in policy:
-            graph.pick[state] = policy[state].move
+            graph.pick[state] = policy[state]
     for reply in graph.replies:
         deadline.tick()
         graph.back_up_reply(reply)

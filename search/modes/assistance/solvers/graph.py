@@ -3,9 +3,11 @@
 A *choice* is a state with the supporter to move, a *reply* one with the prime to move.
 """
 
+from collections.abc import Iterable
+
 from search.modes.assistance.bounds.bound import ValueBound
 from search.modes.assistance.game.game import NOOP, Game, Move
-from search.modes.assistance.game.rules import ChoiceRule, Value
+from search.modes.assistance.game.rules import Best, ChoiceRule, Value
 from search.modes.assistance.solvers.evaluate import Option
 from search.packed.cost_vector import INFINITE_KEY
 
@@ -24,7 +26,7 @@ class Graph:
         low: lower bounds of choices.
         reply_low: lower bounds of replies; absent where the bound was not worked out yet.
         idle: per expanded reply its value if the supporter does nothing any more.
-        pick: the moves of a policy that is known to end, where one was worked out.
+        pick: the options of a policy that is known to end, where one was worked out.
     """
 
     def __init__(self, game: Game, bound: ValueBound, rule: ChoiceRule, *, no_block: bool) -> None:
@@ -37,7 +39,7 @@ class Graph:
         self.low: dict[int, Value] = {}
         self.reply_low: dict[int, Value] = {}
         self.idle: dict[int, Value] = {}
-        self.pick: dict[int, Move] = {}
+        self.pick: dict[int, Option] = {}
         self._inherited: dict[int, Value] = {}
         self._final: dict[int, bool] = {}
 
@@ -92,7 +94,7 @@ class Graph:
             v = self.move_value(state, move)
             if value is not None and v > value:
                 continue
-            r = 0 if move == pick else 1 if move.after in self.replies else 2
+            r = 0 if pick is not None and move == pick.move else 1 if move.after in self.replies else 2
             if value is None or v < value or r < rank:
                 best, value, rank = move, v, r
         return best, value
@@ -102,7 +104,7 @@ class Graph:
         alone = self.game.alone(at)
         self.idle[at] = self.rule.lift(alone)
         if alone < INFINITE_KEY:
-            self.replies[at] = self.game.prime(at)
+            self.replies[at] = self.rule.counted(self.game.prime(at))
         else:
             self.replies[at] = (Move(0, at, NOOP),)
         return self.back_up_reply(at)
@@ -142,7 +144,26 @@ class Graph:
             return Option(move, self.rule.lift(self._bound(at)) if low is None else low, ())
         if self.settled(at):
             return Option(move, self.idle[at], ())
-        return Option(move, None, self.replies[at])
+        return Option(move, None, self.outcomes(state, move))
+
+    def options(self, state: int, move: Move) -> Iterable[Option]:
+        """The same, one for each reply of the prime's where we choose that, too."""
+        option = self.option(state, move)
+        if option.outcomes and isinstance(self.rule, Best):
+            return [option._replace(outcomes=(reply,)) for reply in self.replies[move.after]]
+        return [option]
+
+    def outcomes(self, state: int, move: Move) -> tuple[Move, ...]:
+        """The prime's moves after an expanded one of ours; where we choose, the best, first the picked."""
+        replies, pick = self.replies[move.after], self.pick.get(state)
+        if not isinstance(self.rule, Best):
+            return replies
+        picked = pick.outcomes if pick is not None and pick.move == move else ()
+
+        def order(reply: Move) -> tuple[Value, bool]:
+            return self.rule.add(reply.value, self.choice_value(reply.after)), reply not in picked
+
+        return (min(replies, key=order),)
 
     def _choice(self, state: int) -> list[Move]:
         moves = self.choices.get(state)

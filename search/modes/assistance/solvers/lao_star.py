@@ -1,4 +1,4 @@
-"""Robust and expected: the best policy, by raising lower bounds along the policy that looks best.
+"""The best policy, by raising lower bounds along the policy that looks best.
 
 A pass follows the policy that is best by the present bounds, expands what it meets and
 backs values up (as in LAO*, Hansen and Zilberstein 2001).  When a pass raises nothing,
@@ -98,11 +98,11 @@ class LaoStar:
             if graph.settled(move.after):
                 return rose, None
             if not graph.back_up_reply(move.after):
-                return rose, self._next(move, seen)
+                return rose, self._next(state, move, seen)
         return rose, None
 
-    def _next(self, move: Move, seen: set[int]) -> int | None:
-        for outcome in self._graph.replies[move.after]:
+    def _next(self, state: int, move: Move, seen: set[int]) -> int | None:
+        for outcome in self._graph.outcomes(state, move):
             if outcome.after not in seen and not self._graph.final(outcome.after):
                 return outcome.after
         return None

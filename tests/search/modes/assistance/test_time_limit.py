@@ -13,7 +13,7 @@ from search.modes.assistance.bounds import bound
 from search.modes.assistance.bounds import relaxed_provision as provision
 from search.modes.assistance.distances import closure
 from search.modes.assistance.distances import perimeter as ball
-from search.modes.assistance.solvers import cheapest_run, lao_star
+from search.modes.assistance.solvers import lao_star
 from serendipity.model import Options, Task
 from serendipity.model.answers.answer import Answer
 from serendipity.model.resources.deadline import Deadline
@@ -32,7 +32,7 @@ def test_bounds_hold_whenever_the_time_is_up(ties: str, game: Task, questions: i
     options = Options(mode="assistance", ties=ties)
     *_, full = assist(PreparedTask(game), options, Deadline())
     with pytest.MonkeyPatch.context() as patch:
-        for module in (closure, provision, lao_star, cheapest_run):
+        for module in (closure, provision, lao_star):
             for name in ("_CHECK_EVERY", "SMALL"):
                 if hasattr(module, name):
                     patch.setattr(module, name, 1)
