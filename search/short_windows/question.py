@@ -1,13 +1,12 @@
 """The question about windows of one epoch: plans with one that are better than the incumbent."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from search.call.context import SearchContext
 from search.engine.best_first import Incumbent
 from search.packed.operators import Operator
 from search.spaces.from_composite import Suggestions
-from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan
 
 
@@ -19,10 +18,6 @@ class ShortWindowQuestion:
     plan: HumanPlan
     horizon: int
     best: Incumbent
-
-    def under(self, deadline: Deadline) -> "ShortWindowQuestion":
-        """The same with another deadline."""
-        return replace(self, context=self.context.under(deadline))
 
     def steps(self) -> list[Operator]:
         """The human's plan."""

@@ -6,25 +6,20 @@ together in every way, and what the human pays from there on their own, exactly.
 another, each may help itself to what others can have provided by then, for nothing: then it is a lower bound.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import suppress
 from typing import Final
 
 from search.call.context import SearchContext
 from search.packed.cost_vector import FAR, INFINITE_KEY
 from search.packed.operators import Operator
-from search.packed.packed_task import PackedTask
 from search.short_windows.independent.conditions import are_apart
 from search.short_windows.independent.landmarks import Landmarks
-from search.short_windows.independent.provision import Provision, by_others, provisions
+from search.short_windows.independent.provision import by_others, provisions
 from search.short_windows.independent.timeline import RobotLayers, TooManyStatesError
 from search.short_windows.independent.window import ACTION, Window
 from search.short_windows.lost_values import lost_values
 from search.short_windows.question import ShortWindowQuestion
-from serendipity.model.errors import LimitReachedError
-
-_SOON: Final = 0.3
-"""What of the time that is left robots may take who don't rely on one another."""
 
 _WORTH: Final = 4
 """What a window promises is tried out at once if it is one part in so many of what can be hoped for."""
@@ -37,72 +32,32 @@ class ShortWindows:
     """Plans with a window of one epoch, by the epoch of the window."""
 
     def __init__(self, question: ShortWindowQuestion) -> None:
-        self._question = question
-        self._through_all: _Pass | None = None
-
-    @property
-    def bound(self) -> int:
-        """No plan with a window of one epoch has a smaller key, but the incumbent."""
-        return 0 if self._through_all is None else self._through_all.bound
-
-    def answers(self) -> Iterator[None]:
-        """Yield whenever the incumbent has become better; in the end the bound is as good as it gets.
-
-        What robots come to who don't rely on one another comes first: most of that can be done.
-
-        Raises:
-            LimitReachedError: the deadline came, or there are too many states; what is known by then is kept.
-        """
-        question, deadline = self._question, self._question.context.deadline
-        packed, steps = question.context.packed, question.steps()
-        provided = provisions(packed, steps, len(steps), deadline)
-        robots = sorted({op.agents for op in packed.others})
-        others = {robot: by_others(provided, robot) for robot in robots}
-        if any(_relies(packed, robot, others[robot]) for robot in robots):
-            with suppress(LimitReachedError):
-                nobody = dict.fromkeys(robots, Provision())
-                yield from _Pass(question.under(deadline.part(_SOON)), nobody).answers()
-            deadline.check()
-        self._through_all = _Pass(question, others)
-        yield from self._through_all.answers()
-
-
-def _relies(packed: PackedTask, robot: int, others: Provision) -> bool:
-    """Whether a robot could make use of what others can provide."""
-    for op in packed.others:
-        if op.agents == robot:
-            if any(value in others for value in packed.assigned(op.need_mask, op.need)):
-                return True
-            if any(field == other for field, _ in op.forbidden for other, _ in others):
-                return True
-    return False
-
-
-class _Pass:
-    """Windows of one epoch, one after another, given per robot what it takes from others for nothing."""
-
-    def __init__(self, question: ShortWindowQuestion, others: Mapping[int, Provision]) -> None:
-        context = question.context
+        context, packed = question.context, question.context.packed
         self._question = question
         self._best = question.best
         self._steps = question.steps()
-        self._lost = lost_values(context.packed)
-        self._landmarks = Landmarks(context.packed, self._amount, context.deadline)
+        self._lost = lost_values(packed)
+        self._landmarks = Landmarks(packed, self._amount, context.deadline)
+        provided = provisions(packed, self._steps, len(self._steps), context.deadline)
         self._timelines = [
-            RobotLayers(context, robot, self._steps, given, self._amount) for robot, given in others.items()
+            RobotLayers(context, robot, self._steps, by_others(provided, robot), self._amount)
+            for robot in sorted({op.agents for op in packed.others})
         ]
         self._windows: list[Window] = []
         self._ahead = 0
 
     @property
     def bound(self) -> int:
-        """No plan has a smaller key, but the incumbent, if robots take nothing else from others."""
+        """No plan with a window of one epoch has a smaller key, but the incumbent."""
         return min([self._ahead, *(window.bound for window in self._windows)])
 
     def answers(self) -> Iterator[None]:
-        """See :meth:`ShortWindows.answers`.
+        """Yield whenever the incumbent has become better; in the end the bound is as good as it gets.
 
         All windows are looked at before any of them is gone through: a good incumbent saves most of that.
+
+        Raises:
+            LimitReachedError: the deadline came, or there are too many states; what is known by then is kept.
         """
         best = self._best
         with suppress(TooManyStatesError):
