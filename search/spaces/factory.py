@@ -81,13 +81,7 @@ def window_space(
 
 
 def free_space(
-    context: SearchContext,
-    horizon: int | None,
-    most_cost: int | None,
-    limit: int,
-    *,
-    idle: bool,
-    greed: int = 1,
+    context: SearchContext, horizon: int | None, most_cost: int | None, limit: int, *, idle: bool
 ) -> Unrestricted:
     """The space of plans without a window.
 
@@ -96,7 +90,6 @@ def free_space(
         most_cost: largest scaled cost of an acceptable plan, or None.
         limit: key that a plan has to beat.
         idle: robots do nothing.
-        greed: what the bound counts for in the order of nodes.
     """
     # What is announced may make a cheap node look dearer than one that exceeds max_cost in the end.
     announces = context.weights.announces
@@ -110,7 +103,6 @@ def free_space(
         successors=context.successors(idle=idle),
         bounds=free_bounds(context, horizon, limit, idle=idle),
         labels=ParetoFront(compared),
-        greed=greed,
     )
 
 

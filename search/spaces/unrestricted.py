@@ -27,8 +27,6 @@ class Unrestricted:
         successors: what agents can do in an epoch.
         bounds: lower bounds on what still has to be paid.
         labels: which nodes make others superfluous.
-        greed: what the bound counts for in the order of nodes; with more than 1 a plan is found sooner, and
-            its optimality is not proved.
     """
 
     initial: int
@@ -39,7 +37,6 @@ class Unrestricted:
     successors: Successors
     bounds: Bounds
     labels: ParetoFront
-    greed: int = 1
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state."""
@@ -75,7 +72,7 @@ class Unrestricted:
             if self.labels.add(after, epoch, key):
                 child = Node(key, epoch, after, TOUCHED if touched else UNTOUCHED, 0, node, option.actions)
                 if not self._offer(child, best):
-                    yield key + self.greed * (bound - key), child
+                    yield bound, child
 
     @property
     def _in_turn(self) -> bool:

@@ -126,12 +126,6 @@ def joint_optimum_is_open(call: Call) -> bool:
     return team is not None and team.planner.is_open
 
 
-def joint_plans_on_the_way(call: Call) -> bool:
-    """The same, where goals are shared, and an answer on the way may be all that there will be."""
-    limited = call.context.deadline.left() is not None
-    return limited and is_planned(call) and goals_are_shared(call) and joint_plans_decide(call)
-
-
 # -- windows
 
 

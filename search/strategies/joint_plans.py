@@ -4,11 +4,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Final
 
-from search.engine.best_first import Incumbent, Node, Progress, best_first
-from search.engine.paths import path_steps
+from search.engine.best_first import Incumbent, Node
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
-from search.spaces.factory import free_space
 from search.spaces.from_composite import Suggestions
 from search.strategies.call import Allowance, Call
 from serendipity.model.errors import LimitReachedError
@@ -95,28 +93,6 @@ def _take_all(call: Call, plans: "Iterable[Sets]") -> Iterator[None]:
 def _raise(call: Call, amount: int) -> None:
     """Note that no composite plan costs the team less than an amount."""
     call.raise_joint_bound(call.context.amount_key(amount))
-
-
-def greedily_within_horizon(call: Call, part: Allowance) -> Iterator[None]:
-    """Composite plans within ``T`` that a greedy search comes by."""
-    joint = _incumbent(call)
-    space = free_space(call.context, int(call.horizon), None, joint.key, idle=False, greed=part.limit)
-    for _ in best_first(space, joint, Progress(), part.deadline):
-        if _take(call, joint):
-            yield
-
-
-def _incumbent(call: Call) -> Incumbent:
-    """The incumbent that composite plans within ``T`` have to beat, one with a window or not."""
-    known = min(call.baseline.key, call.best.key)
-    return Incumbent(known) if call.options.windowed else call.best
-
-
-def _take(call: Call, joint: Incumbent) -> bool:
-    """Whether a composite plan has made the call's incumbent better."""
-    if joint is call.best or joint.node is None:
-        return joint is call.best
-    return _suggest(call, path_steps(joint.node))
 
 
 def _suggest(call: Call, steps: Sequence[Step]) -> bool:

@@ -18,7 +18,6 @@ from search.strategies import conditions as calls
 from search.strategies.call import Allowance, Call
 from search.strategies.human_plan import first_bound, first_plan, known_plan, optimal_plan, plan_alone, saving
 from search.strategies.joint_plans import (
-    greedily_within_horizon,
     joint_optimum,
     open_joint_optimum,
     team_optimum,
@@ -51,7 +50,7 @@ class Turn(NamedTuple):
         applies: the condition under which a call takes it.
         run: takes it; yields whenever the incumbent has become better.
         share: of the time that is left.
-        limit: of what it counts: nodes, states, or what its bound counts for; 0 where it counts nothing.
+        limit: of what it counts: nodes, or states; 0 where it counts nothing.
         stage: the part of the call that it belongs to.
     """
 
@@ -74,7 +73,6 @@ STRATEGIES: Final = {
     "warm-start": "The rest of the last answer, where it is a plan of this call.",
     "bound": "The private costs that are left to the human in every plan.",
     "joint-optimum": "The best plan of all agents together without a horizon, by the kernel's A*.",
-    "greedy": "Composite plans within T that are come by soon.",
     "robots-apart": "Windows of one epoch from what each robot can bring about by itself.",
     "timetable": "Windows of one epoch from all states beside the human's timetable.",
     "all-plans": "Best-first search over all windows and plans of the mode.",
@@ -97,7 +95,6 @@ TURNS: Final = (
     Turn("joint-optimum", "joint-bound", calls.joint_optimum_only_bounds, joint_optimum, 0.05, 100_000),
     Turn("robots-apart", "robots-apart", calls.robots_only_leave_behind, robots_apart, share=0.5),
     Turn("timetable", "timetable-last", calls.robots_only_leave_behind, beside_timetable, 0.9, 10_000_000),
-    Turn("greedy", "greedy", calls.joint_plans_on_the_way, greedily_within_horizon, 0.2, limit=5),
     Turn("joint-optimum", "joint-optimum-on", calls.joint_optimum_is_open, open_joint_optimum, share=0.9),
     Turn("all-plans", "exact-bounds", calls.is_for_team_beside_plan, while_bounds_are_exact),
     Turn("joint-optimum", "team", calls.is_for_kernel, team_optimum),
