@@ -1,11 +1,11 @@
 """Many homes on servers side by side, of which one is killed, and one is asked to end, in the middle.
 
-    python -m benchmarks.replicas [--replicas 4] [--homes 40] [--seconds 60] [--clients 8] [--nginx]
+    python -m benchmarks.replicas [--replicas 4] [--homes 40] [--seconds 60] [--clients 8]
 
 Homes have shipped examples, and the smaller breakfasts of ``home``, where those are there.
-Behind one address a balancer sends each home to the replica that its name leads to, or, where that does not
-answer, to the next one, under the same ``Idempotency-Key``; with ``--nginx`` nginx does, where it is
-installed, by the lines of ``docs/howto/serve.md``.  Each answer is compared with the library's.
+Behind one address nginx, which has to be there, sends each home to the replica that its name leads to, or,
+where that does not answer, to the next one, under the same ``Idempotency-Key``, by the lines of
+``docs/howto/serve.md``.  Each answer is compared with the library's.
 """
 
 import asyncio
@@ -15,21 +15,15 @@ import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import AsyncIterator, Callable, Iterator
-from contextlib import AbstractAsyncContextManager, asynccontextmanager
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager
 from itertools import cycle
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
-from zlib import crc32
 
 import httpx
 import typer
-import uvicorn
-from starlette.applications import Starlette
-from starlette.requests import Request
-from starlette.responses import Response
-from starlette.routing import Route
 
 import serendipity
 from benchmarks.problems import PROBLEMS
@@ -39,20 +33,15 @@ from serendipity.live.guards.connections import listening, url
 EXAMPLES: Final = ("room2", "room5", "flights", "parcels", "morning", "office")
 BREAKFASTS: Final = ("p4", "p6")
 HOW_TO: Final = Path(__file__).resolve().parents[1] / "docs" / "howto" / "serve.md"
-Balanced = Callable[[list[str]], AbstractAsyncContextManager[str]]
-"""From addresses of servers the one address before them."""
 
 DISCOUNTS: Final = ("0.5", "0.6", "0.7", "0.8", "0.9")
 
 
-def main(
-    replicas: int = 4, homes: int = 40, seconds: float = 60, clients: int = 8, nginx: bool = False
-) -> None:
+def main(replicas: int = 4, homes: int = 40, seconds: float = 60, clients: int = 8) -> None:
     """Measure and print."""
     started = [_started() for _ in range(replicas)]
-    balanced = _by_nginx if nginx else _by_ourselves
     try:
-        asyncio.run(_measured(started, balanced, homes, seconds, clients))
+        asyncio.run(_measured(started, homes, seconds, clients))
     finally:
         for process, _ in started:
             process.kill()
@@ -67,18 +56,14 @@ def _started() -> tuple[subprocess.Popen[str], str]:
 
 
 async def _measured(
-    replicas: list[tuple[subprocess.Popen[str], str]],
-    balanced: Balanced,
-    homes: int,
-    seconds: float,
-    clients: int,
+    replicas: list[tuple[subprocess.Popen[str], str]], homes: int, seconds: float, clients: int
 ) -> None:
     tasks = dict(_tasks())
     calls = list(zip(cycle(tasks), cycle(DISCOUNTS), range(homes), strict=False))
     expected = {
         (name, discount): serendipity.plan(tasks[name][1], discount=discount) for name, discount, _ in calls
     }
-    async with balanced([at for _, at in replicas]) as address:
+    async with _balanced([at for _, at in replicas]) as address:
         turns, found, times = iter(range(10**9)), Counter[str](), list[float]()
         end = time.monotonic() + seconds
 
@@ -127,19 +112,8 @@ def _judged(answer: httpx.Response, expected: serendipity.Result) -> str:
 
 
 @asynccontextmanager
-async def _by_ourselves(replicas: list[str]) -> AsyncIterator[str]:
-    listener = listening("127.0.0.1", 0)
-    async with httpx.AsyncClient(timeout=60) as behind:
-        server = uvicorn.Server(uvicorn.Config(_balancer(replicas, behind), log_level="critical"))
-        serving = asyncio.create_task(server.serve([listener]))
-        yield url(listener)
-        server.should_exit = True
-        await serving
-
-
-@asynccontextmanager
-async def _by_nginx(replicas: list[str]) -> AsyncIterator[str]:
-    """By the lines of the how-to, with these servers."""
+async def _balanced(replicas: list[str]) -> AsyncIterator[str]:
+    """The address of nginx, by the lines of the how-to, with these servers behind it."""
     with listening("127.0.0.1", 0) as listener:
         at = url(listener)
     lines = re.search(r"upstream serendipity.*?(?=```)", HOW_TO.read_text(), re.DOTALL)
@@ -156,30 +130,6 @@ async def _by_nginx(replicas: list[str]) -> AsyncIterator[str]:
         yield at
         process.terminate()
         process.wait(10)
-
-
-def _balancer(replicas: list[str], behind: httpx.AsyncClient) -> Starlette:
-    out: dict[str, float] = {}
-
-    async def passed_on(request: Request) -> Response:
-        body, home = await request.body(), request.headers["x-home"]
-        first = crc32(home.encode()) % len(replicas)
-        head = {name: request.headers[name] for name in ("content-type", "idempotency-key")}
-        for at in (replicas[first:] + replicas[:first]) * 2:
-            if out.get(at, 0) > time.monotonic():
-                continue
-            try:
-                answer = await behind.post(at + request.url.path, content=body, headers=head)
-            except httpx.TransportError:
-                out[at] = time.monotonic() + 5
-                continue
-            if answer.status_code not in (429, 503):
-                return Response(answer.content, answer.status_code, media_type="application/json")
-            if answer.status_code == 503:
-                out[at] = time.monotonic() + 5
-        return Response(status_code=503)
-
-    return Starlette(routes=[Route("/{path:path}", passed_on, methods=["POST"])])
 
 
 if __name__ == "__main__":

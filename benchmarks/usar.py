@@ -1,12 +1,11 @@
-"""Reading, searching, a whole process and its memory, on folders of the layout of the paper's 200.
+"""Reading, preparing, a whole process and its memory, on folders of the layout of the paper's 200.
 
     python -m benchmarks.usar [FOLDER] [--stride N]
 
 *Reading* is parsing, uniting and grounding with the files in the page cache, after a
 warm-up: ``warm`` keeps what was parsed of equal domain texts, ``cold`` forgets it before
 each task.  *Preparing* is what ``serendipity.load`` does besides: packed actions and what
-depends on them alone.  *Search* is the planning calls with six discounts, one after another, on a
-prepared task: every table that a call builds is inside its time, the next ones find it.
+depends on them alone.  The search itself is what ``serendipity bench`` measures.
 All of it is processor time but the whole process, which is by the deadline; milliseconds.
 There is no garbage collection while something is timed: a caller has one task in memory, not 200.
 """
@@ -17,26 +16,17 @@ import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
 from benchmarks.problems import PROBLEMS
-from search import prepare, solve
+from search import prepare
 from serendipity.evaluation.measuring.figures import children_memory, machine, peak_memory, timed
 from serendipity.evaluation.measuring.suites import folders
 from serendipity.evaluation.measuring.tables import as_markdown, spreads
-from serendipity.model import Options, Task
 from serendipity.model.telling import Grid, Line
 from serendipity.pddl import forget_parsed, read_folder
-
-DISCOUNTS = ("0", "0.1", "0.3", "0.5", "0.7", "0.9")
-MODES: dict[str, dict[str, Any]] = {
-    "serendipity": {},
-    "communication": {},
-    "composite": {},
-    "composite without horizon": {"mode": "composite", "horizon": "inf"},
-}
 
 
 def main(folder: Annotated[Path, typer.Argument()] = PROBLEMS / "usar200", stride: int = 1) -> None:
@@ -53,11 +43,6 @@ def main(folder: Annotated[Path, typer.Argument()] = PROBLEMS / "usar200", strid
     tasks = [read_folder(place) for place in places]
     gc.collect()
     rows.append(_row("preparing, once a task", [timed(lambda t=task: prepare(t))[1] for task in tasks]))
-    for mode, options in MODES.items():
-        found = [_searching(task, {"mode": mode, **options}) for task in tasks]
-        rows.append(_row(f"search, {mode}, six discounts in turn", [s for of in found for s in of]))
-        rows.append(_row("   the first of them", [of[0] for of in found]))
-        rows.append(_row("   the other five", [s for of in found for s in of[1:]]))
     told = f"Peak memory: {memory:.0f} MiB of a process, {peak_memory():.0f} MiB with all tasks loaded."
     header = ("milliseconds", "median", "95 %", "longest")
     print(as_markdown([Line(f"{len(places)} tasks; {machine()}"), Grid(header, rows), Line(told)]), end="")
@@ -81,12 +66,6 @@ def _processes(folder: Path) -> list[float]:
 def _cold(folder: Path) -> float:
     forget_parsed()
     return timed(lambda: read_folder(folder))[1]
-
-
-def _searching(task: Task, options: dict[str, Any]) -> list[float]:
-    prepared = prepare(task)
-    asked = [Options(discount=discount, **options) for discount in DISCOUNTS]
-    return [timed(lambda chosen=chosen: list(solve(prepared, chosen)))[1] for chosen in asked]
 
 
 if __name__ == "__main__":

@@ -1,23 +1,21 @@
 """Contenders of a benchmark, and their answers to its calls."""
 
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any, Final, TypeVar
+from typing import Any, Final
 
 from search import prepare, solve
 from serendipity.classical import fast_downward
 from serendipity.evaluation.measuring.figures import children_seconds, peak_memory, timed
 from serendipity.model.answers.answer import Answer
-from serendipity.model.errors import LIMITS, UsageError
+from serendipity.model.errors import LIMITS
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
 from serendipity.pddl.classical import ClassicalFiles
-
-T = TypeVar("T")
 
 MODES: Final[dict[str, dict[str, Any]]] = {
     "individual": {"mode": "individual"},
@@ -93,20 +91,6 @@ class Contender:
     absent: Callable[[], str | None] = lambda: None
     afresh: bool = False
     in_turn: bool = False
-
-
-def chosen(names: Iterable[str], known: Mapping[str, T], what: str, where: str = "") -> dict[str, T]:
-    """Values by their names, in the order in which they are named.
-
-    Raises:
-        UsageError: for nothing; it says ``what`` they are names of, and ``where``.
-    """
-    found = {}
-    for name in names:
-        if name not in known:
-            raise UsageError(f"{what}: expected some of {', '.join(known)}{where}, got '{name}'")
-        found[name] = known[name]
-    return found
 
 
 def searched(

@@ -16,10 +16,10 @@ from typing import Final
 
 from serendipity.classical import fast_downward
 from serendipity.evaluation.benchmark import contenders as every
-from serendipity.evaluation.benchmark.contenders import Contender, Outcome, chosen, outside, searched
+from serendipity.evaluation.benchmark.contenders import Contender, Outcome, outside, searched
 from serendipity.evaluation.benchmark.rows import Row
 from serendipity.evaluation.measuring.record import apart
-from serendipity.evaluation.measuring.suites import Problem, Roles, roles
+from serendipity.evaluation.measuring.suites import Problem, Roles, chosen, roles
 from serendipity.evaluation.measuring.tables import grouped, table
 from serendipity.model.errors import SerendipityError, told
 from serendipity.model.numbers import Number, exact

@@ -17,8 +17,9 @@ from serendipity.evaluation.benchmark.rows import Row
 from serendipity.evaluation.benchmark.side_by_side import MODES
 from serendipity.evaluation.measuring.figures import power_law
 from serendipity.evaluation.measuring.record import apart
+from serendipity.evaluation.measuring.suites import chosen
 from serendipity.evaluation.measuring.tables import grouped, table
-from serendipity.model.errors import SerendipityError, UsageError
+from serendipity.model.errors import SerendipityError
 from serendipity.model.telling import Grid
 from serendipity.pddl import read_folder
 from serendipity.scenarios.generate import generate_usar
@@ -102,11 +103,9 @@ def planned(axes: Iterable[str], seeds: int) -> list[tuple[str, Any, int]]:
         UsageError: there is no such axis.
     """
     tasks: list[tuple[str, Any, int]] = []
-    for name in axes:
-        if name not in AXES:
-            raise UsageError(f"--scaling: expected some of {', '.join(AXES)}, got '{name}'")
-        if AXES[name].values:
-            tasks += [(name, value, seed) for value in AXES[name].values for seed in range(seeds)]
+    for name, axis in chosen(axes, AXES, "--scaling").items():
+        if axis.values:
+            tasks += [(name, value, seed) for value in axis.values for seed in range(seeds)]
         else:
             tasks += [(name, None, seed) for seed in range(seeds * _MORE_SEEDS)]
     return tasks

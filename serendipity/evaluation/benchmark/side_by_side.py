@@ -13,9 +13,10 @@ from typing import Final
 from search import PreparedTask, prepare, solve
 from serendipity.classical import fast_downward
 from serendipity.evaluation.benchmark import contenders as every
-from serendipity.evaluation.benchmark.contenders import Contender, Outcome, chosen, outside
+from serendipity.evaluation.benchmark.contenders import Contender, Outcome, outside
 from serendipity.evaluation.benchmark.rows import Row, disagreements
 from serendipity.evaluation.measuring.figures import percentile, timed
+from serendipity.evaluation.measuring.suites import chosen
 from serendipity.evaluation.measuring.tables import grouped
 from serendipity.model.errors import DisagreementError
 from serendipity.model.options import Options

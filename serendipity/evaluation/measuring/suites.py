@@ -3,10 +3,10 @@
 A domain's folder has ``domain.pddl`` and problem files.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeVar
 
 from serendipity.facade.loading import load_pddl
 from serendipity.model.errors import InputError, UsageError
@@ -15,6 +15,8 @@ from serendipity.pddl.parsing.files import read_unit
 from serendipity.pddl.parsing.lifted import Unit
 from serendipity.pddl.work import Work
 from serendipity.pictures.map.names import natural
+
+T = TypeVar("T")
 
 _DOMAIN: Final = "domain.pddl"
 
@@ -67,15 +69,27 @@ def problems(folder: Path, domains: Sequence[str] = (), stride: int = 1) -> list
         UsageError: there is no such domain.
     """
     there = {path.name: path for path in _domains(folder)}
-    for name in domains:
-        if name not in there:
-            raise UsageError(f"--domains: expected some of {', '.join(there)}, got '{name}'")
+    asked = chosen(domains, there, "--domains") or there
     return [
         Problem(name, file.stem, path / _DOMAIN, file)
         for name, path in there.items()
-        if not domains or name in domains
+        if name in asked
         for file in _problem_files(path)[::stride]
     ]
+
+
+def chosen(names: Iterable[str], known: Mapping[str, T], what: str, where: str = "") -> dict[str, T]:
+    """Values by their names, in the order in which they are named.
+
+    Raises:
+        UsageError: for nothing; it says ``what`` they are names of, and ``where``.
+    """
+    found = {}
+    for name in names:
+        if name not in known:
+            raise UsageError(f"{what}: expected some of {', '.join(known)}{where}, got '{name}'")
+        found[name] = known[name]
+    return found
 
 
 def _domains(folder: Path) -> Iterator[Path]:

@@ -12,6 +12,7 @@ from typing import Any, Final
 
 from search.kernel.library import library
 from serendipity.evaluation.measuring.record import Lines
+from serendipity.evaluation.measuring.suites import chosen
 from serendipity.evaluation.reproduction.packed import Rows
 from serendipity.evaluation.reproduction.pool import on_dask
 from serendipity.evaluation.reproduction.rows import KINDS, Row
@@ -184,9 +185,7 @@ def _calls(modes: Iterable[str], discounts: Iterable[Number]) -> tuple[Call, ...
     wanted, levels = tuple(dict.fromkeys(several(modes, "modes"))), tuple(discounts)
     if not wanted or not levels:
         raise UsageError("modes, discounts: expected at least one of each")
-    for mode in wanted:
-        if mode not in MODES:
-            raise UsageError(f"modes: expected some of {', '.join(MODES)}, got '{mode}'")
+    chosen(wanted, dict.fromkeys(MODES), "modes")
     exact = dict.fromkeys(Options(discount=level).discount for level in levels)
     return tuple(Call(mode, discount) for mode in wanted for discount in exact)
 
