@@ -27,84 +27,48 @@ PARTS: Final = (
 
 @dataclass(frozen=True, slots=True)
 class VerifierLimits:
-    """The limits; a thread or a process of its own begins with these.
+    """The limits; a thread or a process of its own begins with these."""
 
-    Attributes:
-        methods: names of methods and of their parts: the only ones that are used, or, with a minus sign in
-            front, those that are not; see :func:`verify.calls.methods.chosen`.
-        coefficient: of a solver's program at most; see ``verify.solvers.mip``.
-        weight: sums of costs in machine words stay below it; those of operators together, so that sums stay
-            below what stands for no way.
-        automaton_states: facts are left out of an automaton rather than pass this size.
-        states_a_value: the same, for each value of the variable with the most values.
-        automaton_moves: of an automaton that is large enough: once a fact does not fit, no other is tried.
-        many_actions: actions from which on small automata go before the large ones.
-        many_moves: moves from which on it pays to bound them whatever the epoch.
-        alone_states: of the human alone, in a program.
-        own_states: of the human alone that are looked at.
-        many_own_states: the same, before they are packed.
-        projected_states: of what only the human changes.
-        compared_actions: that are compared with each other, all with all, by the exhaustive method.
-        misfits: ends of windows whose cheapest completion takes too many epochs, after which others are
-            not looked at.
-        packed_facts: of a task whose states are packed.
-        packed_actions: the same.
-        few_states: packed states after which better bounds are worth their time.
-        packed_states: of any search.
-        exact_states: the same, where costs are too large for machine words.
-        states_at_once: packed states whose actions are looked for at once.
-        robot_states: of one robot beside the human's timetable, after an epoch.
-        left_behind: what robots may leave behind together.
-        left_pairs: the same, before what is equal is put together.
-        policies: groups of scenarios that are not told apart, and of what may be done in them.
-        moments: states and minds of people who replan.
-        several_plans: the human's optimal plans for which one search beside all of them pays.
-        solved_here: coefficients of a program up to which HiGHS overruns its limit by some 20 ms at most.
-        solver_seconds: for which HiGHS may work in this process, and about what it takes to start one.
-        quick_seconds: for bounds over packed states, as long as few states may be enough.
-        quick_share: of the time left, for the same.
-        careful_seconds: for bounds that are to spare many states.
-        careful_share: of the time left, for the same.
-        aside_seconds: for what a certificate says beside its claims.
-        rules_seconds: for what the human would do in a policy's states, where rules alone are checked.
-        end_share: of a time limit, kept for the end: dropping what was made takes time, too.
-    """
-
+    # names of methods and of their parts: the only ones used, or, with a minus sign, those that are not
     methods: tuple[str, ...] = ()
-    coefficient: int = 10**7
+    coefficient: int = 10**7  # of a solver's program at most; see ``verify.solvers.mip``
+    # sums of costs in machine words stay below it, as what stands for no way has to be more than any
     weight: int = 2**60
-    automaton_states: int = 2_000
-    states_a_value: int = 24
+    automaton_states: int = 2_000  # facts are left out of an automaton rather than pass this size
+    states_a_value: int = 24  # the same, for each value of the variable with the most values
+    # of an automaton that is large enough: once a fact does not fit, no other is tried
     automaton_moves: int = 100_000
-    many_actions: int = 5_000
-    many_moves: int = 4_000
-    alone_states: int = 50_000
-    own_states: int = 200_000
-    many_own_states: int = 1_000
-    projected_states: int = 20_000
-    compared_actions: int = 3_000
+    many_actions: int = 5_000  # actions from which on small automata go before the large ones
+    many_moves: int = 4_000  # moves from which on it pays to bound them whatever the epoch
+    alone_states: int = 50_000  # of the human alone, in a program
+    own_states: int = 200_000  # of the human alone that are looked at
+    many_own_states: int = 1_000  # the same, before they are packed
+    projected_states: int = 20_000  # of what only the human changes
+    compared_actions: int = 3_000  # that are compared with each other, all with all, by the exhaustive method
+    # ends of windows whose cheapest completion takes too many epochs, after which others are not looked at
     misfits: int = 500
-    packed_facts: int = 1_500
-    packed_actions: int = 30_000
-    few_states: int = 20_000
-    packed_states: int = 50_000_000
-    exact_states: int = 500_000
-    states_at_once: int = 8_192
-    robot_states: int = 400_000
-    left_behind: int = 1_000_000
-    left_pairs: int = 30_000_000
-    policies: int = 300_000
-    moments: int = 200_000
-    several_plans: int = 3
+    packed_facts: int = 1_500  # of a task whose states are packed
+    packed_actions: int = 30_000  # the same
+    few_states: int = 20_000  # packed states after which better bounds are worth their time
+    packed_states: int = 50_000_000  # of any search
+    exact_states: int = 500_000  # the same, where costs are too large for machine words
+    states_at_once: int = 8_192  # packed states whose actions are looked for at once
+    robot_states: int = 400_000  # of one robot beside the human's timetable, after an epoch
+    left_behind: int = 1_000_000  # what robots may leave behind together
+    left_pairs: int = 30_000_000  # the same, before what is equal is put together
+    policies: int = 300_000  # groups of scenarios that are not told apart, and of what may be done in them
+    moments: int = 200_000  # states and minds of people who replan
+    several_plans: int = 3  # the human's optimal plans for which one search beside all of them pays
+    # coefficients of a program up to which HiGHS overruns its limit by some 20 ms at most
     solved_here: int = 15_000
-    solver_seconds: float = 0.25
-    quick_seconds: float = 0.5
-    quick_share: float = 0.1
-    careful_seconds: float = 5.0
-    careful_share: float = 0.25
-    aside_seconds: float = 2.0
-    rules_seconds: float = 1.0
-    end_share: float = 0.05
+    solver_seconds: float = 0.25  # for which HiGHS may work in this process: as long as one takes to start
+    quick_seconds: float = 0.5  # for bounds over packed states, as long as few states may be enough
+    quick_share: float = 0.1  # of the time left, for the same
+    careful_seconds: float = 5.0  # for bounds that are to spare many states
+    careful_share: float = 0.25  # of the time left, for the same
+    aside_seconds: float = 2.0  # for what a certificate says beside its claims
+    rules_seconds: float = 1.0  # for what the human would do in a policy's states, in a check by rules
+    end_share: float = 0.05  # of a time limit, kept for the end: dropping what was made takes time, too
 
 
 _CURRENT: ContextVar[VerifierLimits] = ContextVar("limits", default=VerifierLimits())  # noqa: B039 - never changed

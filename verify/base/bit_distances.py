@@ -1,10 +1,10 @@
 """Exact distances in a small transition system over sets of facts."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 from serendipity.model import Deadline
 from verify.base.fact_bits import BitCondition, BitOperator, BitOperators
-from verify.base.shortest_paths import PathSearch, dijkstra
+from verify.base.shortest_paths import dijkstra
 from verify.base.undecided import UndecidedError
 
 
@@ -14,20 +14,32 @@ class BitDistances:
     Args:
         goal: where the distance is 0.
         most: states looked at before a question is given up.
+        kept: the facts that are looked at; without the others it is never farther.
     """
 
     def __init__(
-        self, operators: Iterable[BitOperator], goal: BitCondition, most: int, deadline: Deadline
+        self,
+        operators: Iterable[BitOperator],
+        goal: BitCondition,
+        most: int,
+        deadline: Deadline,
+        kept: int = -1,
     ) -> None:
-        self._moves = BitOperators(operators, deadline)
-        self._goal = goal
-        self._most = most
+        moves: dict[tuple[int, int, int, int], int] = {}
+        for pre, neg, add, delete, weight, _ in deadline.each(operators):
+            if (add | delete) & kept:
+                move = pre & kept, neg & kept, add & kept, delete & kept
+                moves[move] = min(weight, moves.get(move, weight))
+        self._moves = BitOperators((BitOperator(*move, weight) for move, weight in moves.items()), deadline)
+        self._goal = BitCondition(goal.pre & kept, goal.neg & kept)
+        self._most, self._kept = most, kept
         self._deadline = deadline
         self._known: dict[int, int | None] = {}
         self._too_many = False
 
     def __call__(self, state: int) -> int | None:
         """The least weight; None if the goal can't be reached."""
+        state &= self._kept
         if state not in self._known:
             self._explore(state)
         return self._known[state]
@@ -40,6 +52,11 @@ class BitDistances:
             except UndecidedError:
                 self._too_many, self._known = True, {}
         return False, None
+
+    def bound(self, state: int) -> int | None:
+        """The same, or 0 where it can't be said."""
+        known, least = self.tabled(state)
+        return least if known else 0
 
     def _explore(self, start: int) -> None:
         before: dict[int, list[tuple[int, int]]] = {start: []}
@@ -63,27 +80,3 @@ class BitDistances:
         found = dijkstra(ends, before.__getitem__, self._deadline)
         for state in self._deadline.each(before):
             self._known[state] = found.get(state)
-
-
-def reaches_below(
-    moves: BitOperators,
-    goal: BitCondition,
-    start: int,
-    limit: int,
-    least: Callable[[int], int],
-    most: int,
-    deadline: Deadline,
-) -> bool | None:
-    """Whether the goal can be reached from ``start`` for less than ``limit``; None if that takes too long.
-
-    Args:
-        limit: what must be undercut.
-        least: a consistent lower bound on what a state still takes.
-        most: states looked at before giving up.
-    """
-    for looked_at, (state, _) in enumerate(PathSearch(start, moves, least, deadline, limit)):
-        if goal.holds(state):
-            return True
-        if looked_at >= most:
-            return None
-    return False

@@ -3,11 +3,12 @@
 All this is about tasks in single epochs (:mod:`serendipity.model.task.unit_steps`).
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
 
-from serendipity.model import HumanPlan, Step, Task
+from serendipity.model import GroundAction, HumanPlan, Step, Task
 from serendipity.model.task.unit_steps import RESTING, WAITING
-from verify.base.execution import State, by_epoch, executed, idling, is_calm, met
+from verify.base.execution import State, applicable, by_epoch, executed, idling, is_calm, met
 
 
 def onward(task: Task, state: State, chosen: Iterable[int], *, strict: bool) -> State | None:
@@ -70,3 +71,66 @@ def filled(task: Task, steps: Iterable[Step], last: int, *, strict: bool) -> tup
         found += [Step(epoch, i) for i in chosen]
         state = executed(state, [task.actions[i] for i in chosen], strict=strict)
     return (*found, *(Step(epoch, i) for epoch in sorted(sets) for i in sets[epoch]))
+
+
+class Moments:
+    """Epochs in which nobody begins anything: those in which nothing but time passes are taken at once."""
+
+    def __init__(self, task: Task, *, strict: bool) -> None:
+        self._task, self._strict = task, strict
+
+    def next(self, state: State, most: int = 1 << 60) -> tuple[int, State | None]:
+        """Some epochs in which nobody begins anything, and the state after them; None: the first can't be."""
+        due = frozenset(state & self._task.due_for.keys())
+        epochs = min([most, *(self._runs[fact][1] for fact in due)])
+        if not epochs:
+            return 1, onward(self._task, state, (), strict=self._strict)
+        possible = all(applicable(one, state) for one in self._actions(due))
+        return epochs, state - due | self._later(due, epochs) if possible else None
+
+    def after(self, state: State | None, epochs: int) -> State | None:
+        """The state after some epochs in which nobody begins anything; None: one of them is impossible."""
+        while epochs and state is not None:
+            passed, state = self.next(state, epochs)
+            epochs -= passed
+        return state
+
+    def ahead(self, due: State) -> Iterator[tuple[int, State]]:
+        """Epochs from now in which more happens than that time passes, each with the facts at stake then.
+
+        They are those whatever else is done, as long as all that is due can be.
+        """
+        epoch = 0
+        while due:
+            passed = min(self._runs[fact][1] for fact in due)
+            now = self._actions(due := self._later(due, passed))
+            due = frozenset(f for one in now for f in one.add if f in self._task.due_for)
+            changed = (fact for one in now for fact in (*one.add, *one.delete))
+            asked = (fact for one in (*now, *self._actions(due)) for fact in (*one.pre, *one.neg))
+            yield epoch + passed, frozenset((*changed, *asked))
+            epoch += passed + 1
+
+    def _actions(self, due: State) -> list[GroundAction]:
+        every = (i for fact in due for variants in self._task.due_for[fact] for i in variants)
+        return [self._task.actions[i] for i in every]
+
+    def _later(self, due: State, epochs: int) -> State:
+        return frozenset(run[place - epochs] for run, place in map(self._runs.__getitem__, due))
+
+    @cached_property
+    def _runs(self) -> dict[int, tuple[list[int], int]]:
+        """By fact that says what is due, it and what it becomes while time passes, last first; and its place.
+
+        As long as only that changes, the same is asked for.
+        """
+        runs, asks = dict[int, tuple[list[int], int]](), dict[int, object]()
+        for fact, groups in reversed([*self._task.due_for.items()]):
+            one, runs[fact] = self._task.actions[groups[0][0]], ([fact], 0)
+            single = len(groups) == len(groups[0]) == len(one.add) == 1 and one.delete == (fact,)
+            if single and not one.cost and (following := one.add[0]) in runs:
+                run, mine = runs[following][0], (set(one.pre) - {fact}, set(one.neg))
+                if run[-1] != following or asks.get(following, mine) != mine:
+                    run = [following]
+                run.append(fact)
+                runs[fact], asks[fact] = (run, len(run) - 1), mine
+        return runs

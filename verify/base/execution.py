@@ -86,7 +86,7 @@ def due(task: Task, state: State) -> list[tuple[int, ...]]:
 
 def is_calm(task: Task, state: State) -> bool:
     """Whether nothing happens from a state on unless somebody does it."""
-    return state.isdisjoint(task.due_for)
+    return task.due_for.keys().isdisjoint(state)
 
 
 def idling(task: Task) -> frozenset[int]:

@@ -4,23 +4,24 @@ Small questions are answered state by state; what turns out to be a long one by 
 at once, with patterns of the human's own problem as bounds (``verify.packed``).
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from serendipity.model import Deadline, HumanPlan, Task
+from verify.base.bit_distances import BitDistances
 from verify.base.execution import after, applicable, awake, states_of_pi_h
 from verify.base.operators import OwnActions
-from verify.base.projection import ProjectedCosts
 from verify.base.shortest_paths import PathSearch
-from verify.base.undecided import TooManyStatesError, during
+from verify.base.undecided import SEARCHING, TooManyStatesError, during
 from verify.limits import limits
 
 if TYPE_CHECKING:
     from verify.packed.problem import PackedProblem
 
 State = frozenset[int]
+Graph = tuple[Any, Callable[[Any], Iterable[tuple[Any, int, Any]]], Callable[[Any], bool]]
 
 
 class IndividualOptimum:
@@ -29,10 +30,10 @@ class IndividualOptimum:
     def __init__(self, task: Task, deadline: Deadline | None = None) -> None:
         self._task = task
         self.deadline = deadline or Deadline()
-        self._known: dict[int, int | None] = {}
-        self._above: dict[int, int] = {}
+        self._known: dict[int | State, int | None] = {}
+        self._above: dict[int | State, int] = {}
         """States from which every plan weighs more than this."""
-        self._enough: dict[int, int] = {}
+        self._enough: dict[int | State, int] = {}
         """What a plan from a state is known to weigh: only lighter ones are looked for."""
         self._long = False
         self.head_start_cost = Fraction(0)
@@ -44,8 +45,13 @@ class IndividualOptimum:
         return OwnActions(self._task, self.deadline)
 
     @cached_property
-    def _projection(self) -> ProjectedCosts:
-        return ProjectedCosts(self._task, self.own, self.deadline)
+    def _projection(self) -> BitDistances:
+        """Of the human's own problem without what robots may have changed: what is left at least."""
+        return self._without_others(self.own.private)
+
+    def _without_others(self, facts: frozenset[int]) -> BitDistances:
+        own, most = self.own, limits().projected_states
+        return BitDistances(own.operators, own.goal, most, self.deadline, own.bits.of(facts))
 
     @property
     def start(self) -> State | None:
@@ -78,6 +84,10 @@ class IndividualOptimum:
             if applicable(action, state):
                 yield i, after(state, action)
 
+    def graph(self) -> Graph:
+        """Where plans begin, what follows at what weight, and which ends one."""
+        return self.own.bits.of(self._task.init), self.own.moves, self.own.goal.holds
+
     def optimum(self, state: State) -> tuple[Fraction, int] | None:
         """Least (cost, number of actions) from ``state``; None if the human can't reach ``G_H`` alone."""
         weight = self.weight(state)
@@ -87,13 +97,16 @@ class IndividualOptimum:
         """What :meth:`optimum` weighs (see :class:`OwnActions`), with the same errors."""
         if self._task.goal.holds(state):
             return 0
-        start = self.own.bits.of(state)
-        if start not in self._known:
-            enough = self._enough.get(start)
-            with during("searching for what the human can do alone"):
-                weight = self._least(start, state, enough)
-            self._known[start] = enough if weight is None else weight
-        return self._known[start]
+        key = self._key(state)
+        if key not in self._known:
+            enough = self._enough.get(key)
+            weight = self._least(state, enough)
+            self._known[key] = enough if weight is None else weight
+        return self._known[key]
+
+    def _key(self, state: State) -> int | State:
+        """What a state is to the human."""
+        return self.own.bits.of(state)
 
     def suppose(self, plan: HumanPlan) -> None:
         """Take a plan for optimal until a cheaper one is found: all that is dearer is not looked at.
@@ -101,21 +114,20 @@ class IndividualOptimum:
         Args:
             plan: by ids of own actions; it can be executed from the initial state on, and reaches the goal.
         """
-        self._enough[self.own.bits.of(self._task.init)] = sum(self.own.weight(i) for i in plan)
+        self._enough[self._key(self._task.init)] = sum(self.own.weight(i) for i in plan)
 
     def within(self, state: State, most: int) -> bool:
         """Whether the optimum from a state weighs no more than this; often easier to say."""
         if most < 0 or self._task.goal.holds(state):
             return most >= 0
-        start = self.own.bits.of(state)
-        if start not in self._known and self._above.get(start, -1) < most:
-            with during("searching for what the human can do alone"):
-                weight = self._least(start, state, most + 1)
+        key = self._key(state)
+        if key not in self._known and self._above.get(key, -1) < most:
+            weight = self._least(state, most + 1)
             if weight is None:
-                self._above[start] = most
+                self._above[key] = most
             else:
-                self._known[start] = weight
-        found = self._known.get(start)
+                self._known[key] = weight
+        found = self._known.get(key)
         return found is not None and found <= most
 
     def learn(self, plan: HumanPlan) -> None:
@@ -129,22 +141,20 @@ class IndividualOptimum:
         if self.weight(self._task.init) != rest:
             return
         for weight, state in zip((*weights, 0), states_of_pi_h(self._task, plan, self.deadline), strict=True):
-            self._known.setdefault(self.own.bits.of(state), rest)
+            self._known.setdefault(self._key(state), rest)
             rest -= weight
 
-    def _least(self, start: int, state: State, below: int | None) -> int | None:
+    @during(SEARCHING)
+    def _least(self, state: State, below: int | None) -> int | None:
         """The least weight of a plan from a state; None: there is none, or none below."""
-        if self._long:  # the projection has not helped before
-            packed = self._packed_least(state, below)
-            if packed is not None:
-                return packed if packed >= 0 else None
-        many, most = limits().many_own_states, limits().own_states
-        search = PathSearch(start, self.own.moves, self._projection.bound, self.deadline, below)
+        start, own = self.own.bits.of(state), self.own
+        search = PathSearch(start, own.moves, self._projection.bound, self.deadline, below)
+        many, most = 0 if self._long else limits().many_own_states, limits().own_states
         for expansions, (here, _) in enumerate(search):
-            if self.own.goal.holds(here):
+            if own.goal.holds(here):
                 return search.distance[here]
             if expansions == many:
-                if not self.own.may_reach_goal(start, self.deadline):
+                if not self._long and not own.may_reach_goal(start, self.deadline):
                     return None
                 packed = self._packed_least(state, below)
                 if packed is not None:
@@ -182,7 +192,7 @@ class IndividualOptimum:
             space = StateSpace(len(task.facts), task.init, task.actions, self.deadline)
             operators = [
                 PackedOperator(a.pre, a.neg, a.add, a.delete, weight)
-                for a, weight in (own.whole(i) for i in self.deadline.each(own.ids))
+                for a, weight, _ in (own.whole(i) for i in self.deadline.each(own.ids))
             ]
             goal = task.goal.positive, task.goal.negative
             return PackedProblem(space, own.facts, operators, goal, self.deadline)

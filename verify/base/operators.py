@@ -10,6 +10,7 @@ from typing import Final
 from serendipity.model import Deadline, GroundAction, Task
 from verify.base.execution import unchosen
 from verify.base.fact_bits import BitCondition, BitOperator, BitOperators, FactBits
+from verify.limits import limits
 
 _LONGEST: Final = 10**9
 """More actions than any plan has that is ever compared."""
@@ -70,11 +71,29 @@ class OwnActions:
         self._least_cost = longest * (self._epoch or 1)
         self._unit = lcm(*denominators) * self._least_cost
         self._weights: dict[tuple[int, int], int] = {}
+        self._wholes: dict[int, tuple[GroundAction, int, int]] = {}
+
+    @property
+    def private(self) -> frozenset[int]:
+        """Facts of variables that robots alone never change (position, what is held), but not too many."""
+        task, shared = self._task, set[int]()
+        for action in self._deadline.each(task.actions):
+            if task.human not in action.participants:
+                shared.update(action.add, action.delete)
+        kept: set[int] = set()
+        size = 1
+        for variable in sorted(task.variables, key=lambda v: -len(v.facts)):
+            facts = self.facts.intersection(variable.facts)
+            values = len(facts) + 1
+            if facts and shared.isdisjoint(variable.facts) and size * values <= limits().projected_states:
+                kept |= facts
+                size *= values
+        return frozenset(kept)
 
     @cached_property
     def operators(self) -> tuple[BitOperator, ...]:
         """The actions, each with all that is due after it, labelled by their ids."""
-        return tuple(self.bits.operator(*self.whole(i), i) for i in self._deadline.each(self.ids))
+        return tuple(self.bits.operator(*self.whole(i)[:2], i) for i in self._deadline.each(self.ids))
 
     @cached_property
     def moves(self) -> BitOperators:
@@ -89,25 +108,30 @@ class OwnActions:
             self._weights[ratio] = int(cost * self._unit) + self._epoch
         return self._weights[ratio] + (action not in self._unchosen)
 
-    def whole(self, action: int) -> tuple[GroundAction, int]:
-        """An action with all that is due after it, as one, and what that weighs; the human is alone.
+    def whole(self, action: int) -> tuple[GroundAction, int, int]:
+        """An action with all that is due after it, as one; what that weighs, and its epochs.
 
         Nobody chooses anything while the human is at something (semantics 10.1), so the states between matter
         to nobody; one in which they are at it already is left by what is still due.
         """
-        ground, weight = self._task.actions[action], self.weight(action)
-        following = self._following(ground)
-        while following is not None:
-            ground = one_after_the_other(ground, self._task.actions[following])
-            weight += self.weight(following)
-            following = self._following(ground)
-        return ground, weight
+        chain: list[int] = []
+        part: int | None = action
+        while part is not None and part not in self._wholes:
+            chain.append(part)
+            part = self._following(part)
+        for one in reversed(chain):
+            ground, weight, epochs = self._task.actions[one], self.weight(one), 1
+            if part is not None:
+                rest = self._wholes[part]
+                ground, weight, epochs = one_after_the_other(ground, rest[0]), weight + rest[1], 1 + rest[2]
+            part, self._wholes[one] = one, (ground, weight, epochs)
+        return self._wholes[action]
 
-    def _following(self, ground: GroundAction) -> int | None:
+    def _following(self, action: int) -> int | None:
         """What is due for the human once an action is done."""
-        due = self._task.due_for
-        ids = (i for fact in ground.add if fact in due for each in due[fact] for i in each)
-        return next((i for i in ids if self._task.actions[i].participants == (self._task.human,)), None)
+        due, actions = self._task.due_for, self._task.actions
+        ids = (i for fact in actions[action].add for each in due.get(fact, ()) for i in each)
+        return next((i for i in ids if actions[i].participants == (self._task.human,)), None)
 
     def split(self, weight: int) -> tuple[Fraction, int]:
         """Cost and length of a plan of a weight."""

@@ -12,9 +12,6 @@ from verify.base.due import onward, waited
 from verify.base.execution import State, idling
 from verify.base.individual import IndividualOptimum
 
-Worth = tuple[Fraction, int]
-"""Cost and number of actions."""
-
 
 class OptimalPlans:
     """The human's optimal plans, from what the rule checker knows of their cost.
@@ -28,13 +25,9 @@ class OptimalPlans:
         self.alone = IndividualOptimum(task) if alone is None else alone
         self.deadline = self.alone.deadline
 
-    def worth(self, state: State) -> Worth | None:
-        """Least cost, then fewest actions, or None if the goal is out of reach."""
-        return self.alone.optimum(state)
-
     def cost(self, state: State) -> Fraction | None:
         """``h``: the least cost; None for infinity."""
-        worth = self.worth(state)
+        worth = self.alone.optimum(state)
         return None if worth is None else worth[0]
 
     def cost_of(self, plan: Sequence[int], state: State, *, strict: bool = False) -> Fraction | None:
@@ -54,8 +47,19 @@ class OptimalPlans:
     def plans(self, state: State | None = None) -> Iterator[HumanPlan]:
         """All optimal plans from a state, or the initial one; the canonical one first."""
         start = self._task.init if state is None else state
-        if self.worth(start) is not None:
-            yield from self._continue((), start)
+        if self.alone.weight(start) == 0:
+            yield ()
+        plan, ways = list[int](), [self.steps(start)]
+        while ways:
+            i, following = next(ways[-1], (None, start))
+            if i is None:
+                ways.pop()
+                del plan[-1:]
+                continue
+            plan.append(i)
+            ways.append(self.steps(following))
+            if self.alone.weight(following) == 0:
+                yield tuple(plan)
 
     def steps(self, state: State) -> Iterator[tuple[int, State]]:
         """Actions that start an optimal plan from ``state``, in string order, with their results.
@@ -77,7 +81,7 @@ class OptimalPlans:
         """
         names, waiting = [action.name for action in self._task.actions], idling(self._task)
         seen, found = set[tuple[tuple[str, ...], State]](), set[tuple[str, ...]]()
-        left: list[tuple[HumanPlan, State]] = [] if self.worth(state) is None else [((), state)]
+        left: list[tuple[HumanPlan, State]] = [] if self.alone.optimum(state) is None else [((), state)]
         while left:
             plan, here = left.pop()
             acted = tuple(names[i] for i in plan if i not in waiting)
@@ -102,7 +106,7 @@ class OptimalPlans:
                 canonical one.
             strict: interference as in semantics 2, which says what disturbs a bystander.
         """
-        worth, task, seen = self.worth(state), self._task, set[State]()
+        worth, task, seen = self.alone.optimum(state), self._task, set[State]()
         queue = [] if worth is None or worth[1] > left else [(0, HumanPlan(), state)]
         while queue:
             added, plan, here = heappop(queue)
@@ -116,10 +120,3 @@ class OptimalPlans:
             for i, following in self.steps(here):
                 heappush(queue, (added + (talk[i] if talk else 0), (*plan, i), following))
         return None
-
-    def _continue(self, plan: HumanPlan, state: State) -> Iterator[HumanPlan]:
-        worth = self.worth(state)
-        if worth is not None and worth[1] == 0:
-            yield plan
-        for i, successor in self.steps(state):
-            yield from self._continue((*plan, i), successor)

@@ -35,7 +35,7 @@ class OptimalPlanGraph:
     def __init__(self, task: Task, plans: OptimalPlans, most: int) -> None:
         self._task = task
         self.moves: list[list[list[Move]]] = []
-        worth = plans.worth(task.init)
+        worth = plans.alone.optimum(task.init)
         self.count = 0
         if worth is None:
             return

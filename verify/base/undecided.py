@@ -27,6 +27,8 @@ class TooManyStatesError(UndecidedError):
         super().__init__("the human's own problem is too large")
 
 
+SEARCHING = "searching for what the human can do alone"
+
 UNDECIDED = (UndecidedError, LimitReachedError, MemoryError)
 """What to catch around an examination; :func:`why` puts it into words."""
 

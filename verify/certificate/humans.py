@@ -24,22 +24,15 @@ class HumanExaminer(Examiner):
 
     def optimal(self) -> Verdict:
         """Nothing that happens with the human costs less."""
-        cost = self._score()[1]
-        found = _cheaper(self.call, cost)
-        if found is not None:
-            return "refuted", wording.BETTER, found
-        return "proved", self._played(cost), None
+        return self._none_for_less(self._score()[1], wording.BETTER)
 
     def no_opportunity(self) -> Verdict:
         """Nothing that happens with the human costs less than without robots."""
         cost = self._score()[1] if self.call.robots_goal else self._alone
         assert cost is not None, "without goals of the robots, leaving him alone is an answer"
-        found = _cheaper(self.call, cost)
-        if found is not None:
-            return "refuted", wording.BETTER if self.call.robots_goal else wording.OPPORTUNITY, found
-        if self.call.robots_goal and (self._alone is None or cost < self._alone):
-            return "refuted", wording.LEFT_ALONE_IS_DEARER, None
-        return "proved", self._played(cost), None
+        found = self._none_for_less(cost, wording.BETTER if self.call.robots_goal else wording.OPPORTUNITY)
+        dearer = self.call.robots_goal and (self._alone is None or cost < self._alone)
+        return ("refuted", wording.LEFT_ALONE_IS_DEARER, None) if dearer and found[2] is None else found
 
     def opportunity_is_cheaper(self) -> Verdict | None:
         """Refutes an opportunity that costs no less than doing without robots."""
@@ -59,10 +52,7 @@ class HumanExaminer(Examiner):
         least = self._units_at_least(bound)
         if not self.call.robots_goal and self._alone is not None and self._alone < least:
             return "refuted", wording.WITHOUT_ROBOTS.format(self._amount(self._alone)), None
-        found = _cheaper(self.call, least)
-        if found is not None:
-            return "refuted", wording.BELOW_BOUND, found
-        return "proved", self._played(least), None
+        return self._none_for_less(least, wording.BELOW_BOUND)
 
     def infeasible(self) -> Verdict:
         """The human has no plan alone, or nothing that happens reaches the robots' goals."""
@@ -77,17 +67,17 @@ class HumanExaminer(Examiner):
     @cached_property
     def _alone(self) -> int | None:
         """What it costs without help: ``pi_H``, or what the human does alone if that is less."""
-        costs = [cost for cost in (self.call.baseline, self._idle) if cost is not None]
+        costs = [cost for cost in (self.call.baseline, _idle_cost(self.call)) if cost is not None]
         return min(costs, default=None)
 
-    @cached_property
-    def _idle(self) -> int | None:
-        return _idle_cost(self.call)
-
-    def _played(self, cost: int) -> str:
+    def _none_for_less(self, cost: int, refuted: str) -> Verdict:
+        found = _cheaper(self.call, cost)
+        if found is not None:
+            return "refuted", refuted, found
         made = self.call.effort.attempts
         played = bool(made) and made[-1].method == "exhaustive"
-        return (wording.ALL_CHEAPER_PLAYED if played else wording.WHATEVER_HAPPENS).format(self._amount(cost))
+        words = wording.ALL_CHEAPER_PLAYED if played else wording.WHATEVER_HAPPENS
+        return "proved", words.format(self._amount(cost)), None
 
 
 def human_cost(call: ExaminedCall) -> Fraction | None:

@@ -238,7 +238,7 @@ class HelpBesidePlans:
         found = np.full(len(states), FAR)
         own, of = np.unique(states & self._mask, axis=0, return_inverse=True)
         for number, row in enumerate(self._deadline.each(list(own))):
-            worth = self._plans.worth(self._layout.facts_of(row) | self._constant)
+            worth = self._plans.alone.optimum(self._layout.facts_of(row) | self._constant)
             paid = None if worth is None or worth[1] > left else self._question.prices.units(worth[0])
             if paid is not None and paid < self._base:  # else it is beyond the limit
                 found[of.ravel() == number] = paid * self._unit

@@ -6,9 +6,10 @@ from math import lcm
 from typing import NamedTuple
 
 from serendipity.model import Deadline, GroundAction, Options, StateDelta, Task
-from verify.base.bit_distances import BitDistances, reaches_below
+from verify.base.bit_distances import BitDistances
 from verify.base.fact_bits import BitCondition, BitOperator, BitOperators, FactBits
 from verify.base.relevance import closure
+from verify.base.shortest_paths import PathSearch
 
 Costs = tuple[Fraction, Fraction]
 NOTHING: Costs = (Fraction(0), Fraction(0))
@@ -84,9 +85,7 @@ class Board:
         for edge in deadline.each(self._human):
             his_changes |= edge.add | edge.delete
         self.replies_are_dear = bool(changed & mentioned & ~his_changes)
-        private = [_within(edge, self._his_only) for edge in deadline.each(together)]
-        goal = BitCondition(self.goal.pre & self._his_only, self.goal.neg & self._his_only)
-        self._private = BitDistances(private, goal, _MOST_PRIVATE, deadline)
+        self._private = BitDistances(together, self.goal, _MOST_PRIVATE, deadline, self._his_only)
         self._ids = {name: i for i, name in enumerate(task.facts)}
 
     def _of(self, agent: int) -> list[int]:
@@ -106,9 +105,8 @@ class Board:
         known, key = self._together.tabled(state)
         if known:
             return key is None or value <= self._costs(key)
-        limit = self._weight(value)
-        below = reaches_below(self._joint_moves, self.goal, state, limit, self._least, most, self.deadline)
-        return below is False
+        cheaper = PathSearch(state, self._joint_moves, self._least, self.deadline, self._weight(value))
+        return not any(self.goal.holds(here) or n >= most for n, (here, _) in enumerate(cheaper))
 
     def bound(self, state: int) -> Costs:
         """What both together pay at least from a state; a weaker bound where that takes too long."""
@@ -127,7 +125,7 @@ class Board:
 
     def _by_himself(self, state: int) -> int:
         """What the human pays at least if whatever the robot can change is as they want it."""
-        known, least = self._private.tabled(state & self._his_only)
+        known, least = self._private.tabled(state)
         if known and least is None:
             return int(self.far[0] * self._scale) * self._unit
         return least or 0
@@ -228,9 +226,3 @@ class Board:
         edge = self._facts.operator(action, int(action.cost * self._scale) * unit + length, i)
         edge = edge._replace(add=edge.add & self._relevant, delete=edge.delete & self._relevant)
         return edge if edge.add or edge.delete else None
-
-
-def _within(edge: BitOperator, facts: int) -> BitOperator:
-    """An edge as seen through some of the facts."""
-    pre, neg, add, delete = (mask & facts for mask in (edge.pre, edge.neg, edge.add, edge.delete))
-    return BitOperator(pre, neg, add, delete, edge.weight, edge.label)

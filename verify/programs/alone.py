@@ -1,13 +1,12 @@
 """The human alone, without a horizon, as a program: one unit of flow through the states that they reach."""
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Hashable, Sequence
 from fractions import Fraction
 from typing import Any, Final
 
 from serendipity.model import Options, Task
 from verify.base.beside_script import alone_of
 from verify.base.individual import IndividualOptimum
-from verify.base.operators import OwnActions
 from verify.base.subproblem import prices
 from verify.base.undecided import TooManyStatesError, UndecidedError, during
 from verify.limits import limits
@@ -44,21 +43,13 @@ def least_alone(task: Task, options: Options, effort: Effort) -> Fraction | None
     return None if units is None else Fraction(units, program.scale) + program.alone.paid_before
 
 
-_Graph = tuple[Any, Callable[[Any], bool], Callable[[Any], Iterable[tuple[int, Any]]]]
-
-
 class _Alone:
     """Columns are moves between states; a cycle adds cost, so the best flow is a path."""
 
     def __init__(self, task: Task, options: Options, effort: Effort) -> None:
-        self._task = task
         self._effort = effort
         self._deadline = effort.deadline
-        chosen = prices(task, options, (), self._deadline)
-        self.scale = chosen.scale
-        self._team = chosen.team
-        self._options = options
-        self._own: OwnActions | None = None
+        self.scale = prices(task, options, (), self._deadline).scale
         self.alone = alone_of(task, self._deadline, options)
         self._number: dict[Hashable, int] = {}
         self.model = Model(self._deadline)
@@ -70,11 +61,11 @@ class _Alone:
         rows: list[dict[int, int]] = [{} for _ in self._number]
         arrivals: dict[int, int] = {}
         ends = set(self._ends)
-        for source, target, action in moves:
+        for source, target, weight in moves:
             x = self.model.binary()
-            paid = self._paid(action)
+            paid = self.alone.own.split(weight)[0] * self.scale
             if paid:
-                self.model.objective[x] = paid
+                self.model.objective[x] = int(paid)
             rows[source][x] = 1
             if target in ends:
                 arrivals[x] = 1
@@ -89,8 +80,8 @@ class _Alone:
             self.model.add(arrivals, ">=", 1)
 
     def _moves(self) -> list[tuple[int, int, int]]:
-        """All moves from states that the human reaches, the goal's left out: source, target, action."""
-        start, is_end, onward = self._graph()
+        """All moves from states that the human reaches, the goal's left out: source, target, weight."""
+        start, onward, is_end = self.alone.graph()
         states: list[Any] = [] if start is None else [start]
         self._number[start] = 0
         self._ends: list[int] = []
@@ -100,32 +91,14 @@ class _Alone:
             if is_end(state):
                 self._ends.append(number)
                 continue
-            for action, after in onward(state):
+            for after, weight, _ in onward(state):
                 if after not in self._number:
                     if len(states) >= limits().alone_states:
                         raise TooManyStatesError
                     self._number[after] = len(states)
                     states.append(after)
-                moves.append((number, self._number[after], action))
+                moves.append((number, self._number[after], weight))
         return moves
-
-    def _paid(self, action: int) -> int:
-        """What a move costs: an action with all that is due after it, where it is taken as one."""
-        if self._own is None:
-            return self._team[action]
-        return int(self._own.split(self._own.whole(action)[1])[0] * self.scale)
-
-    def _graph(self) -> "_Graph":
-        """Where states begin, which end a plan, and what follows them: by bits, or as sets of facts."""
-        task = self._task
-        if task.of_bystanders:
-            return self.alone.start, task.goal.holds, self.alone.moves
-        own = self._own = OwnActions(task, self._deadline)
-
-        def onward(state: int) -> Iterator[tuple[int, int]]:
-            return ((operator.label, after) for after, _, operator in own.moves(state))
-
-        return own.bits.of(task.init), own.goal.holds, onward
 
     def solve(self) -> int | None:
         """The least cost in units, by the solver; None: there is no plan.

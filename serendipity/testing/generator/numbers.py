@@ -48,7 +48,7 @@ def oddly_priced(dice: Random, task: Task) -> Task:
     }
     actions = tuple(replace(action, cost=costs.get(action.name, action.cost)) for action in task.actions)
     priced = replace(task, actions=actions, known_variables=task.variables)
-    worth = OptimalPlans(priced).worth(priced.init)
+    worth = OptimalPlans(priced).alone.optimum(priced.init)
     return task if worth is not None and worth[1] > _LONGEST else priced
 
 

@@ -44,7 +44,7 @@ def _of_family(dice: Random, family: str) -> Task:
     while True:
         size, agents = dice.choice(SMALL[family])
         task = FAMILIES[family](dice, size, AGENTS[:agents])
-        worth = OptimalPlans(task).worth(task.init)
+        worth = OptimalPlans(task).alone.optimum(task.init)
         if worth is None or worth[1] <= _LONGEST:
             return task
 

@@ -56,7 +56,7 @@ def test_observations_become_a_counter() -> None:
     costs = {}
     for embed in (True, False):
         own = compiled(task, p, ["keep h"], Deadline(), embed=embed)
-        worth = OptimalPlans(own).worth(own.init)
+        worth = OptimalPlans(own).alone.optimum(own.init)
         costs[embed] = None if worth is None else worth[0]
     assert costs == {True: 10, False: 5}
 

@@ -3,14 +3,12 @@
 from typing import Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from serendipity.model import Deadline
+from verify.exhaustive.team import Bools
 from verify.packed.layout import Words
 from verify.packed.least_paid import LeastPaid
 from verify.packed.operators import Ints
-
-Bools = NDArray[np.bool_]
 
 _AT_ONCE: Final = 250_000
 """Rows that are told apart before the clock is looked at, again."""

@@ -17,7 +17,8 @@ from serendipity.model import GroundAction
 from verify.base.execution import conflicting
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Subproblem
-from verify.exhaustive.decoupled.rows import Bools, Collected, RowLayer
+from verify.exhaustive.decoupled.rows import Collected, RowLayer
+from verify.exhaustive.team import Bools
 from verify.limits import limits
 from verify.packed.layout import PackedLayout, Words
 from verify.packed.operators import OperatorTable, PackedOperator
