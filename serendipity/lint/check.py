@@ -1,7 +1,7 @@
 """The facade of the lint: a task, and the files it was read from, to a report."""
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from itertools import chain
 from os import PathLike
 
@@ -11,6 +11,8 @@ from serendipity.lint.script_rules import script_findings
 from serendipity.lint.task_rules import task_findings
 from serendipity.model import Deadline, GroundAction, Task
 from serendipity.model.arguments import DEADLINE, LIST, PAIR, TASK_IN_TIME, expect, expect_or_none
+from serendipity.model.errors import UsageError
+from serendipity.model.task.horizon import require_few_epochs
 from serendipity.pddl.parsing.files import read_unit
 from serendipity.pddl.work import Work
 
@@ -44,6 +46,7 @@ def check_task(task: Task, files: Files = (), *, deadline: Deadline | None = Non
     units = [read_unit(None, domain, problem, work) for domain, problem in pairs]
     found = chain(
         task_findings(task, limits),
+        _too_long(task),
         script_findings(task, limits) if task.script else (),
         file_findings(task, units) if units else (),
     )
@@ -60,6 +63,13 @@ def check_task(task: Task, files: Files = (), *, deadline: Deadline | None = Non
         findings=_sorted(found),
         time=_time(task) if task.needs_time or task.script.people else None,
     )
+
+
+def _too_long(task: Task) -> Iterator[Finding]:
+    try:
+        require_few_epochs(task)
+    except UsageError as error:
+        yield Finding("warning", "too-many-epochs", f"not planned for: {error}")
 
 
 def _time(task: Task) -> TaskTime:

@@ -87,6 +87,16 @@ def test_scripts(script: dict[str, object], rule: str, words: str) -> None:
     assert report.right == (rule != "bystander-impossible")
 
 
+def test_what_takes_too_long_to_be_planned_is_told() -> None:
+    """`plan` refused it, and `check-task` found nothing."""
+    for epochs, few in ((10_000, True), (10_001, False)):
+        long = built(goal="in", actions={"go h": f"-> in @ 1 [{epochs}]", "help r": "in ->"})
+        found = {finding.rule: finding.text for finding in serendipity.check_task(long).findings}
+        assert ("too-many-epochs" not in found) is few
+    assert "'go h' takes 10,001 epochs, expected at most 10,000" in found["too-many-epochs"]
+    assert "too-many-epochs" in rules(walk(facts=[(100_001, "moon")]))
+
+
 def test_the_time_of_a_task_is_told() -> None:
     task = walk(facts=[(3, "moon"), (12, "!open")], people={"carol": [(4, "sing carol")]})
     report = serendipity.check_task(replace(task, epoch=Fraction(5, 2)))

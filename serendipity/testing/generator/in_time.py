@@ -57,8 +57,8 @@ def random_call_in_time(seed: int) -> PlanCall:
         starts = (start + gap for start in task.starts_of(plan))
         given = tuple(zip(starts, (task.actions[i].name for i in plan), strict=True))
         try:
-            task.plan_from_names(given)
-        except PlanError:
+            task.replay_alone(task.plan_from_names(given), strict="interference" in options)
+        except PlanError:  # it comes too late, or is in a bystander's way
             given = None
     if options["mode"] == "serendipity" and others.random() < _OBSERVANT:
         options |= {"human_model": "observant", "no_block": others.choice(("true", "true", "false"))}

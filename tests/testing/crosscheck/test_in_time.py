@@ -44,6 +44,13 @@ def test_brute_force_judges_answers_beside_people_who_replan(monkeypatch: pytest
     assert any(found is not None and "brute force" in found.said for found in said)
 
 
+def test_given_plans_disturb_nobody() -> None:
+    """A bystander was disturbed by a given plan where interference is strict: each judge refused the call."""
+    call = random_call_in_time(882_536)
+    assert call.task.script.people and call.options["interference"] == "strict"
+    assert compare(call, {"search": JUDGES["search"]}, {}) is None
+
+
 def test_what_is_beside_bystanders_is_told_by_its_seed(tmp_path: Path) -> None:
     call = next(call for call in map(random_call_in_time, range(100)) if call.task.script.people)
     commands = write_case(Disagreement(call, {}), tmp_path / "case", again="serendipity crosscheck --in-time")
