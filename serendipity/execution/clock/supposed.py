@@ -7,6 +7,7 @@ from typing import Final
 
 from search.modes.simulation.simulator import Simulation
 from serendipity.execution.advice import Advice
+from serendipity.execution.clock.bystanders import would_pay
 from serendipity.execution.clock.course import Course, Help, after_going_on, after_helping
 from serendipity.execution.clock.spoiling import Spoiling, begun_of
 from serendipity.execution.clock.world import WorldInTime
@@ -16,18 +17,8 @@ from serendipity.facade.person.played import played_in_time
 from serendipity.facade.person.sight import Sight
 from serendipity.facade.person.ways import Entries, Way, Ways, entries_of
 from serendipity.facade.session import Session
-from serendipity.model import (
-    INFINITE,
-    Condition,
-    Deadline,
-    Options,
-    PlanError,
-    PlanStep,
-    Step,
-    Task,
-    UsageError,
-)
-from serendipity.model.errors import LIMITS, LimitReachedError
+from serendipity.model import INFINITE, Condition, Deadline, Options, PlanError, PlanStep, Step, Task
+from serendipity.model.errors import LIMITS, LimitReachedError, UsageError
 from serendipity.model.numbers import as_written, total
 from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.execution import actions_named, steps_named, variant_named
@@ -242,6 +233,8 @@ class Supposed:
             )
         session = self._asked(now)
         rest = self._rest(session, None if works else alone)
+        if rest is not None and would_pay(now, rest.plan, alone, strict=self._options.strict):
+            rest = None
         if alone is None or over:
             answer = session.plan(mode="composite", horizon=INFINITE, deadline=deadline)
         elif self.theirs.sight is not None:
@@ -251,10 +244,11 @@ class Supposed:
         else:
             answer = session.plan(deadline=deadline)
         pays = alone is None or (answer.opportunity and not over)
-        if answer.plan is None or not (pays or works):
+        harms = would_pay(now, answer.plan or (), alone, strict=self._options.strict)
+        if answer.plan is None or harms or not (pays or works):
             if rest is None and answer.status not in ("optimal", "infeasible"):
                 raise LimitReachedError("time-limit")
-            self._is_sure = answer.status == "optimal"
+            self._is_sure = answer.status == "optimal" and not harms
             return rest
         cost = total(as_written(step.cost) for step in answer.plan)
         is_best = answer.status == "optimal"
