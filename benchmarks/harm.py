@@ -2,20 +2,29 @@
 
     python -m benchmarks.harm [--runs N] [--first SEED]
 
-A third takes place in time, beside a script and bystanders; robots tidy up by default.  The person is
-observant, local or told the plan, follows the canonical or any other of their optimal plans (who is local the
-first), and in a fifth of the runs robots fail or are slow.  Those without a plan alone are left out.
+A sixth takes place in time, beside a script, and a sixth among two or three people; robots tidy up by
+default.  The person is observant, local or told the plan, follows the canonical or any other of their optimal
+plans (who is local the first), and in a fifth of the runs robots fail or are slow.  Who has no plan alone is
+left out.  Bystanders have paid who can't do the rest of their plans, or do not have what they want, as they
+would with idle robots (semantics 12).
 """
 
 from collections import Counter
+from collections.abc import Iterable, Mapping
 from random import Random
+from typing import Any
 
 import typer
 
 import serendipity
-from serendipity import SerendipityError, Task
+from serendipity import Options, SerendipityError, Task
+from serendipity.model.task.plans_in_time import broken_script
+from serendipity.testing.generator.among_people import random_call_among
 from serendipity.testing.generator.in_time import random_call_in_time
 from serendipity.testing.generator.tasks import random_task, varied
+from serendipity.testing.oracle import Moment, optimal_human_plan
+from serendipity.testing.oracle.moments import World
+from serendipity.testing.oracle.nobody_pays import Rule
 
 
 def main(runs: int = 10_000, first: int = 0) -> None:
@@ -38,7 +47,7 @@ def harmed(seed: int) -> list[str]:
         series = serendipity.execute(task, human, ties=ties, seed=seed, faults=faults, discount=discount)
     except SerendipityError:
         return ["refused"]
-    (row,) = series.rows
+    (row,), (log,) = series.rows, series.logs
     if row.alone is None:
         return ["no plan alone"]
     # Who is told may have a part in robots' own goals, where there is nobody else.
@@ -52,6 +61,7 @@ def harmed(seed: int) -> list[str]:
         "did not get there": not row.reached,
         "in time": task.needs_time,
         "beside bystanders": bool(task.script.people),
+        f"{kind}: bystanders paid": not faults and _bystanders_paid(task, log),
         "left by robots without faults or goals of their own": bool(
             row.left and not (faults or task.robot_goal)
         ),
@@ -59,7 +69,24 @@ def harmed(seed: int) -> list[str]:
     return [what for what, holds in marks.items() if holds]
 
 
+def _bystanders_paid(task: Task, log: Iterable[Mapping[str, Any]]) -> bool:
+    """Whether help keeps somebody from what they would do and get, by brute force."""
+    if not task.script.people or broken_script(task):
+        return False
+    world, epochs = World(task), [line["steps"] for line in log if "steps" in line]
+    rule = Rule(world, Options(nobody_pays=True), optimal_human_plan(task), len(epochs))
+    now: Moment | None = Moment(task.init)
+    for epoch, steps in enumerate(epochs, start=1):
+        if now is not None:
+            ways = [task.named[step["action"]] for step in steps]
+            begun = [next((i for i in ids if task.actions[i].applicable(now.state)), ids[0]) for ids in ways]
+            now = world.after(now, epoch, begun)
+    return now is None or not rule.keeps(now)
+
+
 def _task(dice: Random, seed: int) -> Task:
+    if seed % 6 == 3:
+        return random_call_among(2 + seed // 6 % 2, seed).task
     if seed % 3 == 0:
         return random_call_in_time(seed).task
     task = random_task(dice)

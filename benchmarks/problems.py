@@ -13,6 +13,7 @@ from serendipity import SerendipityError, Task
 from serendipity.evaluation.measuring.suites import Problem, Roles, folders, problems, roles
 from serendipity.evaluation.measuring.tables import grouped
 from serendipity.model import Condition
+from serendipity.testing.generator import FAMILIES, family_task
 
 PROBLEMS = Path(os.environ.get("SERENDIPITY_PROBLEMS") or Path(__file__).resolve().parents[2] / "shared")
 """The folder with ``usar200``, ``codmap15``, ``spa`` and ``home``, as far as they are there.
@@ -24,8 +25,8 @@ Pair = tuple[Path, Path]
 """A domain and a problem file."""
 
 Source = tuple[Any, ...]
-"""A task by what makes it: rooms, medkits, robots and seed of a building; a folder and who is the human; or
-domain and problem files, human and robots.
+"""A task by what makes it: rooms, medkits, robots and seed of a building; family, seed, size and agents of a
+random one; a folder and who is the human; or domain and problem files, human and robots.
 """
 
 
@@ -33,6 +34,8 @@ def load(source: Source) -> Task:
     """The task of a source."""
     if isinstance(source[0], int):
         return building(*source)
+    if source[0] in FAMILIES:
+        return family_task(*source)
     if len(source) == 2:
         return serendipity.load(source[0], human=source[1])
     domain, problem, human, *robots = source

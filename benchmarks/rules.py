@@ -1,6 +1,6 @@
 """What each rule of help costs, domain by domain: of harming nobody, of leaving nothing changed, and others.
 
-    python -m benchmarks.rules [--smallest N] [--stride N] [--limit S] [--jobs N] [--record FILE]
+    python -m benchmarks.rules [--smallest N] [--stride N] [--small N] [--limit S] [--jobs N] [--record FILE]
 
 The human wants half of a problem's goals.  ``nobody pays``: a second person, a bystander, wants another goal.
 In the buildings robots may be anywhere (``at_robot*``).  A price is what the best answer costs more than the
@@ -16,7 +16,7 @@ import typer
 
 import serendipity
 from benchmarks.problems import PROBLEMS, Source, can_some, load, of_suite, usar
-from serendipity import SerendipityError, Task
+from serendipity import Condition, SerendipityError, Task, UsageError
 from serendipity.evaluation.measuring.record import measured
 from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, grouped, table, total
 
@@ -30,6 +30,10 @@ RULES: Final[Mapping[str, Mapping[str, Any]]] = {
 }
 
 
+SMALL: Final[Mapping[str, int]] = {"blocks": 3, "logistics": 3, "switches": 6}
+"""Families of random tasks, and how many blocks, parcels, and switches."""
+
+
 class Job(NamedTuple):
     """A task of a family, under a rule; the seconds of each call."""
 
@@ -40,23 +44,30 @@ class Job(NamedTuple):
 
 
 def main(
-    smallest: int = 3, stride: int = 4, limit: float = 10, jobs: int = 1, record: Path | None = None
+    smallest: int = 3,
+    stride: int = 4,
+    small: int = 100,
+    limit: float = 10,
+    jobs: int = 1,
+    record: Path | None = None,
 ) -> None:
     """Measure and print the table."""
-    found = measured([*_jobs(smallest, stride, limit)], priced, record, processes=jobs)
+    found = measured([*_jobs(smallest, stride, small, limit)], priced, record, processes=jobs)
     rows = [{"family": job.family, "rule": job.rule, **row} for job, row in found if row]
     lines = grouped(rows, lambda row: (row["family"], row["rule"]))
     print(as_markdown([table(("family", "rule"), lines, COLUMNS)]), flush=True)
 
 
-def _jobs(smallest: int, stride: int, limit: float) -> Iterator[Job]:
+def _jobs(smallest: int, stride: int, small: int, limit: float) -> Iterator[Job]:
+    everywhere = [rule for rule in RULES if rule != "robots elsewhere only"]
     for source in usar(stride):
         yield from (Job("buildings", rule, source, limit) for rule in RULES if rule != "nobody pays")
     for problem, who, source in of_suite(PROBLEMS / "codmap15", can_some, smallest=smallest):
         if who.alone and len(who.robots) > 1:
-            yield from (
-                Job(problem.domain, rule, source, limit) for rule in RULES if rule != "robots elsewhere only"
-            )
+            yield from (Job(problem.domain, rule, source, limit) for rule in everywhere)
+    for family, size in SMALL.items():
+        for seed in range(small):
+            yield from (Job(f"small {family}", rule, (family, seed, size, 3), limit) for rule in everywhere)
 
 
 def priced(job: Job) -> Row | None:
@@ -80,14 +91,20 @@ def priced(job: Job) -> Row | None:
 
 
 def _shared(task: Task, *, bystander: bool) -> Task:
-    """The task with half of its goals for the human, and, with a bystander, one of the others for them."""
+    """The task with half of its goals for the human, and, with a bystander, one of the others for them.
+
+    Raises:
+        UsageError: nothing is left for a bystander to want, or they can't reach it alone.
+    """
     goals = sorted(task.goal.positive)
-    if len(goals) < 2:
+    if len(goals) < 2 and not bystander:
         return task
+    if len(goals) < 2:
+        raise UsageError("nothing is left for a bystander to want")
     dice = Random(task.name)
     wanted = dice.sample(goals, (len(goals) + 1) // 2)
     others = [fact for fact in goals if fact not in wanted]
-    task = task.with_goal(type(task.goal)(tuple(sorted(wanted)), ()))
+    task = task.with_goal(Condition(tuple(sorted(wanted))), Condition())
     if not bystander:
         return task
     person, fact = task.agents[task.robots[-1]], task.facts[dice.choice(others)]
