@@ -41,6 +41,13 @@ def test_a_wrong_observation_by_hand() -> None:
     assert known.to_dict()["noise"] == {"miss": 0.0, "wrong": 0.1}
 
 
+def test_nothing_is_missed_where_all_is_wrong() -> None:
+    """Where gaps weigh nothing, actions before observations that are wrong were counted as missed."""
+    (c,) = serendipity.recognise(LINE, [C], ["go h d e", "go h d e"], noise="wrong=0.1").goals
+    assert c.errors is not None
+    assert (c.errors.wrong, c.errors.missed, c.plan) == (2, 0, ("go h a b", "go h b c"))
+
+
 def test_plans_weigh_goals_by_what_may_be_wrong() -> None:
     """Without noise nothing is explained, and the posterior is the prior."""
     home = replace(HELPED, goal=Condition((HELPED.facts.index("e"),)))
@@ -50,7 +57,8 @@ def test_plans_weigh_goals_by_what_may_be_wrong() -> None:
     goals = found.goals or ()
     assert [one.probability for one in goals] == [one.posterior for one in known.goals]
     assert [one.human_plan for one in goals] == [one.plan for one in known.goals]
-    assert found.recognition is None and serendipity.verify(home, found).verdict == "proved"
+    assert found.recognition is not None and found.recognition.to_dict() == known.to_dict()
+    assert serendipity.verify(home, found).verdict == "proved"
     plain = serendipity.plan(home, goals=[C, E], observed=seen, discount="0.5").goals or ()
     assert [one.probability for one in plain] == [0.5, 0.5]
     session = serendipity.Session(home, discount="0.5")

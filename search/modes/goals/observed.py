@@ -307,13 +307,13 @@ class _ObservedSearch:
 
     def _read(self, at: _At, search: AStar[_At]) -> Reading:
         """The reading with which a search has come to a place."""
-        plan, wrong, missed, seen = [], 0, 0, at[1]
+        plan, wrong, missed, seen, later = [], 0, 0, at[1], False
         for before, action in search.way_back(at):
             if action is None:
                 wrong += seen - before[1]
             else:
                 plan.append(action)
-                missed += before[1] == seen < len(self._observed)
+                missed, later = missed + (later and before[1] == seen), later or before[1] < seen
             seen = before[1]
         cost = self._task.cost_of(tuple(plan))
         return Reading(cost, wrong, missed, tuple(reversed(plan)))
