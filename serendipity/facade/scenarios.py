@@ -207,17 +207,14 @@ def _by_goals(
 ) -> tuple[list[Candidate], Recognition | None]:
     """A scenario for each goal that is possible, or for each optimal plan to it, and the posterior.
 
-    With noise there is none to show: the scenarios are as if they were given.
-
     Raises:
         UsageError: as :func:`answers`.
         LimitReachedError: a limit came first.
     """
-    noise = unsure.noise
-    recognition, plans = _recognised(call, candidates, unsure.observed, unsure.beta, noise)
+    recognition, plans = _recognised(call, candidates, unsure.observed, unsure.beta, unsure.noise)
     considered = _considered(candidates, recognition, plans)
     shared = _shared(call, in_time, considered) if call.options.ties == "watched" else considered
-    return shared, None if noise else recognition
+    return shared, recognition
 
 
 def _shared(call: Request, in_time: ScenariosInTime, considered: Sequence[Candidate]) -> list[Candidate]:

@@ -17,9 +17,6 @@ def difference(task: Task, result: Result, data: dict[str, Any], deadline: Deadl
 
     The result is certified again, and wherever a solver would be asked the proof answers.
 
-    Args:
-        data: the proof, which the checker has accepted.
-
     Raises:
         InputError: the result is for another task.
         UsageError: no program proves such a result.

@@ -10,10 +10,6 @@ def require_programs(result: Result, method: str = "program") -> None:
 
     Of humans who replan, and of several goals, they decide some answers; that turns out on the way.
 
-    Args:
-        result: of checked types.
-        method: the one that was asked for.
-
     Raises:
         UsageError: they don't, or another method was asked for; the text says what decides.
     """

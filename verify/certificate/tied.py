@@ -22,10 +22,7 @@ Verdict = tuple[ClaimVerdict, str]
 
 
 def combined(task: Task, result: Result, effort: Effort, plans: OptimalPlans) -> Verdict:
-    """Compare an answer with what every optimal ``pi_H`` allows.
-
-    Args:
-        result: an answer that breaks no rule, or the bound of one that is ``unknown``.
+    """Compare an answer that breaks no rule, or a bound alone, with what every optimal ``pi_H`` allows.
 
     Raises:
         UsageError: there are more than ``max_ties``.

@@ -150,11 +150,7 @@ class Board:
         return list(cheapest.items())
 
     def state(self, delta: StateDelta) -> int:
-        """The bits of a state that a result writes down.
-
-        Raises:
-            KeyError: it names a fact that the task does not have.
-        """
+        """The bits of a state that a result writes down, or raise a KeyError for a fact that there is not."""
         true = self._bits(self._ids[name] for name in delta.true)
         false = self._bits(self._ids[name] for name in delta.false)
         return (self.start & ~false | true) & self._relevant

@@ -27,11 +27,7 @@ from verify.policy.reading import read_decisions, show
 
 
 def check_run(task: Task, board: Board, result: Result) -> None:
-    """Return if the plan is a run in which the human acts optimally, at the totals reported.
-
-    Raises:
-        BrokenError: naming the epoch at fault.
-    """
+    """Return if the plan is a run in which the human acts optimally, or raise a BrokenError."""
     assert result.plan is not None
     human = result.human
     for step in result.plan:

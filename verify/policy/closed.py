@@ -9,11 +9,7 @@ from verify.policy.reading import combine, plus, show
 
 
 class BrokenError(Exception):
-    """A rule of semantics 7 that the policy breaks; its text names the rule.
-
-    Args:
-        claim: ``replay`` or ``cost``.
-    """
+    """A rule of semantics 7 that the policy breaks; its text names the rule, which belongs to a claim."""
 
     def __init__(self, claim: str, message: str) -> None:
         super().__init__(message)
@@ -30,11 +26,7 @@ class Walk:
         self._ends: set[int] = set()
 
     def value(self) -> Costs:
-        """What the policy is worth in ``I``.
-
-        Raises:
-            BrokenError: it is not closed, does not end, or a value is wrong.
-        """
+        """What the policy is worth in ``I``, or raise a BrokenError."""
         start = self._board.start
         pending = [start] if start in self._listed else []
         while pending:

@@ -19,11 +19,7 @@ _OF_ANSWERS: Final = ("human_plan", "human_cost", "saving", "saving_alone", "cos
 
 
 def stated_bounds(result: Result) -> PolicyBounds:
-    """Both sides of the value, as the answer has them.
-
-    Raises:
-        MalformedError: they are missing or of another form.
-    """
+    """Both sides of the value, as the answer has them, or raise a MalformedError."""
     if result.bounds is None:
         missing = "statistics.bounds: expected an object with 'lower' and 'upper'"
         raise MalformedError(result.malformed.get("bounds", missing))

@@ -29,11 +29,7 @@ class Floors:
         self._floors = {board.state(floor.state): floor.value for floor in floors}
 
     def prove(self, value: Costs) -> None:
-        """Return if no policy is worth less than ``value`` in ``I``.
-
-        Raises:
-            UndecidedError: the floors don't show it.
-        """
+        """Return if no policy is worth less than ``value`` in ``I``, or raise an UndecidedError."""
         start = self._board.start
         if self._board.goal.holds(start) or self._board.at_least(start, value):
             return

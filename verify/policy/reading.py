@@ -8,11 +8,7 @@ from verify.policy.board import Board, Costs, Reply
 
 
 def read_decisions(board: Board, policy: Policy) -> dict[int, Decision]:
-    """What the policy does, by state.
-
-    Raises:
-        ValueError: two entries for one state, or an unknown fact.
-    """
+    """What the policy does, by state, or raise a ValueError."""
     listed: dict[int, Decision] = {}
     for decision in board.deadline.each(policy.decisions):
         try:

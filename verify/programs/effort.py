@@ -187,11 +187,7 @@ class Minimum:
         return self.found
 
     def settled(self) -> PricedPlan | None:
-        """Some plan, best or not; None: there is provably none.
-
-        Raises:
-            UndecidedError: neither is known; with the bound that is.
-        """
+        """Some plan, best or not; None: there is provably none.  Or an UndecidedError with a bound."""
         if self.found is None and self.status == "undecided":
             raise UndecidedError(self.reason, self.bound)
         return self.found

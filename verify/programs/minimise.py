@@ -70,11 +70,7 @@ class _Rounds:
         self.bound: int | None = None
 
     def run(self) -> Minimum:
-        """Answer the question.
-
-        Raises:
-            UndecidedError: the solver did not, or what it says is not so.
-        """
+        """Answer the question, or raise an UndecidedError."""
         self._effort.deadline.check()
         with during("building the program"):
             self._encoding = encoding = self._effort.encode(self._question)
@@ -88,11 +84,7 @@ class _Rounds:
         return Minimum("none") if self.best is None else Minimum("found", self.best, self.best.objective)
 
     def write(self, proof: ProofWriter, question: Subproblem, minimum: Minimum) -> None:
-        """Write down why nothing is better than an answer that these rounds have found.
-
-        Raises:
-            UndecidedError: it could not be proved so that anybody can check it.
-        """
+        """Write down why nothing is better than an answer of these rounds, or raise an UndecidedError."""
         assert self._encoding is not None
         model = self._encoding.model
         assert model is not None, "a proof's programs are not closed by pruning"

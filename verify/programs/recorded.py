@@ -63,11 +63,7 @@ def refute(
     values: Iterable[int],
     deadline: Deadline,
 ) -> None:
-    """Write down why a program allows nothing at or below a limit.
-
-    Args:
-        limit: of the objective; None: nothing at all is allowed.
-    """
+    """Write down why a program allows nothing at or below a limit of the objective; None: nothing at all."""
     entry["limit"] = limit
     solution = {x: value for x, value in enumerate(values) if value}
     if solution and sum(solution.get(x, 0) * c for x, c in model.objective.items()) - 1 == limit:
@@ -84,13 +80,10 @@ def refute(
 def refuted(
     proof: ProofWriter | ProofReader, made: Entry, model: Model, limit: int | None, deadline: Deadline
 ) -> None:
-    """Refute a program and write it down, or take it from a proof that the checker has accepted.
+    """Refute a program and write it down, or take it from a proof that was accepted; or an UndecidedError.
 
     Args:
         made: what of its entry follows from the program.
-
-    Raises:
-        UndecidedError: it could not be refuted, or the proof's next program is another one.
     """
     if not isinstance(proof, ProofReader):
         refute(proof, made, model, limit, (), deadline)

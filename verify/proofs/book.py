@@ -27,22 +27,14 @@ class ProofWriter:
 
 
 class ProofReader:
-    """The programs of a proof, in the order in which a certificate asks for them.
-
-    Args:
-        programs: as the checker has accepted them.
-    """
+    """The programs of a proof that was accepted, in the order in which a certificate asks for them."""
 
     def __init__(self, programs: Sequence[Entry]) -> None:
         self._programs = list(programs)
         self._read = 0
 
     def take(self) -> Entry:
-        """The next program.
-
-        Raises:
-            UndecidedError: there is none.
-        """
+        """The next program, or raise an UndecidedError."""
         if self._read == len(self._programs):
             raise UndecidedError("a program is missing")
         self._read += 1
@@ -55,11 +47,7 @@ class ProofReader:
 
 
 def require_same(entry: Entry, made: Mapping[str, Any]) -> None:
-    """Return if an entry is the program that was made again.
-
-    Raises:
-        UndecidedError: it is another one; the text says where.
-    """
+    """Return if an entry is the program that was made again, or raise an UndecidedError."""
     for name in MADE_AGAIN:
         if entry.get(name) != made[name]:
             raise UndecidedError(

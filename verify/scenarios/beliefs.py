@@ -15,6 +15,7 @@ from verify.base.beside_script import alone_of
 from verify.base.due import after_waiting, going_on
 from verify.base.execution import unchosen
 from verify.base.optimal_plans import OptimalPlans
+from verify.scenarios.noise import Noise
 from verify.scenarios.reading import condition
 
 Costs = tuple[Fraction | None, Fraction | None]
@@ -27,9 +28,6 @@ def compiled(
     """The task, in which plans of the human's have to embed the observations, or must not.
 
     Matching each observation as early as possible decides whether a plan embeds them.
-
-    Args:
-        observed: names of the observed actions, in order.
     """
     if embed and not observed:
         return task.with_goal(goal, Condition())
@@ -82,17 +80,15 @@ def considered_plans(
 def faults(
     task: Task, recognised: Recognition, options: Options, original: Task, deadline: Deadline
 ) -> Iterator[str]:
-    """Everything that is wrong with a recognition, in order.
-
-    Args:
-        original: the task as it was given, which says what can be observed.
-    """
+    """All that is wrong with a recognition, in order; the task as it was given says what can be observed."""
     for name in recognised.observed:
         if all(original.actions[i].participants != (task.human,) for i in original.named.get(name, ())):
             yield f"observed: '{name}' is not an action that the human does alone"
             return
-    if recognised.noise or any(goal.errors for goal in recognised.goals):
-        yield "noise: plans rest on observations without any"
+    rates = (recognised.noise or {}).values()
+    if any(rate > 1 for rate in rates) or (not rates and any(goal.errors for goal in recognised.goals)):
+        yield "noise: expected probabilities, and no errors without any"
+        return
     if not recognised.goals or not _close(float(sum(goal.prior for goal in recognised.goals)), 1.0):
         yield "the priors do not add up to 1"
     if len({goal.name for goal in recognised.goals}) < len(recognised.goals):
@@ -100,11 +96,14 @@ def faults(
     costs = [_costs(task, recognised, goal, options, deadline) for goal in recognised.goals]
     for goal, least in zip(recognised.goals, costs, strict=True):
         yield from _own_faults(task, recognised, goal, least, options, deadline)
-    possible = any(goal.prior and goal.with_observed is not None for goal in recognised.goals)
+    logs = [
+        _log_likelihood(recognised, goal, least) for goal, least in zip(recognised.goals, costs, strict=True)
+    ]
+    possible = any(goal.prior and log > -math.inf for goal, log in zip(recognised.goals, logs, strict=True))
     if recognised.explained != possible:
         yield f"explained is {str(possible).lower()}, the answer says otherwise"
         return
-    for goal, right in zip(recognised.goals, _posteriors(recognised, costs), strict=True):
+    for goal, right in zip(recognised.goals, _posteriors(recognised, logs), strict=True):
         if not _close(goal.posterior, right):
             yield f"goal '{goal.name}': the posterior is {right:.12g}, the answer says {goal.posterior:.12g}"
 
@@ -137,22 +136,23 @@ def _own_faults(
             yield f"goal '{goal.name}': its cost {what} the observations is {least}, the answer says {said}"
             return
     wanted = condition(task, goal.goal)
-    plan, _ = next(considered_plans(task, wanted, recognised.observed, options, deadline), (None, None))
-    if goal.plan != plan:
+    if recognised.noise:
+        if not Noise(recognised).is_likeliest(task, wanted, goal, options, deadline):
+            yield f"goal '{goal.name}': the plan with its errors is not the likeliest reading"
+    elif goal.plan != next(considered_plans(task, wanted, recognised.observed, options, deadline), [None])[0]:
         yield f"goal '{goal.name}': the plan is not the canonical one that explains the observations"
-    likelihood = None if costs == (None, None) else math.exp(_log_likelihood(recognised.beta, costs))
+    likelihood = None if costs == (None, None) else math.exp(_log_likelihood(recognised, goal, costs))
     if (likelihood is None) != (goal.likelihood is None) or not _close(goal.likelihood or 0, likelihood or 0):
         yield f"goal '{goal.name}': the likelihood is {likelihood}, the answer says {goal.likelihood}"
 
 
-def _posteriors(recognised: Recognition, costs: Sequence[Costs]) -> list[float]:
+def _posteriors(recognised: Recognition, logs: Sequence[float]) -> list[float]:
     """Bayes' rule, by logarithms of likelihoods, since a dear detour's would be rounded to 0.
 
     They are compared before priors count: beside a large one the logarithm of a prior loses its digits.
     """
     if not recognised.explained:
         return [float(goal.prior) for goal in recognised.goals]
-    logs = [_log_likelihood(recognised.beta, least) for least in costs]
     most = max(log for log, goal in zip(logs, recognised.goals, strict=True) if goal.prior)
     # A goal without a prior has no share, however likely what was observed is for it.
     shares = [
@@ -162,14 +162,16 @@ def _posteriors(recognised: Recognition, costs: Sequence[Costs]) -> list[float]:
     return [share / sum(shares) for share in shares]
 
 
-def _log_likelihood(beta: float, costs: Costs) -> float:
-    """The logarithm of ``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``."""
+def _log_likelihood(recognised: Recognition, goal: GoalPosterior, costs: Costs) -> float:
+    """The logarithm of ``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``, or with noise."""
+    if recognised.noise:
+        return Noise(recognised).log_likelihood(goal.errors, costs)
     with_observed, without_observed = costs
     if with_observed is None:
         return -math.inf
     if without_observed is None:
         return 0.0
-    loss = beta * float(with_observed - without_observed)
+    loss = recognised.beta * float(with_observed - without_observed)
     return -(max(loss, 0.0) + math.log1p(math.exp(-abs(loss))))
 
 

@@ -206,12 +206,14 @@ def _expected(
     if fault is not None:
         return [], "", fault
     seen = known.observed if known is not None and known.explained else ()
-    goals = [("", task.goal, 1.0)]
+    goals, read = [("", task.goal, 1.0)], dict[str, tuple[str, ...]]()
     if known is not None:
         goals = [(one.name, condition(task, one.goal), one.posterior) for one in known.goals if one.posterior]
+        read = {one.name: one.plan or () for one in known.goals} if known.noise and seen else {}
     found, most = list[Scenario](), result.options.max_ties if watched else 1
     for name, goal, share in goals:
-        plans = list(islice(considered_plans(task, goal, seen, result.options, deadline), most + watched))
+        all_plans = considered_plans(task, goal, seen, result.options, deadline)
+        plans = [("", read[name])] if name in read else list(islice(all_plans, most + watched))
         if len(plans) > most:
             fault = f"max_ties: the human has more than {most} optimal plans"
         for number, (_, plan) in enumerate(plans, start=1):

@@ -147,11 +147,7 @@ class Moves:
 
 
 class Course:
-    """The epochs of one scenario.
-
-    Args:
-        prices: of what is left changed.
-    """
+    """The epochs of one scenario, and what it pays for what is left changed."""
 
     def __init__(self, call: ExaminedCall, moves: Moves, measure: Measure, prices: Prices) -> None:
         self._moves, self._epoch = moves, measure.epoch

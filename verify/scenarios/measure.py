@@ -17,8 +17,7 @@ class Measure:
     """The mean, the greatest, or the greatest excess over what each scenario allows by itself.
 
     Args:
-        calls: one for each scenario.
-        weights: their probabilities; they add up to 1.
+        weights: probabilities; they add up to 1.
         floors: objective and cost that each scenario allows by itself.
         prices: of what each leaves changed.
         plain: for a program: no finer parts, and no costs where no two policies differ in them alone.

@@ -38,12 +38,7 @@ class _Choice(NamedTuple):
 
 
 class PolicySearch:
-    """All policies over the scenarios of one answer.
-
-    Args:
-        calls: one for each scenario, with the human's plan in it, and the same horizon.
-        lines: what the answer says of them.
-    """
+    """All policies over the scenarios of one answer: a call for each, and what the answer says of it."""
 
     def __init__(
         self, calls: Sequence[ExaminedCall], measure: Measure, lines: Sequence[Timeline] = ()

@@ -26,11 +26,7 @@ _ROUNDED = 1 - Fraction(1, 10**9)
 
 
 class ScenariosProof:
-    """The claims about an answer over scenarios that need an optimiser.
-
-    Args:
-        result: an answer that breaks no rule.
-    """
+    """The claims about an answer over scenarios, which breaks no rule, that need an optimiser."""
 
     def __init__(self, result: Result, lines: Sequence[Timeline], effort: Effort) -> None:
         self.result = result

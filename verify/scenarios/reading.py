@@ -12,11 +12,7 @@ _MOST_DIGITS: Final = 10**6
 
 
 def recognised(result: Result) -> Recognition | None:
-    """The posterior that the answer rests on; None where scenarios come from elsewhere.
-
-    Raises:
-        MalformedError: naming what is missing, or of another form.
-    """
+    """The posterior that the answer rests on, or a MalformedError; None: it rests on none."""
     known = result.recognition
     if known is None and result.says("recognition"):
         raise MalformedError(result.malformed["recognition"])
@@ -26,11 +22,7 @@ def recognised(result: Result) -> Recognition | None:
 
 
 def listed(result: Result) -> tuple[GoalAnswer, ...]:
-    """What happens in each scenario.
-
-    Raises:
-        MalformedError: it is missing, or of another form.
-    """
+    """What happens in each scenario, or raise a MalformedError."""
     if result.goals is None:
         raise MalformedError(result.malformed.get("goals", "statistics.goals is not a list"))
     return result.goals
@@ -44,11 +36,7 @@ def weight(probability: float) -> Fraction:
 
 
 def condition(task: Task, literals: tuple[str, ...]) -> Condition:
-    """The goal that literals write down.
-
-    Raises:
-        MalformedError: one is of another task.
-    """
+    """The goal that literals write down, or raise a MalformedError."""
     ids = {fact: i for i, fact in enumerate(task.facts)}
     stranger = next((text for text in literals if text.removeprefix("!") not in ids), None)
     if stranger is not None:

@@ -81,11 +81,7 @@ class Aimed(NamedTuple):
 def timelines(
     aimed: Sequence[Aimed], result: Result, served: Sequence[GoalAnswer], deadline: Deadline
 ) -> list[Timeline]:
-    """The timelines of an answer, with weights that add up to 1.
-
-    Args:
-        served: what the answer says of each of them, in the same order.
-    """
+    """The timelines of an answer, by what it says of each of them, with weights that add up to 1."""
     weights = [weight(entry.probability) for entry in served]
     total = sum(weights, Fraction(0))
     alone = {id(one.task): alone_of(one.task, deadline, result.options) for one in aimed}

@@ -16,6 +16,7 @@ from search.modes.scenarios import Candidate
 from serendipity.model import Certificate, Condition, Deadline, InputError, Options, Result, Task
 from serendipity.testing.builders import task as build
 from tests.cli.conftest import Runs
+from tests.recognition.test_noise import HELPED
 from tests.search.modes.goals.strategies import FIXED_OPTIONS, literals, rivals
 from tests.search.modes.goals.test_worked_cases import helped, workshop
 from tests.verify.scenarios.edit import assert_refuted, edit
@@ -91,7 +92,11 @@ def _shared_help(answer: dict[str, Any]) -> None:
 
 DOCTORED: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
     "a prior": (edit("statistics.recognition.goals.0.prior", 0.6), "replay", "priors do not add up"),
-    "noise": (edit("statistics.recognition.noise", {"miss": 0.1, "wrong": 0.1}), "replay", "noise"),
+    "noise": (
+        edit("statistics.recognition.noise", {"miss": 0.1, "wrong": 0.1}),
+        "replay",
+        "likeliest reading",
+    ),
     "a posterior": (edit("statistics.recognition.goals.0.posterior", 0.6), "replay", "posterior is 0.5"),
     "a likelihood": (edit("statistics.recognition.goals.0.likelihood", 0.5), "replay", "likelihood is 1"),
     "a cost of recognition": (
@@ -278,14 +283,56 @@ def test_posteriors_of_dear_tasks_are_certified(unit: int) -> None:
         )
 
 
+@pytest.mark.long
+@given(rivals(), st.sampled_from(["wrong=0.1", "miss=0.2", "miss=0.3,wrong=0.2"]), st.data())
+@settings(max_examples=40)
+def test_posteriors_with_noise_are_worked_out_again(
+    rivalry: tuple[Task, list[Candidate]], noise: str, data: st.DataObject
+) -> None:
+    task, candidates = rivalry
+    goals = [{"goal": literals(task, c.goal), "prior": str(c.weight)} for c in candidates]
+    for number, goal in enumerate(goals):
+        goal["name"] = f"goal {number}"
+    his = sorted({action.name for action in task.actions if action.participants == (task.human,)})
+    seen = data.draw(st.lists(st.sampled_from(his), max_size=3)) if his else []
+    answer = serendipity.plan(task, goals=goals, observed=seen, noise=noise, discount="0.5")
+    read = Result.from_dict(json.loads(json.dumps(answer.to_dict())))
+    assert serendipity.verify(task, read).verdict == "proved", answer
+
+
+_NOISY: dict[str, tuple[Callable[[dict[str, Any]], None], str]] = {
+    "another rate": (edit("statistics.recognition.noise.wrong", 0.3), "the likelihood is 0.3"),
+    "no probability": (edit("statistics.recognition.noise.miss", 2.0), "expected probabilities"),
+    "no noise": (edit("statistics.recognition.noise", None), "no errors without any"),
+    "one more wrong": (edit("statistics.recognition.goals.0.errors.wrong", 2), "likeliest reading"),
+    "one more missed": (edit("statistics.recognition.goals.0.errors.missed", 1), "likeliest reading"),
+    "a cheaper reading": (edit("statistics.recognition.goals.0.errors.cost", 1.0), "likeliest reading"),
+    "no reading": (edit("statistics.recognition.goals.0.errors", None), "likeliest reading"),
+    "another plan": (edit("statistics.recognition.goals.0.plan", ["go h a c"]), "likeliest reading"),
+    "no plan at all": (edit("statistics.recognition.goals.0.plan", ["go h a b"]), "goal does not hold"),
+    "a posterior": (edit("statistics.recognition.goals.0.posterior", 0.5), "posterior is 0.9"),
+    "a plan of a scenario": (edit("statistics.goals.0.human_plan", ["go h a c"]), "human_plan"),
+}
+
+
+@pytest.mark.parametrize("way", _NOISY)
+def test_doctored_posteriors_with_noise_are_refuted(way: str) -> None:
+    """Two of three observations speak for c, one for e."""
+    seen, goals = ["go h a b", "go h d e", "go h b c"], [{"name": f, "goal": [f]} for f in "ce"]
+    answer = deepcopy(serendipity.plan(HELPED, goals=goals, observed=seen, noise="wrong=0.1").to_dict())
+    doctor, words = _NOISY[way]
+    doctor(answer)
+    assert_refuted(serendipity.verify(HELPED, Result.from_dict(answer)), "replay", words)
+
+
 def test_noisy_goals_out_of_reach_are_not_told() -> None:
-    """The answer has no posterior then, and named no goal: it was refuted, since nothing adds up to 1."""
+    """The answer had no posterior then, and named no goal: it was refuted, since nothing adds up to 1."""
     task = build(goal="f", actions={"do h": " -> f", "look r": " -> seen"})
     asked = {"goals": [{"goal": ["seen"]}], "observed": ["do h"]}
-    for noise, verdict in (("wrong=0.2", "undecided"), (None, "proved")):
+    for noise in ("wrong=0.2", None):
         answer = serendipity.plan(task, **asked, noise=noise)
         certificate = serendipity.verify(task, answer)
-        assert (answer.status, certificate.verdict) == ("infeasible", verdict)
+        assert (answer.status, certificate.verdict) == ("infeasible", "proved")
         assert serendipity.check(task, answer).verdict != "refuted"
         said = replace(answer, status="optimal", reason=None)
         assert serendipity.verify(task, said).verdict == "refuted"
