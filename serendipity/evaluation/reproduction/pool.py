@@ -20,12 +20,13 @@ _CHUNK: Final = 1.0
 _AHEAD: Final = 2
 """Chunks for each thread of the cluster at a time: what is not sent yet is in nobody's memory there."""
 
-_FORGETFUL: Final = {
+_CONFIG: Final = {
     "distributed.worker.profile.enabled": False,  # 10 MiB a minute, for an hour
     "distributed.admin.low-level-log-length": 10,  # messages, with all that is in them
-    "distributed.admin.system-monitor.log-length": 100,
+    "distributed.admin.system-monitor.log-length": 100,  # samples, two a second
+    "distributed.deploy.lost-worker-timeout": "1h",  # one that takes longer to start again never does
 }
-"""What Dask keeps for those who look into it, and what keeps growing for an hour."""
+"""What Dask keeps for those who look into it, and how long workers of this machine may be gone."""
 
 Work = Callable[[Assignment], TaskRows]
 
@@ -117,7 +118,7 @@ def _client(address: str, jobs: int) -> Iterator[Any]:
         import distributed  # noqa: F401  (sets what is changed below)
     except ImportError:
         raise UsageError("--dask: needs Dask: install serendipity-planner[dask]") from None
-    with dask.config.set(_FORGETFUL):
+    with dask.config.set(_CONFIG):
         client = _connected(address, jobs)
         with _hushed():
             try:

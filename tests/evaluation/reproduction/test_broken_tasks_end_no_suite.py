@@ -1,5 +1,6 @@
 """What is broken in a suite is a row of its own, with a reason; all else is answered."""
 
+import asyncio
 import os
 import shutil
 import signal
@@ -107,6 +108,28 @@ def test_dask_keeps_neither_profiles_nor_messages() -> None:
         assert set(client.run(dask.config.get, "distributed.worker.profile.enabled").values()) == {False}
         sent = [*client.cluster.scheduler.stream_comms.values(), client.scheduler_comm]
         assert [each.recent_message_log.maxlen for each in sent] == [10, 10]
+
+
+@pytest.mark.long
+def test_a_worker_is_started_again_however_long_that_takes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that took longer than 15 seconds, on a busy machine, was given up: the run waited for ever."""
+    pytest.importorskip("distributed", reason="needs the extra 'dask'")
+    import dask
+    from distributed import KilledWorker
+    from distributed.nanny import WorkerProcess
+
+    start = WorkerProcess.start
+
+    async def slowly(process: WorkerProcess) -> object:
+        await asyncio.sleep(2)
+        return await start(process)
+
+    sooner = {"distributed.deploy.lost-worker-timeout": "1s", "distributed.scheduler.allowed-failures": 0}
+    with dask.config.set(sooner), _client("local", 1) as client:
+        monkeypatch.setattr(WorkerProcess, "start", slowly)
+        with pytest.raises(KilledWorker):
+            client.submit(os._exit, 1).result()
+        assert client.submit(abs, -1).result(timeout=60) == 1
 
 
 @pytest.mark.long
