@@ -2,7 +2,8 @@
 
 import threading
 import weakref
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 from itertools import combinations
 from typing import Any, Final, Unpack
@@ -311,9 +312,11 @@ class Session:
         ):
             return
         if task.needs_time:
-            steps = sorted(rest.steps)
-            named = [(step.epoch - asleep, task.actions[step.action].name) for step in steps]
-            plan = task.plan_from_names(named, asleep)
+            named = [(step.epoch - asleep, task.actions[step.action].name) for step in sorted(rest.steps)]
+            in_time = _plan_until(task, named, task.epochs_of(self._human_plan), asleep)
+            if in_time is None:
+                return
+            plan = in_time
         price = rest.options.waiting_cost
         if cost_alone(task, plan, price, asleep) < cost_alone(task, self._human_plan, price, asleep):
             self._human_plan = plan
@@ -341,6 +344,14 @@ class Session:
     def _facts(self) -> Facts:
         """The facts by name, which no move changes."""
         return Facts(self.task.facts)
+
+
+def _plan_until(task: Task, named: Sequence[PlanEntry], end: int, asleep: int) -> HumanPlan | None:
+    """A human plan; where it misses the goal, with waiting until its end, for what others do; or None."""
+    for entries in (named, [*named, (end, NOOP)]):
+        with suppress(PlanError):
+            return task.plan_from_names(entries, asleep)
+    return None
 
 
 def _require_compatible(chosen: list[GroundAction]) -> None:
