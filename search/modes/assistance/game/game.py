@@ -4,6 +4,7 @@ A *value* is one integer, ``prime * unit + supporter``: adding values adds both 
 comparing them compares lexicographically.  Costs are scaled to integers.
 """
 
+from collections.abc import Sequence
 from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property
@@ -13,7 +14,7 @@ from typing import Final, NamedTuple
 from search.call.prepared_task import PreparedTask
 from search.modes.assistance.game.own import BY_ACTION, OwnCosts, by_rarest
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY, require_room
-from search.packed.operators import Operator, applicable
+from search.packed.operators import Operator, applicable, asked_by, union
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
@@ -55,14 +56,16 @@ class Game:
         self.deadline = deadline
         self._own_deadline = own_deadline or deadline
         self.packed: PackedTask = prepared.plain(deadline).packed
-        self.init = self.packed.init
         self.goal = self.packed.goal
         self.scale = lcm(1, *(cost.denominator for cost in self.packed.costs))
         self._scaled = [int(cost * self.scale) for cost in self.packed.costs]
         self.unit_bits = max(self._scaled, default=0).bit_length() + _RUN_BITS
         require_room(2 * self.unit_bits)
         robot = 1 << task.robots[0]
-        self.supporter_ops = tuple(op for op in self.packed.others if op.agents == robot)
+        alone = tuple(op for op in self.packed.others if op.agents == robot)
+        self._relevant = _relevant(self.packed, (*self.packed.own, *alone))
+        self.init = self.packed.init & self._relevant
+        self.supporter_ops = tuple(op for op in alone if ~op.keep & self._relevant)
         self._supporter_index = by_rarest(self.packed, self.supporter_ops, deadline)
         self._prime_moves: dict[int, tuple[Move, ...]] = {}
 
@@ -90,7 +93,7 @@ class Game:
         found = {state: Move(0, state, NOOP)}
         for op in sorted(self._supporter_index.candidates(state), key=BY_ACTION):
             if applicable(op, state):
-                after = state & op.keep | op.put
+                after = (state & op.keep | op.put) & self._relevant
                 cost = self._scaled[op.cost]
                 known = found.get(after)
                 if known is None or cost < known.value:
@@ -106,7 +109,7 @@ class Game:
         if moves is None:
             found: dict[tuple[str, int], Move] = {}
             for op, after in self.own.optimal(state):
-                move = Move(self._scaled[op.cost] << self.unit_bits, after, op.action)
+                move = Move(self._scaled[op.cost] << self.unit_bits, after & self._relevant, op.action)
                 found.setdefault((self.packed.task.actions[op.action].name, after), move)
             moves = self._prime_moves[state] = tuple(found.values())
         return moves
@@ -122,3 +125,12 @@ class Game:
     def value_alone(self, plan: HumanPlan) -> int:
         """The value of a plan of the prime's: what the supporter's doing nothing is worth at most."""
         return sum(int(self.task.actions[i].cost * self.scale) for i in plan) << self.unit_bits
+
+
+def _relevant(packed: PackedTask, ops: Sequence[Operator]) -> int:
+    """The fields on which the goal depends; what only joint actions ask for is none of them."""
+    found, before = packed.goal.mask, 0
+    while found != before:
+        before = found
+        found |= union(asked_by(op) for op in ops if ~op.keep & before)
+    return found

@@ -12,6 +12,7 @@ from serendipity import Result, Task
 from serendipity.model import Deadline, Options, Policy
 from serendipity.model.answers.answer import PolicyBounds
 from serendipity.model.numbers import as_written
+from serendipity.testing.builders import task
 from serendipity.testing.cases import case_5, case_6
 from tests.search.modes.assistance.strategies import games
 from verify.policy import check_policy
@@ -29,6 +30,16 @@ def test_answers_are_proved(task: Task, ties: str, no_block: bool) -> None:
     claims = ["replay", "cost", "optimal", "lower_bound"]
     expected = ["infeasible"] if result.status == "infeasible" else claims
     assert verdicts(task, result) == dict.fromkeys(expected, "proved")
+
+
+@pytest.mark.parametrize("ties", TIES)
+def test_what_only_joint_actions_ask_for_tells_no_states_apart(ties: str) -> None:
+    """They are nobody's move.  What is free, and changes nothing else, was done first."""
+    actions = {"both h r": "!x -> goal", "free r": "-> x @ 0", "help r": "-> goal"}
+    game = task(agents="h r", human="h", goal="goal", actions=actions)
+    result = serendipity.plan(game, mode="assistance", ties=ties)
+    assert [decision.action for decision in result.policy.decisions] == ["help r"]
+    assert set(verdicts(game, result).values()) == {"proved"}
 
 
 def idle(result: Result, policy: Policy) -> Result:
