@@ -36,8 +36,7 @@ class VerifierLimits:
     weight: int = 2**60
     automaton_states: int = 2_000  # facts are left out of an automaton rather than pass this size
     states_a_value: int = 24  # the same, for each value of the variable with the most values
-    # of an automaton that is large enough: once a fact does not fit, no other is tried
-    automaton_moves: int = 100_000
+    automaton_moves: int = 100_000  # of an automaton so large that once a fact does not fit no other is tried
     many_actions: int = 5_000  # actions from which on small automata go before the large ones
     many_moves: int = 4_000  # moves from which on it pays to bound them whatever the epoch
     alone_states: int = 50_000  # of the human alone, in a program
@@ -45,9 +44,8 @@ class VerifierLimits:
     many_own_states: int = 1_000  # the same, before they are packed
     projected_states: int = 20_000  # of what only the human changes
     compared_actions: int = 3_000  # that are compared with each other, all with all, by the exhaustive method
-    # ends of windows whose cheapest completion takes too many epochs, after which others are not looked at
-    misfits: int = 500
-    packed_facts: int = 1_500  # of a task whose states are packed
+    misfits: int = 500  # ends of windows whose completion takes too many epochs, before others are left
+    packed_facts: int = 2_500  # of a task whose states are packed
     packed_actions: int = 30_000  # the same
     few_states: int = 20_000  # packed states after which better bounds are worth their time
     packed_states: int = 50_000_000  # of any search
@@ -59,8 +57,7 @@ class VerifierLimits:
     policies: int = 300_000  # groups of scenarios that are not told apart, and of what may be done in them
     moments: int = 200_000  # states and minds of people who replan
     several_plans: int = 3  # the human's optimal plans for which one search beside all of them pays
-    # coefficients of a program up to which HiGHS overruns its limit by some 20 ms at most
-    solved_here: int = 15_000
+    solved_here: int = 15_000  # coefficients of a program with which HiGHS is late by some 20 ms at most
     solver_seconds: float = 0.25  # for which HiGHS may work in this process: as long as one takes to start
     quick_seconds: float = 0.5  # for bounds over packed states, as long as few states may be enough
     quick_share: float = 0.1  # of the time left, for the same

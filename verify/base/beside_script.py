@@ -91,8 +91,9 @@ class AloneBesideScript(IndividualOptimum):
 
     # -- from action to action
 
-    def _key(self, state: State) -> int | State:
-        return super()._key(state) if is_calm(self._task, state) else state
+    def sight(self, state: State) -> int | State:
+        """See :class:`IndividualOptimum`; what happens anyway does, too."""
+        return super().sight(state) if is_calm(self._task, state) else state & self._matters
 
     @during(SEARCHING)
     def _least(self, state: State, below: int | None) -> int | None:
@@ -115,6 +116,12 @@ class AloneBesideScript(IndividualOptimum):
     @cached_property
     def _table(self) -> BitDistances:
         return self._without_others(self.own.facts - self._changed_by_others)
+
+    @cached_property
+    def _matters(self) -> State:
+        happens = (self._task.actions[i] for _, i in self._task.due)
+        asked = (fact for one in happens for fact in (*one.pre, *one.neg))
+        return self.own.facts.union(asked, awake(self._task))
 
     @cached_property
     def _changed_by_others(self) -> State:

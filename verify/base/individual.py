@@ -97,30 +97,26 @@ class IndividualOptimum:
         """What :meth:`optimum` weighs (see :class:`OwnActions`), with the same errors."""
         if self._task.goal.holds(state):
             return 0
-        key = self._key(state)
+        key = self.sight(state)
         if key not in self._known:
             enough = self._enough.get(key)
             weight = self._least(state, enough)
             self._known[key] = enough if weight is None else weight
         return self._known[key]
 
-    def _key(self, state: State) -> int | State:
-        """What a state is to the human."""
+    def sight(self, state: State) -> int | State:
+        """What makes a difference to the human alone in a state."""
         return self.own.bits.of(state)
 
     def suppose(self, plan: HumanPlan) -> None:
-        """Take a plan for optimal until a cheaper one is found: all that is dearer is not looked at.
-
-        Args:
-            plan: by ids of own actions; it can be executed from the initial state on, and reaches the goal.
-        """
-        self._enough[self._key(self._task.init)] = sum(self.own.weight(i) for i in plan)
+        """Take a plan from the initial state to the goal for optimal, until a cheaper one is found."""
+        self._enough[self.sight(self._task.init)] = sum(self.own.weight(i) for i in plan)
 
     def within(self, state: State, most: int) -> bool:
         """Whether the optimum from a state weighs no more than this; often easier to say."""
         if most < 0 or self._task.goal.holds(state):
             return most >= 0
-        key = self._key(state)
+        key = self.sight(state)
         if key not in self._known and self._above.get(key, -1) < most:
             weight = self._least(state, most + 1)
             if weight is None:
@@ -141,7 +137,7 @@ class IndividualOptimum:
         if self.weight(self._task.init) != rest:
             return
         for weight, state in zip((*weights, 0), states_of_pi_h(self._task, plan, self.deadline), strict=True):
-            self._known.setdefault(self._key(state), rest)
+            self._known.setdefault(self.sight(state), rest)
             rest -= weight
 
     @during(SEARCHING)

@@ -133,6 +133,10 @@ class OwnActions:
         ids = (i for fact in actions[action].add for each in due.get(fact, ()) for i in each)
         return next((i for i in ids if actions[i].participants == (self._task.human,)), None)
 
+    def heaviest(self, cost: Fraction) -> int:
+        """The most that a plan weighs which costs no more."""
+        return int(cost * self._unit) + self._least_cost - 1
+
     def split(self, weight: int) -> tuple[Fraction, int]:
         """Cost and length of a plan of a weight."""
         rest = weight % self._least_cost

@@ -16,8 +16,7 @@ from verify.base.individual import IndividualOptimum
 class OptimalPlans:
     """The human's optimal plans, from what the rule checker knows of their cost.
 
-    Every method but :meth:`cost_of` raises :class:`verify.base.undecided.TooManyStatesError` where that
-    problem is too large, and :class:`serendipity.model.LimitReachedError` at the deadline of ``alone``.
+    All but :meth:`cost_of` raise a TooManyStatesError, or a LimitReachedError at the deadline of ``alone``.
     """
 
     def __init__(self, task: Task, alone: IndividualOptimum | None = None) -> None:

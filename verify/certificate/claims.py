@@ -85,13 +85,10 @@ class Examiner:
     def optimal(self) -> Verdict:
         """No plan that the mode and its options allow has a lower objective, or the same at a lower cost."""
         score = self._score()
-        found = self._better(score)
-        if found is not None:
-            return "refuted", wording.BETTER, found
-        nothing = self.call.do_nothing
-        if nothing is not None and nothing < score:  # beyond max_cost, which pi_H is exempt from
+        verdict, nothing = self._unbeaten(score, wording.BETTER), self.call.do_nothing
+        if verdict[2] is None and nothing is not None and nothing < score:  # beyond max_cost, unlike pi_H
             return "refuted", wording.NOTHING_IS_BETTER, None
-        return "proved", self._none_better(score), None
+        return verdict
 
     def optimum_is_no_opportunity(self) -> Verdict:
         """A proved optimum costs no less than the answer without robots."""
@@ -106,10 +103,7 @@ class Examiner:
         if self._usual():
             nothing = call.do_nothing
             assert nothing is not None
-            found = self._better(nothing)
-            if found is not None:
-                return "refuted", wording.OPPORTUNITY, found
-            return "proved", self._none_better(nothing), None
+            return self._unbeaten(nothing, wording.OPPORTUNITY)
         best = best_plan(call)
         if best is not None and is_help(call, (best.objective, best.cost)):
             return "refuted", wording.OPPORTUNITY, best
@@ -235,8 +229,11 @@ class Examiner:
     def _amount(self, units: int) -> str:
         return f"{float(self.call.prices.cost(units)):.12g}"
 
-    def _none_better(self, score: Score) -> str:
-        return wording.no_better(self._amount(score[0]), tie=self.call.may_tie(score))
+    def _unbeaten(self, score: Score, refuted: str) -> Verdict:
+        found = self._better(score)
+        if found is not None:
+            return "refuted", refuted, found
+        return "proved", wording.no_better(self._amount(score[0]), tie=self.call.may_tie(score)), None
 
     def _describe(self, what: str, found: PricedPlan) -> str:
         cost, objective = self._amount(found.cost), self._amount(found.objective)

@@ -15,7 +15,7 @@ as one.
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from serendipity.model.errors import LIMITS
 from serendipity.model.options import MAX_EPOCH
 from verify.base.control import ALL, INSIDE, OWN, PREFIX, SUFFIX, Control, HumanControl, Leg
 from verify.base.due import filled
-from verify.base.execution import State, by_epoch, states_along
+from verify.base.execution import State
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant
 from verify.base.subproblem import EXACT, FREE, WINDOW, PricedPlan, Subproblem
@@ -40,8 +40,6 @@ from verify.packed.operators import FAR, Ints, OperatorTable, PackedOperator
 from verify.packed.problem import PackedProblem
 from verify.programs.effort import Minimum
 from verify.programs.mending import best_suffix, replay
-
-_NO_REPLAY: Final = "a plan of the exhaustive search does not replay"
 
 
 class OtherMethodError(UndecidedError):
@@ -336,29 +334,28 @@ class EpochSearch:
 
     def _complete_one_by_one(self, places: list[tuple[int, int]]) -> None:
         """The same beside a script, where the human's way depends on the epoch: one end after the other."""
+        alone = self._plans.alone
         for number, epoch in places:
-            layer = self._layers[number]
+            layer, hopeless = self._layers[number], set[int | State]()
             rests = self._robots_rest(layer.states) & (epoch < self._question.horizon)
             order = np.argsort(layer.paid, kind="stable")
             for row in order[rests[order]].tolist():
                 self._deadline.check()
-                if int(layer.paid[row]) > self._limit():
+                left = self._limit() - int(layer.paid[row])
+                if left < 0:
                     break
-                suffix = best_suffix(self._question, self._whole_state(number, row), epoch + 1, self._plans)
+                state, most = self._whole_state(number, row), self._question.prices.cost(left)
+                if alone.sight(state) in hopeless or not alone.within(state, alone.own.heaviest(most)):
+                    hopeless.add(alone.sight(state))
+                    continue
+                suffix = best_suffix(self._question, state, epoch + 1, self._plans)
                 if suffix is not None:
                     self._offer(number, row, epoch, suffix)
 
     def _whole_state(self, number: int, row: int) -> State:
-        """All facts that are true in a state of a layer."""
-        task, steps, strict = self._question.task, self._steps(number, row), self._question.options.strict
-        if self._beside_script:
-            steps = filled(task, steps, len(self._way(number, row)), strict=strict)
-        sets = by_epoch(steps)
-        epochs = (sets.get(epoch, ()) for epoch in range(1, max(sets, default=0) + 1))
-        states = states_along(task, epochs, strict=strict)
-        if states is None:
-            raise UndecidedError(_NO_REPLAY)
-        return states[-1]
+        """The facts that are true in a state of a layer, as far as any matters."""
+        constant = self._question.task.init - self._layout.place.keys()
+        return self._layout.facts_of(self._layers[number].states[row]) | constant
 
     def _way(self, number: int, row: int) -> list[tuple[int, int]]:
         """The layers, by number, that lead to a state of one of them, each with the row there, in order."""
@@ -385,7 +382,7 @@ class EpochSearch:
         if self._beside_script:
             steps = filled(question.task, steps, end, strict=question.options.strict)
         if replay(question.but(horizon=end), steps) is None:
-            raise UndecidedError(_NO_REPLAY)
+            raise UndecidedError("a plan of the exhaustive search does not replay")
         window = self._window(number, row)
         objective, cost = question.measure(steps, window)
         if question.most_cost is not None and cost > question.most_cost:

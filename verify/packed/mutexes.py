@@ -85,12 +85,13 @@ def _clique(seed: int, against: dict[int, int]) -> int:
     """A largest group with a fact, as greed finds it."""
     members, candidates = 1 << seed, against[seed]
     while candidates:
-        best = max(
-            (bit.bit_length() - 1 for bit in _each_bit(candidates)),
-            key=lambda fact: ((against[fact] & candidates).bit_count(), -fact),
-        )
-        members |= 1 << best
-        candidates &= against[best]
+        facts = [bit.bit_length() - 1 for bit in _each_bit(candidates)]
+        beside = [(against[fact] & candidates).bit_count() for fact in facts]
+        most = max(beside)
+        best = [fact for fact, count in zip(facts, beside, strict=True) if count == most]
+        for fact in best if most == len(facts) - 1 else best[:1]:  # who excludes all others stays the best
+            members |= 1 << fact
+            candidates &= against[fact]
     return members
 
 

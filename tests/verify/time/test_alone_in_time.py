@@ -92,6 +92,16 @@ def test_a_day_of_a_thousand_epochs_is_proved(seed: int, activities: int) -> Non
         assert serendipity.verify(home, wrong).verdict == "refuted"
 
 
+@pytest.mark.long
+def test_help_in_a_day_is_proved() -> None:
+    """Ends of windows were looked at one by one, each with all plans of the human's own from there on."""
+    home = day(3, 5)
+    right = serendipity.plan(home, discount="0.9")
+    assert right.opportunity
+    certificate = serendipity.verify(home, right)
+    assert certificate.verdict == "proved", certificate
+
+
 def test_plans_of_more_epochs_than_calls_may_be_nested_are_proved() -> None:
     """What is optimal was followed by a call for each epoch."""
     short, long = (
