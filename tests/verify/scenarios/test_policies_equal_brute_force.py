@@ -13,9 +13,13 @@ from serendipity.testing.oracle.scenarios import PolicyOptimum, PossibleGoal, be
 from tests.search.modes.goals.strategies import reachable_goals, rivals
 from tests.testing.oracle.test_scenarios_by_hand import Scenario
 from verify.base.optimal_plans import OptimalPlans
+from verify.base.undecided import UndecidedError
 from verify.calls.call import ExaminedCall
+from verify.programs.effort import Effort
+from verify.proofs.book import ProofWriter
 from verify.scenarios.measure import Measure
 from verify.scenarios.policies import Better, PolicySearch
+from verify.scenarios.program import refute_policies
 from verify.scenarios.proof import floor_of
 
 _OPTIONS = st.builds(
@@ -63,8 +67,17 @@ def test_the_least_value_is_that_of_brute_force(
 
 
 def require_least(calls: list[ExaminedCall], weights: list[Fraction], right: PolicyOptimum) -> None:
-    """Fail where the search finds another least value than brute force, or none just above it."""
-    measure = Measure(calls, weights, [floor_of(call) for call in calls])
+    """Fail where the search finds another least value than brute force, or none just above it.
+
+    Nor may what a proof says of all policies refute that one.
+    """
+    floors = [floor_of(call) for call in calls]
+    measure, plain = Measure(calls, weights, floors), Measure(calls, weights, floors, plain=True)
+    effort = Effort(method="program", proof=ProofWriter())
+    asked = [replace(call, effort=effort) for call in calls if call.horizon]
+    if asked:
+        with pytest.raises(UndecidedError):
+            refute_policies(asked, plain, plain.number(right.least) + 1)
 
     def better(than: int) -> Better | None:
         return PolicySearch(calls, measure).better(than)

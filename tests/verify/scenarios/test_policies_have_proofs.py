@@ -8,21 +8,10 @@ from typing import Any
 
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import serendipity
-from serendipity.model import Task
-from serendipity.testing.oracle.scenarios import best_policy
-from tests.search.modes.scenarios.strategies import options_over, scenarios
 from tests.verify.scenarios.studio import helped, studio
-from tests.verify.scenarios.test_policies_equal_brute_force import _call
 from tests.verify.scenarios.three_ways import Asked, agreed, calls_over_scenarios, is_small
-from verify.base.undecided import UndecidedError
-from verify.programs.effort import Effort
-from verify.proofs.book import ProofWriter
-from verify.scenarios.measure import Measure
-from verify.scenarios.program import refute_policies
-from verify.scenarios.proof import floor_of
 
 
 def _proof(folder: Path, **options: Any) -> tuple[Path, dict[str, Any]]:
@@ -87,26 +76,6 @@ def test_a_policy_that_is_not_the_best_has_no_proof(tmp_path: Path) -> None:
     assert serendipity.verify(studio(), claimed, proof=file).verdict == "undecided"
     assert not file.exists()
     assert serendipity.verify(studio(), claimed).verdict == "refuted"
-
-
-@pytest.mark.long
-@given(scenarios(), st.data())
-@settings(max_examples=10)
-def test_programs_leave_out_no_policy(drawn: tuple[Task, list[Any]], data: st.DataObject) -> None:
-    """What brute force finds is not refuted."""
-    task, found = drawn
-    options = data.draw(options_over(found))
-    if not is_small((task, found, options)):
-        return
-    horizon = int(options.horizon or max(len(one.plan) for one in found))
-    right = best_policy(task, options, found, horizon)
-    calls = [_call(task, options.but(horizon=horizon), one.goal, one.plan) for one in found]
-    measure = Measure(calls, [one.weight for one in found], [floor_of(call) for call in calls], plain=True)
-    effort = Effort(method="program", proof=ProofWriter())
-    with pytest.raises(UndecidedError):
-        refute_policies(
-            [replace(call, effort=effort) for call in calls], measure, measure.number(right.least) + 1
-        )
 
 
 @pytest.mark.long
