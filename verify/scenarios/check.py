@@ -209,7 +209,7 @@ def _expected(
     goals, read = [("", task.goal, 1.0)], dict[str, tuple[str, ...]]()
     if known is not None:
         goals = [(one.name, condition(task, one.goal), one.posterior) for one in known.goals if one.posterior]
-        read = {one.name: one.plan or () for one in known.goals} if known.noise and seen else {}
+        read = {one.name: one.plan or () for one in known.goals} if known.noise and known.explained else {}
     found, most = list[Scenario](), result.options.max_ties if watched else 1
     for name, goal, share in goals:
         all_plans = considered_plans(task, goal, seen, result.options, deadline)

@@ -283,6 +283,16 @@ def test_posteriors_of_dear_tasks_are_certified(unit: int) -> None:
         )
 
 
+def test_nothing_observed_with_noise() -> None:
+    """The plan of a reading need not be the canonical one, and was taken for it."""
+    ways = {"a h": "-> p @ 2", "b h": "-> p @ 2", "end h": "-> z", "lift r": "-> z"}
+    task = build(goal="p", actions=ways)
+    goals = [{"name": name, "goal": [name]} for name in "pz"]
+    assert (
+        serendipity.verify(task, serendipity.plan(task, goals=goals, noise="wrong=0.1")).verdict == "proved"
+    )
+
+
 @pytest.mark.long
 @given(rivals(), st.sampled_from(["wrong=0.1", "miss=0.2", "miss=0.3,wrong=0.2"]), st.data())
 @settings(max_examples=40)
