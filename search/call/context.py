@@ -16,7 +16,7 @@ from search.human.plan_graph import PlanGraph
 from search.human.strides import StridingPlanner, may_stride
 from search.packed.cost_vector import INFINITE_KEY, Weights
 from search.packed.joint_actions import JointAction, as_option
-from search.packed.operators import Operator, changed
+from search.packed.operators import Operator, asked_by, changed, union
 from search.packed.packed_task import PackedGoal
 from search.packed.packings import asked_facts, human_facts
 from search.packed.successor_generator import Successors
@@ -90,11 +90,12 @@ class SearchContext:
         """Lower bound on the number of the human's actions to ``G_H``."""
         return self.tables.human.steps(self.deadline)
 
-    @property
+    @cached_property
     def relevant(self) -> int:
-        """The fields that matter to the human alone, or to a goal."""
+        """The fields that matter to the human alone, to a goal, or to what happens without being chosen."""
         packed = self.packed
-        return packed.own_mask | packed.goal.mask | packed.robot_goal.mask | packed.at_rest.mask
+        goals = packed.goal.mask | packed.robot_goal.mask | packed.at_rest.mask
+        return packed.own_mask | goals | union(asked_by(op) for _, _, op in packed.due)
 
     @cached_property
     def alone(self) -> IndividualPlanner:

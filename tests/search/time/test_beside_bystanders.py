@@ -51,6 +51,20 @@ def test_robots_goals_that_a_bystander_reaches_once_the_human_is_done() -> None:
     )
 
 
+def test_what_robots_do_last_in_a_window_may_be_for_a_bystander() -> None:
+    """They borrow what the bystander needs after it, and bring it back."""
+    borrowed = task(
+        **AGENTS,
+        init="k",
+        goal="f",
+        actions={"walk h": "-> e", "jump h": "m e -> f", "go h": "e -> f @ 4"}
+        | {"take r": "-> m !k", "put r": "-> k", "use q": "k -> g"},
+    ).with_script(Script(people={"q": [(3, "use q")]}))
+    answer = serendipity.plan(borrowed, horizon=3)
+    assert answer.cost == best(borrowed, Options(horizon=3)).cost == 4
+    assert serendipity.verify(borrowed, answer).verdict == "proved"
+
+
 def blocked() -> Task:
     """A human whose only way is where a bystander is at first, under strict interference."""
     built = task(
