@@ -33,7 +33,7 @@ class OptimalPlanGraph:
     waits = False
 
     def __init__(self, task: Task, plans: OptimalPlans, most: int) -> None:
-        self._task = task
+        self._task, self._plans = task, plans
         self.moves: list[list[list[Move]]] = []
         worth = plans.alone.optimum(task.init)
         self.count = 0
@@ -63,8 +63,7 @@ class OptimalPlanGraph:
 
     def plans(self) -> Iterator[HumanPlan]:
         """All plans, the canonical one first."""
-        if self.count:
-            yield from self._continue((), 0)
+        return self._plans.plans()
 
     def named(self, names: tuple[str, ...]) -> HumanPlan | None:
         """The plan of these names; None if it is no optimal one."""
@@ -78,13 +77,6 @@ class OptimalPlanGraph:
                 return None
             plan, state = (*plan, chosen[0]), chosen[1]
         return plan
-
-    def _continue(self, plan: HumanPlan, state: int) -> Iterator[HumanPlan]:
-        if len(plan) == len(self):
-            yield plan
-            return
-        for i, after in self.moves[len(plan)][state]:
-            yield from self._continue((*plan, i), after)
 
 
 class OptimalPlanList(OptimalPlanGraph):
