@@ -67,8 +67,7 @@ class HumanExaminer(Examiner):
     @cached_property
     def _alone(self) -> int | None:
         """What it costs without help: ``pi_H``, or what the human does alone if that is less."""
-        costs = [cost for cost in (self.call.baseline, _idle_cost(self.call)) if cost is not None]
-        return min(costs, default=None)
+        return _without_help(self.call)
 
     def _none_for_less(self, cost: int, refuted: str) -> Verdict:
         found = _cheaper(self.call, cost)
@@ -88,8 +87,7 @@ def human_cost(call: ExaminedCall) -> Fraction | None:
         found = _cheaper(call, None)
         return None if found is None else call.prices.cost(found.cost)
     assert call.baseline is not None
-    idle = _idle_cost(call)
-    found = _cheaper(call, call.baseline if idle is None else min(idle, call.baseline))
+    found = _cheaper(call, _without_help(call))
     return call.prices.cost(call.baseline if found is None else found.cost)
 
 
@@ -126,17 +124,13 @@ def _out_of_reach(call: ExaminedCall, most: int | None) -> bool:
     return decide(question, effort, call.plans).status == "none"
 
 
-def _idle_cost(call: ExaminedCall) -> int | None:
-    """What the human pays alone; None if that does not reach all goals in time."""
-    if call.human_plan is None:
-        return None
-    played = play(
-        call.task,
-        call.options,
-        call.human_plan,
-        (),
-        human_model=call.options.human_model,
-        horizon=call.horizon,
-        plans=call.plans,
-    )
-    return call.prices.units(played.cost) if played.goals_hold else None
+def _without_help(call: ExaminedCall) -> int | None:
+    """The cost of ``pi_H``, or of what the human does alone, if that reaches all goals in time."""
+    costs = [] if call.baseline is None else [call.baseline]
+    if call.human_plan is not None:
+        human, plans = call.options.human_model, call.plans
+        played = play(
+            call.task, call.options, call.human_plan, (), human_model=human, horizon=call.horizon, plans=plans
+        )
+        costs += [call.prices.units(played.cost)] if played.goals_hold else []
+    return min(costs, default=None)

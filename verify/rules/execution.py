@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from serendipity.model import Condition
 from verify.rules.case import Case, RuleFault
 
 Rule = Callable[[Case], RuleFault | None]
@@ -42,16 +43,12 @@ def at_rest(case: Case) -> RuleFault | None:
 
 def human_goal(case: Case) -> RuleFault | None:
     """``G_H`` holds in the last state."""
-    if case.result.plan is None or case.task.goal.holds(case.replay.last):
-        return None
-    return RuleFault(f"the human's goal does not hold at the end: {_unmet(case, robots=False)}")
+    return _unmet(case, case.task.goal, "human's")
 
 
 def robots_goal(case: Case) -> RuleFault | None:
     """``G_R`` holds in the last state; since robots then rest, they are done before ``xi2``."""
-    if case.result.plan is None or not case.robots_goal or case.task.robot_goal.holds(case.replay.last):
-        return None
-    return RuleFault(f"the robots' goal does not hold at the end: {_unmet(case, robots=True)}")
+    return _unmet(case, case.task.robot_goal, "robots'") if case.robots_goal else None
 
 
 def individual(case: Case) -> RuleFault | None:
@@ -63,10 +60,9 @@ def individual(case: Case) -> RuleFault | None:
     return None
 
 
-def _unmet(case: Case, *, robots: bool) -> str:
-    goal = case.task.robot_goal if robots else case.task.goal
-    state = case.replay.last
-    facts = case.task.facts
-    unmet = [facts[f] for f in goal.positive if f not in state]
-    unmet += [f"not {facts[f]}" for f in goal.negative if f in state]
-    return ", ".join(unmet)
+def _unmet(case: Case, goal: Condition, whose: str) -> RuleFault | None:
+    if case.result.plan is None or goal.holds(case.replay.last):
+        return None
+    unmet, facts = goal.open(case.replay.last), case.task.facts
+    literals = [*(facts[f] for f in unmet.positive), *(f"not {facts[f]}" for f in unmet.negative)]
+    return RuleFault(f"the {whose} goal does not hold at the end: {', '.join(literals)}")
