@@ -138,8 +138,11 @@ def test_nobody_pays_whose_habits_are_known(task: Task, discount: str, seed: int
         goal = Condition(*(tuple(sorted(f for f, true in ids if true is want)) for want in (True, False)))
         aimed = task.with_goal(goal)
         for number, plan in enumerate(islice(human_plans(aimed), 2)):
-            starts = zip(aimed.starts_of(plan), (task.actions[i].name for i in plan), strict=True)
-            plans.append(_habit(f"{one['name']} {number}", 1, *starts) | {"goal": literals})
+            done = list(zip(aimed.starts_of(plan), (task.actions[i] for i in plan), strict=True))
+            steps, end = [(start, action.name) for start, action in done], aimed.epochs_of(plan)
+            if all(start + action.duration <= end for start, action in done) and end:
+                steps.append((end, "noop"))  # others bring the goal about
+            plans.append(_habit(f"{one['name']} {number}", 1, *steps) | {"goal": literals})
     try:
         _costs_nothing(task, human, dice, discount=discount, plans=plans)
     except (PlanError, serendipity.InputError):

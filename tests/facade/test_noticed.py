@@ -103,6 +103,16 @@ def test_who_is_moved_by_others_is_refused() -> None:
         serendipity.plan(task, discount="0.5", window_weight=0, noticed=True)
 
 
+@pytest.mark.parametrize("ties", ["fixed", "robust"])
+def test_who_has_left_their_plan_goes_on_with_what_they_begin(ties: str) -> None:
+    """What is due after it has a variant on their plan and one off it; the verifier looked at the first."""
+    ways = {"walk h": "-> b !a @ 3", "go h": "b -> c !b [2]", "end h": "c -> d", "jump h": "k -> c"}
+    help_ = {"carry h r": "-> b !a", "open r": "-> k"}
+    carried = build(agents="h r", human="h", init="a", goal="d", actions=ways | help_)
+    answer = serendipity.plan(carried, leave_free="nothing", noticed=True, ties=ties)
+    assert (answer.cost, serendipity.verify(carried, answer).verdict) == (3, "proved")
+
+
 def test_who_passes_by_is_in_nobodys_way() -> None:
     """The bot may work where Ann is on her way to, but not take what she takes up in that epoch."""
     actions = {

@@ -5,7 +5,7 @@ in which what an action asks or changes is at stake it is the same whenever the 
 soon as it can; and what changes nothing that others ask for or change begins as soon as that is possible.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 
 from serendipity.model import Condition, Deadline, GroundAction, Options, Task
@@ -131,10 +131,11 @@ class AloneBesideScript(IndividualOptimum):
         return frozenset(fact for one in theirs for fact in (*one.add, *one.delete))
 
     @cached_property
-    def _wholes(self) -> list[tuple[int, GroundAction, int, int]]:
-        """What the human may begin, by ids, each with all that is due after it."""
+    def _wholes(self) -> list[tuple[int, list[GroundAction], int, int]]:
+        """What the human may begin, by ids, each with all that is due after it, in all its ways."""
         chosen = (i for i in self._to_begin if i not in self._waiting)
-        return [(i, *self.own.whole(i)) for i in self.deadline.each(chosen)]
+        each = ((i, self.own.wholes(i)) for i in self.deadline.each(chosen))
+        return [(i, [whole[0] for whole in ways], *ways[0][1:]) for i, ways in each if ways]
 
     def graph(self) -> Graph:
         """See :class:`IndividualOptimum`; they are free there."""
@@ -151,10 +152,10 @@ class AloneBesideScript(IndividualOptimum):
             if here is not None and task.goal.holds(here):
                 yield here, epochs * costs[0], None
                 break
-        for i, whole, weight, length in self._wholes:
+        for i, ways, weight, length in self._wholes:
             if self._may_hold(Condition(task.actions[i].pre, task.actions[i].neg), state):
                 due = frozenset(state & task.due_for.keys())
-                begins, first_will_do = self._begins(due, i, length, whole)
+                begins, first_will_do = self._begins(due, i, length, ways)
                 epochs, here = 0, state
                 for begin in begins:
                     here, epochs = moments.after(here, begin - epochs), begin
@@ -170,11 +171,14 @@ class AloneBesideScript(IndividualOptimum):
         lacking = condition.open(state)
         return self._changed_by_others.issuperset((*lacking.positive, *lacking.negative))
 
-    def _begins(self, due: State, action: int, length: int, whole: GroundAction) -> tuple[list[int], bool]:
+    def _begins(
+        self, due: State, action: int, length: int, ways: Iterable[GroundAction]
+    ) -> tuple[list[int], bool]:
         """Epochs from now with which an action may have to begin; whether the first possible one will do."""
         if (due, action) not in self._known_begins:
-            sets = frozenset((*whole.add, *whole.delete))
-            stakes, begins, alone = sets.union(whole.pre, whole.neg), {0}, True
+            sets = frozenset(fact for whole in ways for fact in (*whole.add, *whole.delete))
+            stakes = sets.union(fact for whole in ways for fact in (*whole.pre, *whole.neg))
+            begins, alone = {0}, True
             for epoch, facts in self._moments.ahead(due):
                 if not facts.isdisjoint(stakes):
                     begins.update(epoch - before for before in (length - 1, length - 2, 0, -1))

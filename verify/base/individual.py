@@ -188,7 +188,7 @@ class IndividualOptimum:
             space = StateSpace(len(task.facts), task.init, task.actions, self.deadline)
             operators = [
                 PackedOperator(a.pre, a.neg, a.add, a.delete, weight)
-                for a, weight, _ in (own.whole(i) for i in self.deadline.each(own.ids))
+                for a, weight, _ in (whole for i in self.deadline.each(own.ids) for whole in own.wholes(i))
             ]
             goal = task.goal.positive, task.goal.negative
             return PackedProblem(space, own.facts, operators, goal, self.deadline)

@@ -1,6 +1,6 @@
 """The human's own actions as the checker's own search sees them."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -17,6 +17,10 @@ _LONGEST: Final = 10**9
 
 _EPOCH: Final = 1 << 20
 """What an epoch weighs in time, where so many epochs or actions are more than any plan has."""
+
+
+Whole = tuple[GroundAction, int, int]
+"""An action with all that is due after it, as one; its weight, and its epochs."""
 
 
 def one_after_the_other(first: GroundAction, second: GroundAction) -> GroundAction:
@@ -71,7 +75,7 @@ class OwnActions:
         self._least_cost = longest * (self._epoch or 1)
         self._unit = lcm(*denominators) * self._least_cost
         self._weights: dict[tuple[int, int], int] = {}
-        self._wholes: dict[int, tuple[GroundAction, int, int]] = {}
+        self._wholes: dict[int, tuple[Whole, ...]] = {}
 
     @property
     def private(self) -> frozenset[int]:
@@ -93,7 +97,8 @@ class OwnActions:
     @cached_property
     def operators(self) -> tuple[BitOperator, ...]:
         """The actions, each with all that is due after it, labelled by their ids."""
-        return tuple(self.bits.operator(*self.whole(i)[:2], i) for i in self._deadline.each(self.ids))
+        each = ((i, whole) for i in self._deadline.each(self.ids) for whole in self.wholes(i))
+        return tuple(self.bits.operator(*whole[:2], i) for i, whole in each)
 
     @cached_property
     def moves(self) -> BitOperators:
@@ -108,30 +113,36 @@ class OwnActions:
             self._weights[ratio] = int(cost * self._unit) + self._epoch
         return self._weights[ratio] + (action not in self._unchosen)
 
-    def whole(self, action: int) -> tuple[GroundAction, int, int]:
-        """An action with all that is due after it, as one; what that weighs, and its epochs.
+    def wholes(self, action: int) -> tuple[Whole, ...]:
+        """An action with all that is due after it, as one; several where what is due has variants.
 
         Nobody chooses anything while the human is at something (semantics 10.1), so the states between matter
         to nobody; one in which they are at it already is left by what is still due.
         """
-        chain: list[int] = []
-        part: int | None = action
-        while part is not None and part not in self._wholes:
-            chain.append(part)
-            part = self._following(part)
-        for one in reversed(chain):
-            ground, weight, epochs = self._task.actions[one], self.weight(one), 1
-            if part is not None:
-                rest = self._wholes[part]
-                ground, weight, epochs = one_after_the_other(ground, rest[0]), weight + rest[1], 1 + rest[2]
-            part, self._wholes[one] = one, (ground, weight, epochs)
+        parts = [action]
+        while parts:
+            following = self._following(parts[-1])
+            unknown = [part for part in following if part not in self._wholes]
+            if not unknown:
+                part = parts.pop()
+                self._wholes[part] = tuple(self._joined(part, following))
+            parts += unknown
         return self._wholes[action]
 
-    def _following(self, action: int) -> int | None:
-        """What is due for the human once an action is done."""
+    def _joined(self, action: int, following: Sequence[int]) -> Iterator[Whole]:
+        ground, weight = self._task.actions[action], self.weight(action)
+        if not following:
+            yield ground, weight, 1
+        for rest, heavier, epochs in (whole for part in following for whole in self._wholes[part]):
+            both = one_after_the_other(ground, rest)
+            if set(both.pre).isdisjoint(both.neg):
+                yield both, weight + heavier, epochs + 1
+
+    def _following(self, action: int) -> list[int]:
+        """What may be due for the human once an action is done."""
         due, actions = self._task.due_for, self._task.actions
         ids = (i for fact in actions[action].add for each in due.get(fact, ()) for i in each)
-        return next((i for i in ids if actions[i].participants == (self._task.human,)), None)
+        return [i for i in ids if actions[i].participants == (self._task.human,)]
 
     def heaviest(self, cost: Fraction) -> int:
         """The most that a plan weighs which costs no more."""

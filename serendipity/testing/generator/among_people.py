@@ -176,7 +176,8 @@ def _options(dice: Random, task: Task, people: int) -> dict[str, str]:
 def _is_moved(task: Task) -> bool:
     """Whether others change where the human is, which who has to notice help must do themselves."""
     located, human = surroundings(task).located, task.agents[task.human]
-    others = (action for action in task.actions if task.human not in action.participants)
+    deeds = (action for deed in task.script.deeds for action in deed.variants)
+    others = (action for action in (*task.actions, *deeds) if task.human not in action.participants)
     changed = (f for one in others for moment in one.moments for f in (*moment.add, *moment.delete))
     return any(located[f][0] == human for f in changed if f in located)
 

@@ -14,9 +14,9 @@ from serendipity.testing.call import Call
 from serendipity.testing.strategies.time import calls_in_time
 
 BUGS: dict[str, tuple[str, Any, int]] = {
-    "the human may leave what goes on": ("human", lambda *_: None, 0),
-    "nobody else goes on, or is there": ("others", lambda *_: [NOTHING], 1),
-    "all is over when the goal holds": ("may_end", lambda *_: True, 5),
+    "the human may leave what goes on": ("human", lambda *_: None, 12),
+    "nobody else goes on, or is there": ("others", lambda *_: [NOTHING], 8),
+    "all is over when the goal holds": ("may_end", lambda *_: True, 12),
 }
 """What is forgotten, and a seed with which a call that shows it is drawn soon."""
 
