@@ -135,7 +135,7 @@ class AloneBesideScript(IndividualOptimum):
         """What the human may begin, by ids, each with all that is due after it, in all its ways."""
         chosen = (i for i in self._to_begin if i not in self._waiting)
         each = ((i, self.own.wholes(i)) for i in self.deadline.each(chosen))
-        return [(i, [whole[0] for whole in ways], *ways[0][1:]) for i, ways in each if ways]
+        return [(i, [whole[0] for whole in ways], *ways[0][1:]) for i, ways in each]
 
     def graph(self) -> Graph:
         """See :class:`IndividualOptimum`; they are free there."""

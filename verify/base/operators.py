@@ -1,6 +1,6 @@
 """The human's own actions as the checker's own search sees them."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -125,18 +125,19 @@ class OwnActions:
             unknown = [part for part in following if part not in self._wholes]
             if not unknown:
                 part = parts.pop()
-                self._wholes[part] = tuple(self._joined(part, following))
+                self._wholes[part] = self._joined(part, following)
             parts += unknown
         return self._wholes[action]
 
-    def _joined(self, action: int, following: Sequence[int]) -> Iterator[Whole]:
+    def _joined(self, action: int, following: Sequence[int]) -> tuple[Whole, ...]:
         ground, weight = self._task.actions[action], self.weight(action)
-        if not following:
-            yield ground, weight, 1
-        for rest, heavier, epochs in (whole for part in following for whole in self._wholes[part]):
-            both = one_after_the_other(ground, rest)
-            if set(both.pre).isdisjoint(both.neg):
-                yield both, weight + heavier, epochs + 1
+        rests = [rest for part in following for rest in self._wholes[part]]
+        ways = [
+            (one_after_the_other(ground, rest), weight + more, epochs + 1) for rest, more, epochs in rests
+        ]
+        possible = [way for way in ways if set(way[0].pre).isdisjoint(way[0].neg)]
+        # One that can't be alone may be beside others, who change what it asks for meanwhile.
+        return tuple(possible or ways[:1]) if following else ((ground, weight, 1),)
 
     def _following(self, action: int) -> list[int]:
         """What may be due for the human once an action is done."""
