@@ -3,14 +3,36 @@
 *Optimal* is least cost, then fewest actions (semantics 1).
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from heapq import heappop, heappush
+from typing import TypeVar
 
 from serendipity.model import Condition, HumanPlan, Task
 from verify.base.due import onward, waited
 from verify.base.execution import State, idling
 from verify.base.individual import IndividualOptimum
+
+P = TypeVar("P")
+
+
+def along(
+    start: P, onward: Callable[[P], Iterable[tuple[int, P]]], is_end: Callable[[P], bool]
+) -> Iterator[HumanPlan]:
+    """Plans that lead from a place to an end, in the order of the actions that lead on from each."""
+    if is_end(start):
+        yield ()
+    plan, left = list[int](), [iter(onward(start))]
+    while left:
+        step = next(left[-1], None)
+        if step is None:
+            left.pop()
+            del plan[-1:]
+            continue
+        plan.append(step[0])
+        left.append(iter(onward(step[1])))
+        if is_end(step[1]):
+            yield tuple(plan)
 
 
 class OptimalPlans:
@@ -46,19 +68,7 @@ class OptimalPlans:
     def plans(self, state: State | None = None) -> Iterator[HumanPlan]:
         """All optimal plans from a state, or the initial one; the canonical one first."""
         start = self._task.init if state is None else state
-        if self.alone.weight(start) == 0:
-            yield ()
-        plan, ways = list[int](), [self.steps(start)]
-        while ways:
-            i, following = next(ways[-1], (None, start))
-            if i is None:
-                ways.pop()
-                del plan[-1:]
-                continue
-            plan.append(i)
-            ways.append(self.steps(following))
-            if self.alone.weight(following) == 0:
-                yield tuple(plan)
+        return along(start, self.steps, lambda here: self.alone.weight(here) == 0)
 
     def steps(self, state: State) -> Iterator[tuple[int, State]]:
         """Actions that start an optimal plan from ``state``, in string order, with their results.

@@ -6,7 +6,7 @@ from itertools import islice
 from serendipity.model import HumanPlan, Options, Task, UsageError
 from verify.base.due import after_waiting
 from verify.base.execution import State
-from verify.base.optimal_plans import OptimalPlans
+from verify.base.optimal_plans import OptimalPlans, along
 
 Move = tuple[int, int]
 """An action, and the number of the state behind it, in the next layer."""
@@ -33,7 +33,7 @@ class OptimalPlanGraph:
     waits = False
 
     def __init__(self, task: Task, plans: OptimalPlans, most: int) -> None:
-        self._task, self._plans = task, plans
+        self._task = task
         self.moves: list[list[list[Move]]] = []
         worth = plans.alone.optimum(task.init)
         self.count = 0
@@ -63,7 +63,7 @@ class OptimalPlanGraph:
 
     def plans(self) -> Iterator[HumanPlan]:
         """All plans, the canonical one first."""
-        return self._plans.plans()
+        return along((0, 0), self._onward, lambda place: place[0] == len(self)) if self.count else iter(())
 
     def named(self, names: tuple[str, ...]) -> HumanPlan | None:
         """The plan of these names; None if it is no optimal one."""
@@ -77,6 +77,13 @@ class OptimalPlanGraph:
                 return None
             plan, state = (*plan, chosen[0]), chosen[1]
         return plan
+
+    def _onward(self, place: tuple[int, int]) -> Iterator[tuple[int, tuple[int, int]]]:
+        """What optimal plans do after an epoch, from a state by number."""
+        epoch, state = place
+        return (
+            (i, (epoch + 1, after)) for i, after in (self.moves[epoch][state] if epoch < len(self) else ())
+        )
 
 
 class OptimalPlanList(OptimalPlanGraph):
