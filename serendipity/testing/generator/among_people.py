@@ -9,8 +9,6 @@ from serendipity.facade.call import options_from
 from serendipity.model import (
     Condition,
     GroundAction,
-    HumanPlan,
-    PlanError,
     Script,
     Task,
     UsageError,
@@ -20,6 +18,7 @@ from serendipity.model.task.actions import apply
 from serendipity.model.task.gate import is_bound
 from serendipity.testing.generator.calls import PlanCall
 from serendipity.testing.generator.families import AGENTS
+from serendipity.testing.generator.human_plans import with_times
 from serendipity.testing.generator.in_time import sighted, with_durations
 from serendipity.testing.generator.tasks import corridor, strips, varied
 from serendipity.testing.oracle import optimal_human_plan
@@ -77,7 +76,7 @@ def random_call_among(people: int, seed: int) -> PlanCall:
         options["horizon"] = str(task.epochs_of(plan) + early + dice.choice((0, 1, 2)))
     given = None
     if plan and "interference" not in options and dice.random() < _GIVEN:
-        given = _given(dice, task, plan)
+        given = with_times(task, plan, dice.choice((0, 0, 1)))
     return PlanCall(task, options, given, seed)
 
 
@@ -180,15 +179,3 @@ def _is_moved(task: Task) -> bool:
     others = (action for action in (*task.actions, *deeds) if task.human not in action.participants)
     changed = (f for one in others for moment in one.moments for f in (*moment.add, *moment.delete))
     return any(located[f][0] == human for f in changed if f in located)
-
-
-def _given(dice: Random, task: Task, plan: HumanPlan) -> tuple[tuple[int, str], ...] | None:
-    """The human's plan with its times, as they are or later; None where it does not work then."""
-    gap = dice.choice((0, 0, 1))
-    names = (task.actions[i].name for i in plan)
-    given = tuple((start + gap, name) for start, name in zip(task.starts_of(plan), names, strict=True))
-    try:
-        task.plan_from_names(given)
-    except PlanError:
-        return None
-    return given

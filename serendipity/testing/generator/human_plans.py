@@ -3,7 +3,7 @@
 from dataclasses import replace
 from random import Random
 
-from serendipity.model import HumanPlan, Task
+from serendipity.model import HumanPlan, PlanError, Task
 from serendipity.model.task.actions import apply
 from verify.base.optimal_plans import OptimalPlans
 
@@ -37,3 +37,16 @@ def plan_after_detour(dice: Random, task: Task) -> HumanPlan | None:
             state = apply(state, task.actions[plan[-1]])
     rest = OptimalPlans(replace(task, init=state)).canonical()
     return None if rest is None else (*plan, *rest)
+
+
+def with_times(
+    task: Task, plan: HumanPlan, gap: int, *, strict: bool = False
+) -> tuple[tuple[int, str], ...] | None:
+    """A plan with its times, so many epochs later; None: it comes too late, or is in a bystander's way."""
+    starts = (start + gap for start in task.starts_of(plan))
+    given = tuple(zip(starts, (task.actions[i].name for i in plan), strict=True))
+    try:
+        task.replay_alone(task.plan_from_names(given), strict=strict)
+    except PlanError:
+        return None
+    return given

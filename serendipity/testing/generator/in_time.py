@@ -7,8 +7,9 @@ from fractions import Fraction
 from random import Random
 from typing import Final
 
-from serendipity.model import Condition, GroundAction, PlanError, Script, Task, Timing
+from serendipity.model import Condition, GroundAction, Script, Task, Timing
 from serendipity.testing.generator.calls import PlanCall
+from serendipity.testing.generator.human_plans import with_times
 from serendipity.testing.generator.tasks import corridor, errands, random_task, varied
 from serendipity.testing.oracle import optimal_human_plan
 
@@ -53,13 +54,7 @@ def random_call_in_time(seed: int) -> PlanCall:
         options["horizon"] = dice.choice(("3", "4", "5"))
     given = None
     if plan is not None and dice.random() < 0.25:
-        gap = dice.choice((0, 0, 1, 2))
-        starts = (start + gap for start in task.starts_of(plan))
-        given = tuple(zip(starts, (task.actions[i].name for i in plan), strict=True))
-        try:
-            task.replay_alone(task.plan_from_names(given), strict="interference" in options)
-        except PlanError:  # it comes too late, or is in a bystander's way
-            given = None
+        given = with_times(task, plan, dice.choice((0, 0, 1, 2)), strict="interference" in options)
     if options["mode"] == "serendipity" and others.random() < _OBSERVANT:
         options |= {"human_model": "observant", "no_block": others.choice(("true", "true", "false"))}
     return PlanCall(task, options, given, seed)
