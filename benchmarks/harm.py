@@ -6,11 +6,12 @@ A sixth takes place in time, beside a script, and a sixth among two or three peo
 default.  The person is observant, local or told the plan, follows the canonical or any other of their optimal
 plans (who is local the first), and in a fifth of the runs robots fail or are slow.  Who has no plan alone is
 left out.  Bystanders have paid who can't do the rest of their plans, or do not have what they want, as they
-would with idle robots (semantics 12).
+would with idle robots (semantics 12), once the person is there with help and would be there alone.
 """
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from itertools import zip_longest
 from random import Random
 from typing import Any
 
@@ -74,9 +75,11 @@ def _bystanders_paid(task: Task, log: Iterable[Mapping[str, Any]]) -> bool:
     if not task.script.people or broken_script(task):
         return False
     world, epochs = World(task), [line["steps"] for line in log if "steps" in line]
-    rule = Rule(world, Options(nobody_pays=True), optimal_human_plan(task), len(epochs))
+    plan = optimal_human_plan(task) or ()
+    last = max(len(epochs), task.epochs_of(plan))
+    rule = Rule(world, Options(nobody_pays=True), plan, last)
     now: Moment | None = Moment(task.init)
-    for epoch, steps in enumerate(epochs, start=1):
+    for epoch, steps in zip_longest(range(1, last + 1), epochs, fillvalue=()):
         if now is not None:
             ways = [task.named[step["action"]] for step in steps]
             begun = [next((i for i in ids if task.actions[i].applicable(now.state)), ids[0]) for ids in ways]
