@@ -2,7 +2,7 @@
 
     python -m tests.verify.kinds
 
-prints the table of kinds.md beside it, of which docs/verification.md has ten rows.
+prints the table of kinds.md beside it.
 """
 
 from collections.abc import Iterator

@@ -17,17 +17,10 @@ from verify.calls.call import ExaminedCall
 from verify.certificate.humans import _out_of_reach
 from verify.certificate.reactions import cheapest_reaction
 
-_PAGE = Path(__file__).parents[2] / "docs" / "verification.md"
-
 
 @pytest.mark.long
-def test_the_table_is_what_each_method_says_of_each_kind_and_the_page_has_ten_rows_of_it() -> None:
-    written = Path(__file__).with_name("kinds.md").read_text()
-    assert table().strip() == written.strip()
-    head, _, *rows = written.splitlines()
-    page = _PAGE.read_text()
-    shown = page[page.index(head) :].split("\n\n", 1)[0].splitlines()[2:]
-    assert len(shown) == 10 and set(shown) <= set(rows)
+def test_the_table_is_what_each_method_says_of_each_kind() -> None:
+    assert table().strip() == Path(__file__).with_name("kinds.md").read_text().strip()
 
 
 def test_nothing_is_left_out_of_scope_that_a_proof_needs() -> None:
