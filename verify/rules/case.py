@@ -1,6 +1,6 @@
 """One result under examination: what several rules look at, worked out once."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -96,6 +96,13 @@ class Case:
             for i in chosen:
                 if i not in self.task.of_bystanders:
                     yield epoch, i
+
+    def first(
+        self, steps: Iterable[tuple[int, int]], wrong: Callable[[int], bool], message: str
+    ) -> RuleFault | None:
+        """What is wrong with the first of some steps with which something is; None if with none."""
+        found = next(((epoch, i) for epoch, i in steps if wrong(i)), None)
+        return None if found is None else RuleFault(message, found[0], self.name(found[1]))
 
     @cached_property
     def waiting(self) -> frozenset[int]:

@@ -53,11 +53,9 @@ def robots_goal(case: Case) -> RuleFault | None:
 
 def individual(case: Case) -> RuleFault | None:
     """In mode ``individual`` nobody but the human acts."""
-    if case.result.mode == "individual":
-        for epoch, i in case.steps():
-            if not case.own(i):
-                return RuleFault("not an action of the human alone", epoch, case.name(i))
-    return None
+    if case.result.mode != "individual":
+        return None
+    return case.first(case.steps(), lambda i: not case.own(i), "not an action of the human alone")
 
 
 def _unmet(case: Case, goal: Condition, whose: str) -> RuleFault | None:

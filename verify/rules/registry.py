@@ -4,8 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
+from serendipity.model import Window
 from verify.rules import bound, cost, execution, header, tied, window
 from verify.rules.case import Case, RuleFault
+from verify.rules.execution import Rule
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +17,16 @@ class NamedRule:
     name: str
     claim: str
     section: str
-    check: Callable[[Case], RuleFault | None]
+    check: Rule
+
+
+def _of_window(rule: Callable[[Case, Window], RuleFault | None]) -> Rule:
+    """A rule that is kept where there is no window."""
+
+    def check(case: Case) -> RuleFault | None:
+        return None if case.result.window is None else rule(case, case.result.window)
+
+    return check
 
 
 RULES: Final[tuple[NamedRule, ...]] = (
@@ -48,14 +59,14 @@ RULES: Final[tuple[NamedRule, ...]] = (
     NamedRule("ties-mean", "cost", "1", tied.mean),
     NamedRule("window-presence", "window", "3.1", window.window_presence),
     NamedRule("idle-answer", "window", "3.1", window.idle_answer),
-    NamedRule("window-range", "window", "3.1", window.window_range),
-    NamedRule("window-length", "window", "3.1", window.window_length),
-    NamedRule("joint-in-prefix", "window", "3.1", window.joint_in_prefix),
-    NamedRule("prefix", "window", "3.1", window.prefix),
-    NamedRule("robot-in-suffix", "window", "3.1", window.robot_in_suffix),
-    NamedRule("suffix-replan", "window", "3.1", window.suffix_replan),
-    NamedRule("suffix-subplan", "window", "3.1", window.suffix_subplan),
-    NamedRule("preserved-state", "window", "3.3", window.preserved_state),
+    NamedRule("window-range", "window", "3.1", _of_window(window.window_range)),
+    NamedRule("window-length", "window", "3.1", _of_window(window.window_length)),
+    NamedRule("joint-in-prefix", "window", "3.1", _of_window(window.joint_in_prefix)),
+    NamedRule("prefix", "window", "3.1", _of_window(window.prefix)),
+    NamedRule("robot-in-suffix", "window", "3.1", _of_window(window.robot_in_suffix)),
+    NamedRule("suffix-replan", "window", "3.1", _of_window(window.suffix_replan)),
+    NamedRule("suffix-subplan", "window", "3.1", _of_window(window.suffix_subplan)),
+    NamedRule("preserved-state", "window", "3.3", _of_window(window.preserved_state)),
     NamedRule("bound-and-objective", "lower_bound", "3.1", bound.bound_and_objective),
     NamedRule("bound-and-status", "lower_bound", "3.1", bound.bound_and_status),
 )

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from itertools import takewhile
 
+from serendipity.model import Window
 from verify.base.due import turns
 from verify.base.execution import facts_of_his, states_of_pi_h
 from verify.rules.case import Case, RuleFault
@@ -28,18 +29,13 @@ def idle_answer(case: Case) -> RuleFault | None:
     result = case.result
     if result.opportunity or result.plan is None or not result.options.windowed:
         return None
-    if not case.robots_goal:
-        for epoch, i in case.steps():
-            if not case.own(i):
-                return RuleFault("robots idle where there is no opportunity", epoch, case.name(i))
-    return _follows(case, last=max((*case.replay.sets, len(case.pi_h))))
+    words, steps = "robots idle where there is no opportunity", () if case.robots_goal else case.steps()
+    found = case.first(steps, lambda i: not case.own(i), words)
+    return found or _follows(case, last=max((*case.replay.sets, len(case.pi_h))))
 
 
-def window_range(case: Case) -> RuleFault | None:
+def window_range(case: Case, window: Window) -> RuleFault | None:
     """``1 <= xi1 <= |pi_H|`` and ``xi1 < xi2 <= T + 1``."""
-    window = case.result.window
-    if window is None:
-        return None
     if window.start > len(case.pi_h):
         return RuleFault(f"the window starts at {window.start}, after pi_H with its {len(case.pi_h)} actions")
     if case.epochs is not None and window.end > case.epochs + 1:
@@ -47,62 +43,45 @@ def window_range(case: Case) -> RuleFault | None:
     return None
 
 
-def window_length(case: Case) -> RuleFault | None:
+def window_length(case: Case, window: Window) -> RuleFault | None:
     """No window is longer than ``max_window``."""
-    window, most = case.result.window, case.result.options.max_window
-    if window is None or most is None or len(window) <= most:
+    most = case.result.options.max_window
+    if most is None or len(window) <= most:
         return None
     return RuleFault(f"the window has {len(window)} epochs, max_window is {most}")
 
 
-def prefix(case: Case) -> RuleFault | None:
+def prefix(case: Case, window: Window) -> RuleFault | None:
     """Before ``xi1`` the human follows ``pi_H`` (Def. 3.0), or does its actions (second 7b)."""
-    window = case.result.window
-    if window is None:
-        return None
     if not case.result.options.keep_prefix:
         return _follows(case, last=window.start - 1)
-    for epoch, i in _between(case, 1, window.start):
-        if case.own(i) and not case.planned(i):
-            return RuleFault("before the window the human does actions of pi_H only", epoch, case.name(i))
-    return None
+    words = "before the window the human does actions of pi_H only"
+    return case.first(_between(case, 1, window.start), lambda i: case.own(i) and not case.planned(i), words)
 
 
-def joint_in_prefix(case: Case) -> RuleFault | None:
+def joint_in_prefix(case: Case, window: Window) -> RuleFault | None:
     """Before ``xi1`` there is no joint action with the human."""
-    window = case.result.window
-    if window is None:
-        return None
-    for epoch, i in _between(case, 1, window.start):
-        if case.his(i) and not case.own(i):
-            return RuleFault(
-                f"a joint action with the human before xi1 = {window.start}", epoch, case.name(i)
-            )
-    return None
+    words = f"a joint action with the human before xi1 = {window.start}"
+    return case.first(_between(case, 1, window.start), lambda i: case.his(i) and not case.own(i), words)
 
 
-def robot_in_suffix(case: Case) -> RuleFault | None:
+def robot_in_suffix(case: Case, window: Window) -> RuleFault | None:
     """From ``xi2`` on no robot takes part in any action (eq. 8)."""
-    window = case.result.window
-    if window is None:
-        return None
-    for epoch, i in _between(case, window.end, None):
-        if not case.own(i):
-            return RuleFault(f"a robot acts although the window ended at {window.end}", epoch, case.name(i))
-    return None
+    words = f"a robot acts although the window ended at {window.end}"
+    return case.first(_between(case, window.end, None), lambda i: not case.own(i), words)
 
 
-def suffix_replan(case: Case) -> RuleFault | None:
+def suffix_replan(case: Case, window: Window) -> RuleFault | None:
     """Def. 2.0a: the human goes on with an optimal plan of their own, and waits only after its end."""
-    window, options = case.result.window, case.result.options
-    if window is None or options.suffix != "replan" or options.preservation != "kernel":
+    options = case.result.options
+    if options.suffix != "replan" or options.preservation != "kernel":
         return None
     rest = list(_between(case, window.end, None))
     for expected, (epoch, i) in enumerate(() if case.task.of_bystanders else rest, start=window.end):
         if epoch != expected:
             return RuleFault(f"the human waits in epoch {expected} before all is done", epoch, case.name(i))
     optimum = case.alone.optimum(case.replay.state_after(window.end - 1))
-    done = (sum(case.task.actions[i].cost for _, i in rest), _ended(case, rest) - window.end + 1)
+    done = (sum(case.task.actions[i].cost for _, i in rest), _ended(case, rest, window) - window.end + 1)
     if optimum is None or done <= optimum:
         return None
     return RuleFault(
@@ -112,31 +91,27 @@ def suffix_replan(case: Case) -> RuleFault | None:
     )
 
 
-def _ended(case: Case, rest: list[tuple[int, int]]) -> int:
+def _ended(case: Case, rest: list[tuple[int, int]], window: Window) -> int:
     """The epoch with which the human's part is over: their last action's, or that which brings the goal."""
-    assert case.result.window is not None
-    before = case.result.window.end - 1
+    before = window.end - 1
     last = rest[-1][0] if rest else before
     later = (t for t in sorted({before, *case.replay.states}) if t >= last)
     return next((t for t in later if case.task.goal.holds(case.replay.state_after(t))), last)
 
 
-def suffix_subplan(case: Case) -> RuleFault | None:
+def suffix_subplan(case: Case, window: Window) -> RuleFault | None:
     """Def. 2.0, eq. 9: the suffix is a subsequence of ``pi_H``."""
-    window, options = case.result.window, case.result.options
-    if window is None or options.suffix != "subplan" or options.preservation != "kernel":
+    options, rest = case.result.options, _between(case, window.end, None)
+    if options.suffix != "subplan" or options.preservation != "kernel":
         return None
     planned, begun = iter(case.pi_h), {i for _, i in case.task.due} | case.waiting
-    for epoch, i in _between(case, window.end, None):
-        if i not in begun and i not in planned:  # consumes the iterator: order and repetition count
-            return RuleFault("not a subsequence of pi_H", epoch, case.name(i))
-    return None
+    # looking for an action consumes the iterator: order and repetition count
+    return case.first(rest, lambda i: i not in begun and i not in planned, "not a subsequence of pi_H")
 
 
-def preserved_state(case: Case) -> RuleFault | None:
+def preserved_state(case: Case, window: Window) -> RuleFault | None:
     """Def. 3.1 read literally: the state entails ``delta(I, pi_H[1..j])``, then ``pi_H[j+1..]``."""
-    window, options = case.result.window, case.result.options
-    if window is None or options.preservation != "state":
+    if case.result.options.preservation != "state":
         return None
     task, end, deadline = case.task, window.end, case.alone.deadline
     rest = tuple(i for _, i in _between(case, end, None))
