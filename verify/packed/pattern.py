@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import Deadline
+from verify.packed.edges import distances
 from verify.packed.layout import PackedLayout, Words
 from verify.packed.operators import FAR, Ints, OperatorTable, Test
 
@@ -93,26 +94,9 @@ class Pattern:
         Args:
             weights: of each class of operators.
         """
-        distance = np.full(self.size, FAR)
-        distance[goals] = 0
-        order = np.argsort(self.target, kind="stable")
-        source, label = self.source[order], self.label[order]
-        start = np.searchsorted(self.target[order], np.arange(self.size + 1))
-        weight = weights[label]
-        changed = goals
-        while len(changed):  # Bellman and Ford, from what has changed
-            self._deadline.check()
-            first = start[changed]
-            sizes = start[changed + 1] - first
-            ends = np.cumsum(sizes)
-            moves = np.arange(int(ends[-1])) - np.repeat(ends - sizes - first, sizes)
-            totals = weight[moves] + np.repeat(distance[changed], sizes)
-            before = source[moves]
-            better = totals < distance[before]
-            before, totals = before[better], totals[better]
-            np.minimum.at(distance, before, totals)
-            changed = np.unique(before)
-        return distance
+        ends = np.full(self.size, FAR)
+        ends[goals] = 0
+        return distances((self.target, self.source, weights[self.label]), ends, int(FAR), self._deadline)
 
     def used(self, distance: Ints, kinds: int) -> Ints:
         """Of each class of operators what the distances make use of, at most its weight."""

@@ -5,70 +5,18 @@ Literals are numbers: ``f`` says that a fact is true, ``f`` plus the number of f
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import chain, pairwise
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from serendipity.model import Deadline
+from verify.packed.edges import NOTHING, Rows
+from verify.packed.operators import Ints
 from verify.programs.agents.product import Move
 from verify.programs.promising.team import TeamMoves
 
-Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
-
-_NOTHING: Final[Ints] = np.zeros(0, np.int64)
-
-
-@dataclass(frozen=True, slots=True)
-class Rows:
-    """Lists of different lengths, one after the other.
-
-    Attributes:
-        start: where each list starts, and where the last one ends.
-        items: what is in them.
-    """
-
-    start: Ints
-    items: Ints
-
-    @classmethod
-    def of(cls, lists: Sequence[Sequence[int]]) -> "Rows":
-        """From lists."""
-        sizes = np.fromiter(map(len, lists), np.int64, len(lists))
-        items = np.fromiter(chain.from_iterable(lists), np.int64, int(sizes.sum()))
-        return cls(np.concatenate(([0], np.cumsum(sizes))), items)
-
-    @classmethod
-    def by(cls, keys: Ints, count: int, items: Ints | None = None) -> "Rows":
-        """From pairs of a key below ``count`` and an item; without items these are the pairs' numbers."""
-        order = np.argsort(keys, kind="stable")
-        start = np.concatenate(([0], np.cumsum(np.bincount(keys, minlength=count))))
-        return cls(start, order if items is None else items[order])
-
-    def keys(self) -> Ints:
-        """The list that each item is in."""
-        return np.repeat(np.arange(len(self.start) - 1), np.diff(self.start))
-
-    def at(self, keys: Ints) -> Ints:
-        """The items of some lists, one after the other."""
-        first = self.start[keys]
-        sizes = self.start[keys + 1] - first
-        total = int(sizes.sum())
-        if not total:
-            return _NOTHING
-        ends = np.cumsum(sizes)
-        return self.items[np.repeat(first - ends + sizes, sizes) + np.arange(total)]
-
-    def most(self, values: Ints) -> Ints:
-        """For each list the largest of its items' values; 0 for an empty one."""
-        found = np.zeros(len(self.start) - 1, np.int64)
-        some = np.flatnonzero(np.diff(self.start))
-        if len(some):
-            found[some] = np.maximum.reduceat(values[self.items], self.start[some])
-        return found
 
 
 class Actions:
@@ -93,11 +41,8 @@ class Actions:
         self.changes = self._literals([each.add for each in ground], [each.delete for each in ground])
         self.participants = self._rows([each.participants for each in ground])
         self.joint: Mask = np.diff(self.participants.start) > 1
-        true = np.zeros(self.facts, bool)
-        true[list(task.init)] = True
+        true, needed = which(task.init, self.facts), which(team.needed, self.facts)
         self.initially: Mask = np.concatenate((true, ~true))
-        needed = np.zeros(self.facts, bool)
-        needed[list(team.needed)] = True
         self.needed: Mask = np.concatenate((needed, needed))
 
     def _rows(self, lists: Sequence[Sequence[int]]) -> Rows:
@@ -159,35 +104,6 @@ class Arcs:
         moves = list(zip(mine.action.tolist(), (mine.target - first).tolist(), strict=True))
         start = np.searchsorted(mine.source, np.arange(first, end + 1)).tolist()
         return [moves[a:b] for a, b in pairwise(start)]
-
-
-def distances(
-    edges: tuple[Ints, Ints, Ints], values: Ints, far: int, deadline: Deadline, limit: int | None = None
-) -> Ints:
-    """Least distances in a graph, from nodes that have one; all nodes of one distance are looked at at once.
-
-    Args:
-        edges: where each starts, where it leads, and what it weighs.
-        values: for each node the distance that it starts with, or ``far``.
-        far: stands for no way.
-        limit: a node that is further is not looked at; None: each is that there is a way to.
-    """
-    values = values.copy()
-    source, target, weight = edges
-    leaving = Rows.by(source, len(values))
-    seen = np.zeros(len(values), bool)
-    most = far - 1 if limit is None else limit
-    while True:
-        deadline.check()
-        now = _least(values, seen, far)
-        if not len(now):
-            return values
-        seen[now] = True
-        out = leaving.at(now)
-        after = target[out]
-        total = values[now[0]] + weight[out]
-        kept = total <= most
-        np.minimum.at(values, after[kept], total[kept])
 
 
 class Ways:
@@ -265,7 +181,7 @@ def _least(values: Ints, seen: Mask, far: int) -> Ints:
     """The nodes of least value that have not been seen."""
     open_values = np.where(seen, far, values)
     least = open_values.min(initial=far)
-    return _NOTHING if least >= far else np.flatnonzero(open_values == least)
+    return NOTHING if least >= far else np.flatnonzero(open_values == least)
 
 
 def which(ids: Iterable[int], count: int) -> Mask:

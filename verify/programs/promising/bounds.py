@@ -18,7 +18,9 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import Deadline
-from verify.programs.promising.arrays import Actions, Arcs, Ints, Mask, Rows
+from verify.packed.edges import Rows
+from verify.packed.operators import Ints
+from verify.programs.promising.arrays import Actions, Arcs, Mask
 
 NEVER: Final = -1
 """Of no use, however little was spent."""

@@ -26,8 +26,10 @@ from typing import Final
 import numpy as np
 
 from verify.limits import limits
+from verify.packed.edges import distances
+from verify.packed.operators import Ints
 from verify.programs.agents.product import Move
-from verify.programs.promising.arrays import Actions, Arcs, Ints, Mask, Ways, distances, which
+from verify.programs.promising.arrays import Actions, Arcs, Mask, Ways, which
 from verify.programs.promising.bounds import NEVER, Spending, Use
 from verify.programs.promising.team import TeamMoves
 
@@ -164,8 +166,7 @@ class _Moves:
         deadline = team.deadline
         nobody = np.zeros(self._count, bool)
         epochs = Spending(self._actions, arcs, self._everybody, self._ones, nobody, deadline)
-        offered = nobody.copy()
-        offered[arcs.action[arcs.agent == human]] = True
+        offered = which(arcs.action[arcs.agent == human], self._count)
         spent = Spending(self._actions, arcs, self._robots, self._by_robots, offered, deadline)
         costs = self._judged(spent)
         both = [(costs, self._levels(costs, costs, offered))]
@@ -259,9 +260,7 @@ class _Moves:
 
     def _ends(self) -> Ints:
         """0 for the human's states in which a plan may end, ``far`` for others."""
-        goal = np.full(self._arcs.states, self._team.far)
-        goal[self._arcs.first[self._human] + np.array(sorted(self._team.finals[self._human]), np.int64)] = 0
-        return goal
+        return self._of_his(dict.fromkeys(self._team.finals[self._human], 0), self._team.far)
 
     def _fewest(self, mask: Mask) -> Ints:
         """For each state of the human's the fewest actions to the end, over some moves."""
