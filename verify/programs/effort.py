@@ -119,12 +119,9 @@ class Effort:
     calls: list[SolverCall] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        if self.method not in METHODS:
-            raise UsageError(f"method: expected one of {', '.join(METHODS)}, got {self.method!r}")
-        if self.encoding not in tuple(ENCODINGS):
-            raise UsageError(f"encoding: expected one of {', '.join(ENCODINGS)}, got {self.encoding!r}")
-        if self.solver not in SOLVERS:
-            raise UsageError(f"solver: expected one of {', '.join(SOLVERS)}, got {self.solver!r}")
+        for name, known in (("method", METHODS), ("encoding", tuple(ENCODINGS)), ("solver", SOLVERS)):
+            if getattr(self, name) not in known:
+                raise UsageError(f"{name}: expected one of {', '.join(known)}, got {getattr(self, name)!r}")
 
     @property
     def size(self) -> dict[str, int]:

@@ -78,8 +78,8 @@ class AutomataEncoding:
         self.question, self._shared, self._control = question, shared, control
         self.deadline = question.deadline
         self.setting: NetworkSetting | None = None
-        expected = expected_states(question)
-        part = None if shared else relevant_part(question, frozenset().union(*expected))
+        self._expected = expected_states(question)
+        part = None if shared else relevant_part(question, frozenset().union(*self._expected))
         if part is None and not pruned:
             part = whole_task(question)
         if part is None:
@@ -90,23 +90,21 @@ class AutomataEncoding:
         with during("building the agents' automata"):
             owner = private_facts(question.task, part, self.deadline)
             if pruned:
-                few = self._with_few_facts(part, owner, expected)
+                few = self._with_few_facts(part, owner)
                 if few is None:
                     return
                 part = few
             machines = automata(question.task, part, self._groups, self.deadline, owner)
-        if pruned and not self._keep_promising(part, machines, expected):
+        if pruned and not self._keep_promising(part, machines):
             return
         with during("building the agents' networks"):
-            setting = self._setting(part, machines, expected)
+            setting = self._setting(part, machines)
         doing = "pruning" if pruned else "unrolling"
         with during(f"{doing} the agents' automata over {question.horizon} epochs"):
             if prune(setting) if pruned and uses("arc-pruning") else unroll(setting):
                 self.setting = setting
 
-    def _with_few_facts(
-        self, part: Relevant, owner: Mapping[int, int], expected: tuple[frozenset[int], ...]
-    ) -> Relevant | None:
+    def _with_few_facts(self, part: Relevant, owner: Mapping[int, int]) -> Relevant | None:
         """What small automata leave of many actions; None if there is no plan within the limits."""
         if len(part.actions) <= limits().many_actions or not uses("few-facts"):
             return part
@@ -116,7 +114,7 @@ class AutomataEncoding:
             machines = small.turn(part)
             if machines is None:
                 break
-            if not self._keep_promising(part, machines, expected):
+            if not self._keep_promising(part, machines):
                 return None
             left = part.only(_offered(task, machines, self.deadline))
             worth = any(
@@ -182,14 +180,12 @@ class AutomataEncoding:
         talk = any(question.prices.talk[i] for i in task.human_actions)
         return len(costs) > 1 or 0 in costs or talk or bool(task.robot_goal or task.due)
 
-    def _setting(
-        self, part: Relevant, machines: tuple[Automaton, ...], expected: tuple[frozenset[int], ...]
-    ) -> NetworkSetting:
+    def _setting(self, part: Relevant, machines: tuple[Automaton, ...]) -> NetworkSetting:
         question = self.question
         task = question.task
-        wanted_true, wanted_false = self._wanted(part, expected)
+        wanted_true, wanted_false = self._wanted(part)
         weights = self._weights()
-        control = self._control(question, expected)
+        control = self._control(question, self._expected)
         networks: list[Network] = []
         for agent, machine in enumerate(machines):
             if agent == task.human:
@@ -214,22 +210,19 @@ class AutomataEncoding:
             bounds=distances(machines[task.human], weights[task.human], finals[task.human], self.deadline),
         )
 
-    def _wanted(
-        self, part: Relevant, expected: tuple[frozenset[int], ...]
-    ) -> tuple[frozenset[int], frozenset[int]]:
+    def _wanted(self, part: Relevant) -> tuple[frozenset[int], frozenset[int]]:
         """Facts that a goal, or a state to be preserved, wants true, and those that a goal wants false."""
         goal = self.question.goal
-        return frozenset(goal.positive).union(*expected) & part.facts, part.facts.intersection(goal.negative)
+        true = frozenset(goal.positive).union(*self._expected)
+        return true & part.facts, part.facts.intersection(goal.negative)
 
-    def _keep_promising(
-        self, part: Relevant, machines: tuple[Automaton, ...], expected: tuple[frozenset[int], ...]
-    ) -> bool:
+    def _keep_promising(self, part: Relevant, machines: tuple[Automaton, ...]) -> bool:
         """Drop moves of the automata that are on no plan within the limits; False if there is no plan."""
         task = self.question.task
         if task.of_bystanders or awake(task):
             return True  # bystanders move whether it pays or not, and so does the human where waiting costs
         question, prices = self.question, self.question.prices
-        wanted_true, wanted_false = self._wanted(part, expected)
+        wanted_true, wanted_false = self._wanted(part)
         going_on = [m.agent for m in machines if self._goes_on(part, m, wanted_true | wanted_false)]
         window = prices.epoch if question.rule == WINDOW else 0
         with during("looking for moves of the agents that may pay"):

@@ -21,10 +21,8 @@ WAIT: Final = -1
 NOTHING: Final[frozenset[int]] = frozenset()
 
 Arc = tuple[int, int, int, int, frozenset[int]]
-SOURCE: Final = 0
-TARGET: Final = 1
 ACTION: Final = 2
-"""Where an arc has its nodes and its action; tuples, since named ones take five times as long to make."""
+"""Where an arc has its action; arcs are tuples, since named ones take five times as long to make."""
 
 
 @dataclass(slots=True)

@@ -159,12 +159,8 @@ class NetworkProgram:
                     truth = self.facts.truth(f, epoch - 1)
                     if not truth.is_zero:
                         terms = dict(truth.terms)
-                        for i in variants:
-                            terms = (
-                                plus(terms, self.flows.action(i, epoch), -1)
-                                if i in self.flows.owner
-                                else terms
-                            )
+                        for i in filter(self.flows.owner.__contains__, variants):
+                            terms = plus(terms, self.flows.action(i, epoch), -1)
                         self.model.add(terms, "<=", -truth.constant)
 
     def _exclude(self, epoch: int, deleters: list[int], adders: list[int]) -> None:

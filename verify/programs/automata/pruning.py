@@ -14,7 +14,7 @@ from collections import defaultdict
 from collections.abc import Container, Mapping, Sequence
 
 from verify.programs.automata.forward import Forward
-from verify.programs.automata.network import SOURCE, TARGET, WAIT, Arc, actions_of
+from verify.programs.automata.network import WAIT, Arc, actions_of
 from verify.programs.automata.setting import NetworkSetting
 
 MOST_ROUNDS = 6
@@ -34,21 +34,11 @@ def unroll(setting: NetworkSetting) -> bool:
     while count != (left := _arcs(setting)):
         count = left
         for k, network in enumerate(setting.networks):
-            if network.open_end:
-                _drop_dead_ends(setting, forward, k)
+            if network.open_end:  # where nothing limits plans, all its paths are within what fits the horizon
+                _open_backward(setting, forward, k, 0, range(1, setting.horizon + 1))
         forward.filter()
     setting.last = frozenset(ends(setting, forward, setting.task.human))
     return True
-
-
-def _drop_dead_ends(setting: NetworkSetting, forward: Forward, k: int) -> None:
-    """Drop the arcs from which no way leads to an end."""
-    network, after = setting.networks[k], set(ends(setting, forward, k))
-    for epoch in range(setting.horizon, 0, -1):
-        arcs = setting.deadline.each(network.layers[epoch - 1])
-        kept = [arc for arc in arcs if arc[TARGET] in after]
-        network.layers[epoch - 1] = kept
-        after = {arc[SOURCE] for arc in kept}
 
 
 def _arcs(setting: NetworkSetting) -> int:
