@@ -111,7 +111,7 @@ class HelpBesidePlans:
     def _prepare(self, question: Subproblem, part: Relevant, *, bounded: bool) -> None:
         self._question, self._deadline = question, question.deadline
         team = team_problem(question, part, bounded=bounded)
-        self._problem = team.problem
+        self._problem, self._start = team.problem, team.start
         self._layout = self._problem.layout
         table = OperatorTable(self._layout, team.singles)
         strict = question.options.strict
@@ -136,9 +136,7 @@ class HelpBesidePlans:
 
     def _prefixes(self) -> None:
         """All strands, epoch by epoch, and the states that windows open in."""
-        start = self._problem.pack([self._question.task.init])
-        assert start is not None, "the initial state is reached"
-        strands = [_Strand(0, Front(start, np.zeros(1, np.int64)))]
+        strands = [_Strand(0, Front(self._start, np.zeros(1, np.int64)))]
         for epoch in range(len(self._graph)):
             self._strands.append(strands)
             self._openings.append(self._merged([strand.front for strand in strands]))

@@ -123,15 +123,13 @@ class EpochSearch:
         return Minimum("undecided", self._best, bound, reason)
 
     def _run(self) -> Minimum:
-        start = self._problem.pack([self._question.task.init])
-        assert start is not None, "the initial state is reached"
-        least_left = int(self._problem.bounds(start)[0])
+        least_left = int(self._problem.bounds(self._whole.start)[0])
         if least_left >= FAR:
             return Minimum("none")
         self._known = least_left + self._epoch
-        if self._question.rule == FREE and self._none_without_epochs(start):
+        if self._question.rule == FREE and self._none_without_epochs():
             return Minimum("none")
-        ends = self._all_epochs(first(start, len(self._team.order)))
+        ends = self._all_epochs()
         for extra, places in ends.items():
             self._complete(places, extra)
         return Minimum("none") if self._best is None else Minimum("found", self._best, self._best.objective)
@@ -140,9 +138,7 @@ class EpochSearch:
         if self._question.task.due:
             raise OtherMethodError("what goes on by itself is not searched for without a horizon")
         self._most, task = self._table.far, self._question.task
-        start = self._problem.pack([task.init])
-        assert start is not None, "the initial state is reached"
-        self._all_epochs(first(start, len(self._team.order)))
+        self._all_epochs()
         last = len(self._layers) - 1
         if last < self._question.horizon:
             return Minimum("none")
@@ -172,10 +168,10 @@ class EpochSearch:
         assert self._layout.place == found.layout.place, "the same facts"
         return found
 
-    def _none_without_epochs(self, start: Words) -> bool:
+    def _none_without_epochs(self) -> bool:
         """True if there is no plan even if epochs did not count: one action after the other."""
         below = (self._limit_with(0) if self._talk is None else self._limit()) + 1
-        search, found = self._problem.search(start, np.zeros(1, np.int64), below)
+        search, found = self._problem.search(self._whole.start, np.zeros(1, np.int64), below)
         self.states += search.states
         if found is not None:
             self._known = search.paid(found)
@@ -192,9 +188,10 @@ class EpochSearch:
 
     # -- epochs
 
-    def _all_epochs(self, begin: EpochLayer) -> dict[int, list[tuple[int, int]]]:
+    def _all_epochs(self) -> dict[int, list[tuple[int, int]]]:
         """All layers; the ends of windows after which the human replans, as layers and epochs, by extra."""
-        self._layers, self._stages = [begin], [Stage(self._control.start)]
+        self._layers.append(first(self._whole.start, len(self._team.order)))
+        self._stages.append(Stage(self._control.start))
         if self._endless:
             self._end(0, 0)
         here = [0]

@@ -7,6 +7,7 @@ from serendipity.model import Deadline, GroundAction, Task
 from verify.base.execution import fits
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Subproblem
+from verify.packed.layout import Words
 from verify.packed.operators import PackedOperator
 from verify.packed.problem import PackedProblem, StateSpace
 
@@ -77,6 +78,7 @@ class TeamProblem:
         singles: the relevant actions as operators, in their order.
         sets: the actions that each operator of the problem stands for.
         goal: facts that have to be true, and false, in the end.
+        start: the initial state.
     """
 
     space: StateSpace
@@ -84,6 +86,7 @@ class TeamProblem:
     singles: list[PackedOperator]
     sets: list[tuple[int, ...]]
     goal: tuple[tuple[int, ...], tuple[int, ...]]
+    start: Words
 
 
 def team_space(question: Subproblem, part: Relevant) -> tuple[StateSpace, list[tuple[int, ...]]]:
@@ -107,7 +110,9 @@ def team_problem(question: Subproblem, part: Relevant, *, bounded: bool, exact: 
     goal = question.goal.positive, question.goal.negative
     problem = PackedProblem(space, part.facts, operators, goal, deadline, bounded=bounded, exact=exact)
     kept = [one for one, operator in zip(sets, operators, strict=True) if space.pairs.possible(operator.pre)]
-    return TeamProblem(space, problem, operators[: len(part.actions)], kept, goal)
+    start = problem.pack([task.init])
+    assert start is not None, "the initial state is reached"
+    return TeamProblem(space, problem, operators[: len(part.actions)], kept, goal, start)
 
 
 def as_operator(together: Iterable[GroundAction], weight: int) -> PackedOperator:

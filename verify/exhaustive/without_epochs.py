@@ -54,11 +54,8 @@ def _cheapest(question: Subproblem, team: TeamProblem) -> Minimum:
     below = None if most is None else most + 1
     known: int | None = None
     try:
-        problem = team.problem
-        start = problem.pack([question.task.init])
-        assert start is not None, "the initial state is reached"
-        known = int(problem.bounds(start)[0])
-        search, found = problem.search(start, np.zeros(1, np.int64), below)
+        known = int(team.problem.bounds(team.start)[0])
+        search, found = team.problem.search(team.start, np.zeros(1, np.int64), below)
     except LIMITS as limit:
         return Minimum("undecided", bound=known, reason=why(limit, "searching joint plans"))
     except SumTooLargeError:
