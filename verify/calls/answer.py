@@ -44,15 +44,6 @@ class CallAnswer:
             return None
         return self.call.prices.cost(self.call.baseline) - self.cost if self.opportunity else Fraction(0)
 
-    @property
-    def reason(self) -> str | None:
-        """Why there is no plan, or None."""
-        if self.cost is not None:
-            return None
-        if self.call.human_plan is None and self.call.needs_pi_h:
-            return "no-human-plan"
-        return "no-plan" if self.call.horizon == INFINITE else "no-plan-within-horizon"
-
 
 def answer(call: ExaminedCall) -> CallAnswer:
     """Solve a call.

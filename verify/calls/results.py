@@ -1,5 +1,6 @@
 """Answers of the verifier in the model's form."""
 
+from dataclasses import replace
 from typing import Any
 
 from serendipity.model import PlanStep, Result, Step
@@ -9,6 +10,7 @@ from verify.base.execution import plan_step, shares
 from verify.base.subproblem import PricedPlan
 from verify.calls.answer import CallAnswer
 from verify.calls.call import ExaminedCall
+from verify.rules.header import infeasible_because
 
 
 def plan_steps(call: ExaminedCall, steps: tuple[Step, ...]) -> tuple[PlanStep, ...]:
@@ -41,7 +43,8 @@ def to_result(answer: CallAnswer) -> Result:
     if answer.found is not None:
         return found_result(call, answer.found, opportunity=answer.opportunity)
     if answer.cost is None:
-        return Result(status="infeasible", reason=answer.reason, **_header(call))
+        said = Result(status="infeasible", **_header(call))
+        return replace(said, reason=infeasible_because(said))
     assert call.baseline is not None
     if call.robots_goal:
         nothing = call.idle_robots_plan

@@ -46,8 +46,8 @@ class PackedSearch:
         self._most_states = most_states
         self._at_once = limits().states_at_once
         self._states = StateTable(table.layout.words, deadline)
-        self._paid: Ints = table.unknown(0)
-        self._left: Ints = table.unknown(0)
+        self._paid: Ints = np.zeros(0, table.weight.dtype)
+        self._left: Ints = np.zeros(0, table.weight.dtype)
         self._parent = np.zeros(0, np.int32)
         self._by = np.zeros(0, np.int32)
         self._queue: list[int] = []

@@ -176,10 +176,6 @@ class OperatorTable:
         """The results of operators in some states, one in each."""
         return (states & ~self.clear[chosen]) | self.put[chosen]
 
-    def unknown(self, count: int) -> Ints:
-        """So many sums of weights of which nothing is known yet."""
-        return np.full(count, self.far, self.weight.dtype)
-
     def test(self, positive: Sequence[int], negative: Sequence[int]) -> "Test":
         """A test for facts that have to be true and false."""
         return Test(self.layout, positive, negative)

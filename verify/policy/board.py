@@ -1,8 +1,9 @@
 """The game of semantics 7 for the checker: states are bit sets of the facts that matter to the goal."""
 
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, reduce
 from math import lcm
+from operator import or_
 from typing import NamedTuple
 
 from serendipity.model import Deadline, GroundAction, Options, StateDelta, Task
@@ -66,10 +67,10 @@ class Board:
         self.goal = BitCondition(self._bits(task.goal.positive), self._bits(task.goal.negative))
         self.start = self._bits(task.init) & self._relevant
         self._replies: dict[int, tuple[Reply, ...]] = {}
-        mentioned = self.goal.pre | self.goal.neg
-        for edge in deadline.each(self._human):
-            mentioned |= edge.pre | edge.neg | edge.add | edge.delete
-        self._his = mentioned
+        changed = reduce(or_, (edge.add | edge.delete for edge in deadline.each(self._robot)), 0)
+        his_changes = reduce(or_, (edge.add | edge.delete for edge in deadline.each(self._human)), 0)
+        his_needs = reduce(or_, (edge.pre | edge.neg for edge in deadline.each(self._human)), 0)
+        self._his = self.goal.pre | self.goal.neg | his_needs | his_changes
         self._alone = BitDistances(self._human, self.goal, _MOST_ALONE, deadline)
         together = [
             edge._replace(weight=edge.weight // self._unit * self._unit)
@@ -77,15 +78,8 @@ class Board:
         ]
         self._joint_moves = BitOperators([*together, *self._robot], deadline)
         self._together = BitDistances([*together, *self._robot], self.goal, _MOST_TOGETHER, deadline)
-        changed = 0
-        for edge in deadline.each(self._robot):
-            changed |= edge.add | edge.delete
-        self._his_only = mentioned & ~changed
-        his_changes = 0
-        for edge in deadline.each(self._human):
-            his_changes |= edge.add | edge.delete
-        self.replies_are_dear = bool(changed & mentioned & ~his_changes)
-        self._private = BitDistances(together, self.goal, _MOST_PRIVATE, deadline, self._his_only)
+        self.replies_are_dear = bool(changed & self._his & ~his_changes)
+        self._private = BitDistances(together, self.goal, _MOST_PRIVATE, deadline, self._his & ~changed)
         self._ids = {name: i for i, name in enumerate(task.facts)}
 
     def _of(self, agent: int) -> list[int]:
@@ -176,7 +170,7 @@ class Board:
             action = self.task.actions[i]
             if action.participants == (self.task.robots[0],) and self._edge(i, 1, 0) is None:
                 pre, neg = self._bits(action.pre) & self._relevant, self._bits(action.neg) & self._relevant
-                if state & pre == pre and not state & neg:
+                if BitCondition(pre, neg).holds(state):
                     return action.cost
         return None
 
