@@ -8,7 +8,7 @@ from functools import cached_property
 
 from serendipity.model import GroundAction, HumanPlan, Step, Task
 from serendipity.model.task.unit_steps import RESTING, WAITING
-from verify.base.execution import State, applicable, by_epoch, executed, idling, is_calm, met
+from verify.base.execution import State, applicable, executed, grouped, idling, is_calm, met
 
 
 def onward(task: Task, state: State, chosen: Iterable[int], *, strict: bool) -> State | None:
@@ -61,7 +61,7 @@ def turns(task: Task, plan: Sequence[int], xi1: int) -> list[int]:
 
 def filled(task: Task, steps: Iterable[Step], last: int, *, strict: bool) -> tuple[Step, ...]:
     """A plan with all that is due; where it can't be executed any more what is left stays as it is."""
-    sets = by_epoch(steps)
+    sets = grouped((step.epoch, step.action) for step in steps)
     state: State | None = task.init
     found: list[Step] = []
     epoch = 0

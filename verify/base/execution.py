@@ -5,6 +5,7 @@ The model says the same for the planner; an error there must not hide here.
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from typing import TypeVar
 
 from serendipity.model import Deadline, GroundAction, PlanStep, Step, Task
 from serendipity.model.numbers import figure
@@ -12,6 +13,9 @@ from serendipity.model.task.unit_steps import CLOCK, RESTING, WAITING
 
 State = frozenset[int]
 """The facts that are true."""
+
+K = TypeVar("K")
+V = TypeVar("V")
 
 
 # -- from a name to an action, and back
@@ -137,12 +141,12 @@ def sets_beside(
 # -- plans
 
 
-def by_epoch(steps: Iterable[Step]) -> dict[int, list[int]]:
-    """A plan's actions, by epoch."""
-    sets: dict[int, list[int]] = {}
-    for step in steps:
-        sets.setdefault(step.epoch, []).append(step.action)
-    return sets
+def grouped(pairs: Iterable[tuple[K, V]]) -> dict[K, list[V]]:
+    """What belongs to each key, in order: the actions of an epoch, say."""
+    found: dict[K, list[V]] = {}
+    for key, value in pairs:
+        found.setdefault(key, []).append(value)
+    return found
 
 
 def states_along(task: Task, epochs: Iterable[Sequence[int]], *, strict: bool) -> list[State] | None:

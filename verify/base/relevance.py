@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Sequence, Set
 from dataclasses import dataclass, replace
 
 from serendipity.model import Deadline, Task
-from verify.base.execution import awake, is_last
+from verify.base.execution import awake, grouped, is_last
 from verify.base.subproblem import Subproblem
 
 
@@ -111,10 +111,7 @@ def closure(
 ) -> tuple[set[int], set[int]]:
     """Facts that matter for the seeds, and the actions that change one of them; what is begun goes on."""
     actions, due = task.actions, task.due_for
-    changers: dict[int, list[int]] = {}
-    for i in deadline.each(usable):
-        for f in (*actions[i].add, *actions[i].delete):
-            changers.setdefault(f, []).append(i)
+    changers = grouped((f, i) for i in deadline.each(usable) for f in (*actions[i].add, *actions[i].delete))
     kept: set[int] = set()
     facts, pending = set(seeds), list(seeds)
     while pending:

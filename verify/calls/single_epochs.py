@@ -23,6 +23,7 @@ from verify.base.execution import (
     State,
     applicable,
     executed,
+    grouped,
     is_calm,
     meant_by,
     met,
@@ -160,9 +161,7 @@ class SingleEpochs:
         return next(filter(None, chain(faults, map(self._unplayable, plans))), None)
 
     def _unplayable(self, plan: Sequence[PlanStep]) -> Violation | None:
-        task, by_epoch = self._original, dict[int, list[PlanStep]]()
-        for step in plan:
-            by_epoch.setdefault(step.epoch, []).append(step)
+        task, by_epoch = self._original, grouped((step.epoch, step) for step in plan)
         course = PlayedPlan(task.facts, task.init, task.script, strict=self._result.options.strict)
         last = max(by_epoch, default=0)
         while course.epoch < last:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from serendipity.model import Step
 from serendipity.model.errors import LIMITS
-from verify.base.execution import State, applicable, sets_beside, unchosen
+from verify.base.execution import State, applicable, grouped, sets_beside, unchosen
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE, PricedPlan
 from verify.base.undecided import during, why
@@ -46,11 +46,9 @@ class _Reactions:
         self.epoch_of_waiting = call.prices.units(options.waiting_cost)
         self.known: dict[MomentOfPlay, int] = {}
         self.before: dict[tuple[int, MomentOfPlay], tuple[MomentOfPlay, tuple[int, ...]]] = {}
-        self.offered: dict[int, list[int]] = {}
-        going_on = unchosen(task)
-        for i, action in enumerate(self.deadline.each(task.actions)):
-            if i not in going_on and action.participants != (task.human,):
-                self.offered.setdefault(min(action.pre, default=-1), []).append(i)
+        going_on, every = unchosen(task), enumerate(self.deadline.each(task.actions))
+        theirs = ((i, a) for i, a in every if i not in going_on and a.participants != (task.human,))
+        self.offered = grouped((min(action.pre, default=-1), i) for i, action in theirs)
 
     def run(self) -> Minimum:
         """Play the layers until nothing is left that could cost less."""

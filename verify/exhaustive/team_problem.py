@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from serendipity.model import Deadline, GroundAction, Task
-from verify.base.execution import fits
+from verify.base.execution import fits, grouped
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Subproblem
 from verify.packed.layout import Words
@@ -35,20 +35,15 @@ def circles(actions: list[tuple[int, GroundAction]], task: Task, deadline: Deadl
 
 def all_disabled(actions: list[tuple[int, GroundAction]], deadline: Deadline) -> dict[int, list[int]]:
     """For each action, those of which it falsifies a precondition."""
-    needing: dict[int, set[int]] = {}
-    forbidding: dict[int, set[int]] = {}
-    for j, action in deadline.each(actions):
-        for fact in action.pre:
-            needing.setdefault(fact, set()).add(j)
-        for fact in action.neg:
-            forbidding.setdefault(fact, set()).add(j)
+    needing = grouped((fact, j) for j, action in deadline.each(actions) for fact in action.pre)
+    forbidding = grouped((fact, j) for j, action in deadline.each(actions) for fact in action.neg)
     found: dict[int, list[int]] = {}
     for i, action in deadline.each(actions):
         disabled: set[int] = set()
         for fact in action.delete:
-            disabled |= needing.get(fact, set())
+            disabled.update(needing.get(fact, ()))
         for fact in action.add:
-            disabled |= forbidding.get(fact, set())
+            disabled.update(forbidding.get(fact, ()))
         found[i] = sorted(disabled - {i})
     return found
 

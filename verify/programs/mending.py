@@ -2,14 +2,14 @@
 
 from serendipity.model import HumanPlan, Step, Window
 from verify.base.due import filled
-from verify.base.execution import State, by_epoch, states_along
+from verify.base.execution import State, grouped, states_along
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import PricedPlan, Subproblem
 
 
 def replay(question: Subproblem, steps: tuple[Step, ...]) -> list[State] | None:
     """States ``s_0 .. s_T`` of a plan, or None if it is not executable or misses a goal."""
-    task, sets = question.task, by_epoch(steps)
+    task, sets = question.task, grouped((step.epoch, step.action) for step in steps)
     epochs = (sets.get(epoch, ()) for epoch in range(1, question.horizon + 1))
     states = states_along(task, epochs, strict=question.options.strict)
     return states if states is not None and question.goal.holds(states[-1]) else None

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from serendipity.model import Deadline, PlanError, PlanStep, Task
-from verify.base.execution import State, after, applicable, clash, meant_by, met, participants
+from verify.base.execution import State, after, applicable, clash, grouped, meant_by, met, participants
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,9 +43,7 @@ class Replay:
 
 def replay(task: Task, steps: Sequence[PlanStep], deadline: Deadline, *, strict: bool) -> Replay:
     """Execute the steps from ``I`` until the first fault."""
-    by_epoch: dict[int, list[PlanStep]] = {}
-    for step in deadline.each(steps):
-        by_epoch.setdefault(step.epoch, []).append(step)
+    by_epoch = grouped((step.epoch, step) for step in deadline.each(steps))
     sets: dict[int, tuple[int, ...]] = {}
     states: dict[int, State] = {0: task.init}
     state = task.init

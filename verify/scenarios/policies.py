@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from serendipity.model import Step
+from verify.base.execution import grouped
 from verify.base.fact_bits import BitOperator
 from verify.base.undecided import UndecidedError
 from verify.calls.call import ExaminedCall
@@ -182,9 +183,7 @@ class PolicySearch:
         """The value of a choice for each scenario, or ``below`` if that is no less."""
         self._look()
         measure, epoch = self._measure, group[0] + 1
-        parts: dict[Seen | bool, list[_Choice]] = {}
-        for choice in chosen:
-            parts.setdefault(choice.seen if self._watching else True, []).append(choice)
+        parts = grouped((choice.seen if self._watching else True, choice) for choice in chosen)
         values = [measure.joined(choice.bound for choice in part) for part in parts.values()]
         groups = []
         for k, part in enumerate(parts.values()):

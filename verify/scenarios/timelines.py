@@ -13,7 +13,7 @@ from serendipity.model.answers.result_parts import GoalAnswer
 from serendipity.model.numbers import as_written, figure
 from verify.base.beside_script import alone_of
 from verify.base.due import waited
-from verify.base.execution import unchosen
+from verify.base.execution import grouped, unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.rules.bound import bound_and_objective, bound_and_status
 from verify.rules.case import Case
@@ -26,17 +26,12 @@ from verify.scenarios.suffixes import suffix_of
 Figures = tuple[Fraction, Fraction]
 """Objective and cost."""
 
-_BY_CLAIM: Final = {
-    "replay": (
-        *("human-plan", "epoch-range", "unknown-action", "wrong-agents"),
-        *("precondition", "agent-busy-twice", "conflict", "at-rest", "human-goal", "robots-goal"),
-    ),
-    "cost": ("step-cost", "cost"),
-    "window": (
-        *("window-range", "window-length", "joint-in-prefix", "prefix"),
-        *("robot-in-suffix", "suffix-replan", "suffix-subplan", "preserved-state"),
-    ),
-}
+_OF_EACH: Final = (
+    *("human-plan", "epoch-range", "unknown-action", "wrong-agents"),
+    *("precondition", "agent-busy-twice", "conflict", "at-rest", "human-goal", "robots-goal"),
+    *("step-cost", "cost", "window-range", "window-length", "joint-in-prefix", "prefix"),
+    *("robot-in-suffix", "suffix-replan", "suffix-subplan", "preserved-state"),
+)
 """Rules of section 3.1 that every timeline has to keep; figures of a whole answer are not its own."""
 
 
@@ -108,7 +103,7 @@ def rule_fault(claim: str, lines: Sequence[Timeline]) -> str | None:
     """The first rule that a timeline breaks, among those of one claim."""
     for line in lines:
         for rule in RULES:
-            if rule.name in _BY_CLAIM[claim]:
+            if rule.claim == claim and rule.name in _OF_EACH:
                 found = rule.check(line.case)
                 if found is not None:
                     broken = Violation(rule.name, claim, rule.section, *found)
@@ -174,10 +169,9 @@ def _begun(
     result: Result, goes_on: Container[str], *, by_human: bool
 ) -> dict[int, list[tuple[str, list[str], float]]]:
     """What the human begins, which robots see, or what robots begin by themselves, by epoch."""
-    begun: dict[int, list[tuple[str, list[str], float]]] = {}
-    for step in result.plan or ():
-        if (result.human in step.agents) is by_human and step.action not in goes_on:
-            begun.setdefault(step.epoch, []).append((step.action, sorted(step.agents), step.cost))
+    chosen = (step for step in result.plan or () if step.action not in goes_on)
+    steps = (step for step in chosen if (result.human in step.agents) is by_human)
+    begun = grouped((step.epoch, (step.action, sorted(step.agents), step.cost)) for step in steps)
     return {epoch: sorted(steps) for epoch, steps in begun.items()}
 
 

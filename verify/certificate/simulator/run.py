@@ -3,7 +3,7 @@
 In time (10.6) what somebody is at goes on, and the human looks up when they are up and free.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from typing import NamedTuple
 from serendipity.model import Options, Step, Task, Visible
 from serendipity.model.keywords import Horizon
 from verify.base.due import onward
-from verify.base.execution import State, after, applicable, fits, idling, met, price, unchosen
+from verify.base.execution import State, after, applicable, fits, grouped, idling, met, price, unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.certificate.simulator.sight import Sight
 
@@ -100,11 +100,8 @@ def play(
         visible: what a local human sees; None for the default.
         plans: the human's own, where they are known from an earlier question.
     """
-    orders: dict[int, list[int]] = {}
-    going_on = unchosen(task)
-    for step in steps:
-        if task.actions[step.action].participants != (task.human,) and step.action not in going_on:
-            orders.setdefault(step.epoch, []).append(step.action)
+    not_theirs = unchosen(task).union(task.human_actions)
+    orders = grouped((step.epoch, step.action) for step in steps if step.action not in not_theirs)
     plans = plans or OptimalPlans(task)
     deadline = plans.deadline
     sight = Sight(task, visible, deadline.tick) if human_model == "local" else None
@@ -203,13 +200,9 @@ class Play:
 
     def _accepted(self, offers: Sequence[int], look: Look) -> int | None:
         """Step 2: the joint action that the human takes part in."""
-        return next((i for i in self._joint_offers(offers, look.now) if self._worth_it(i, look)), None)
-
-    def _joint_offers(self, offers: Sequence[int], now: MomentOfPlay) -> Iterator[int]:
-        for i in offers:
-            action = self.task.actions[i]
-            if self.with_him(i) and applicable(action, now.state) and applicable(action, now.belief):
-                yield i
+        each = ((i, self.task.actions[i]) for i in offers if self.with_him(i))
+        known = (i for i, one in each if applicable(one, look.now.state) and applicable(one, look.now.belief))
+        return next((i for i in known if self._worth_it(i, look)), None)
 
     def _worth_it(self, joint: int, look: Look) -> bool:
         begun = onward(self.task, look.now.belief, (joint,), strict=self.strict)

@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import GroundAction
-from verify.base.execution import conflicting
+from verify.base.execution import conflicting, grouped
 from verify.base.relevance import Relevant
 from verify.base.subproblem import Subproblem
 from verify.exhaustive.decoupled.rows import Collected, RowLayer
@@ -53,11 +53,8 @@ def parts(question: Subproblem, relevant: Relevant, matters: frozenset[int]) -> 
         matters: facts that the human looks at when they go on alone.
     """
     task = question.task
-    by_robot: dict[int, list[int]] = {}
-    for i in relevant.actions:
-        (who,) = task.actions[i].participants
-        if who != task.human:
-            by_robot.setdefault(who, []).append(i)
+    by_robot = grouped((who, i) for i in relevant.actions for who in task.actions[i].participants)
+    by_robot.pop(task.human, None)
     adds = {who: _union(task.actions[i].add for i in own) for who, own in by_robot.items()}
     deletes = {who: _union(task.actions[i].delete for i in own) for who, own in by_robot.items()}
     planned = _union((*relevant.pre[i], *relevant.neg[i]) for i in question.human_plan if i in relevant.pre)
@@ -90,11 +87,9 @@ class RobotTimeline:
         self._question, self._relevant, self.layout = question, relevant, layout
         self._deadline = question.deadline
         self._table = OperatorTable(layout, [self._operator(i) for i in self._deadline.each(part.actions)])
-        self._mentioning: dict[int, list[int]] = {}
-        for number, i in enumerate(part.actions):
-            action = question.task.actions[i]
-            for fact in {*action.pre, *action.neg, *action.add, *action.delete}:
-                self._mentioning.setdefault(fact, []).append(number)
+        own = enumerate(question.task.actions[i] for i in part.actions)
+        mentioned = ((k, {*one.pre, *one.neg, *one.add, *one.delete}) for k, one in own)
+        self._mentioning = grouped((fact, number) for number, facts in mentioned for fact in facts)
         start = layout.pack([question.task.init & part.facts])
         self.layer = RowLayer(start, np.zeros(1, np.int64), np.ones(1, bool))
         self._free: RowLayer | None = None

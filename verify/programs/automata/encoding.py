@@ -7,7 +7,7 @@ from typing import Final
 from serendipity.model import Deadline, GroundAction, Step, Task, Window
 from verify.base.control import INSIDE, SUFFIX, HumanControl, expected_states
 from verify.base.due import filled
-from verify.base.execution import awake
+from verify.base.execution import awake, grouped
 from verify.base.relevance import Relevant, relevant_part, whole_task
 from verify.base.subproblem import WINDOW, Subproblem
 from verify.base.undecided import during
@@ -298,10 +298,7 @@ def _moving_by_value(
         for group in groups
         if len(group) > 1 and len(group & task.init) == 1 and not group.isdisjoint(part.facts)
     ]
-    holding: dict[int, list[int]] = {}
-    for number, group in enumerate(found):
-        for fact in group:
-            holding.setdefault(fact, []).append(number)
+    holding = grouped((fact, number) for number, group in enumerate(found) for fact in group)
     spoilt: set[int] = set()
     for i in question.deadline.each(part.actions):
         action = task.actions[i]
