@@ -3,11 +3,13 @@
 Thousands of states take little memory that way.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from itertools import chain
 from typing import Any, NamedTuple
 
 from serendipity.model import Deadline, GroundAction
+from verify.packed.bits import bits_of, numbers_in
 
 
 class FactBits:
@@ -76,22 +78,18 @@ class BitOperators:
     """Operators that are looked up by one of their needs each: the one that the fewest share."""
 
     def __init__(self, operators: Iterable[BitOperator], deadline: Deadline) -> None:
-        count: dict[int, int] = {}
         every = list(operators)
+        count = Counter(fact for operator in deadline.each(every) for fact in numbers_in(operator.pre))
+        self._under: dict[int, list[BitOperator]] = {-1: []}
         for operator in deadline.each(every):
-            for bit in each_bit(operator.pre):
-                count[bit] = count.get(bit, 0) + 1
-        self._under: dict[int, list[BitOperator]] = {0: []}
-        self._watched = 0
-        for operator in deadline.each(every):
-            bit = min(each_bit(operator.pre), key=count.__getitem__, default=0)
-            self._under.setdefault(bit, []).append(operator)
-            self._watched |= bit
+            need = min(numbers_in(operator.pre), key=count.__getitem__, default=-1)
+            self._under.setdefault(need, []).append(operator)
+        self._watched = bits_of(self._under.keys() - {-1})
 
     def applicable(self, state: int) -> Iterator[BitOperator]:
         """Those that can be done in a state."""
         under = self._under
-        for operator in chain(under[0], *(under[bit] for bit in each_bit(state & self._watched))):
+        for operator in chain(under[-1], *(under[fact] for fact in numbers_in(state & self._watched))):
             if state & operator.pre == operator.pre and not state & operator.neg:
                 yield operator
 
@@ -99,11 +97,3 @@ class BitOperators:
         """For each of them the state after it, and its weight."""
         for operator in self.applicable(state):
             yield state & ~operator.delete | operator.add, operator.weight, operator
-
-
-def each_bit(bits: int) -> Iterator[int]:
-    """The bits of a set one by one, as sets, ascending."""
-    while bits:
-        lowest = bits & -bits
-        yield lowest
-        bits ^= lowest

@@ -6,9 +6,10 @@ be true beside its preconditions and is not deleted.  What is not found is true 
 from one in which all pairs are found ones.
 """
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 from serendipity.model import Deadline
+from verify.packed.bits import bits_of, numbers_in
 from verify.packed.layout import Effects
 
 
@@ -27,10 +28,10 @@ class ReachablePairs:
     ) -> None:
         self.beside = [0] * facts
         self._stale = set(init)
-        first = _bits(self._stale)
+        first = bits_of(self._stale)
         for fact in self._stale:
             self.beside[fact] = first
-        waiting = [(action.pre, action.add, ~_bits(action.delete)) for action in deadline.each(actions)]
+        waiting = [(action.pre, action.add, ~bits_of(action.delete)) for action in deadline.each(actions)]
         fresh = True  # what needs nothing happens where nothing is true, too
         while fresh or self._stale:
             fresh, stale, self._stale = False, self._stale, set()
@@ -40,34 +41,33 @@ class ReachablePairs:
 
     def possible(self, facts: Collection[int]) -> bool:
         """True if some facts may be true together."""
-        wanted = _bits(facts)
+        wanted = bits_of(facts)
         return all(not wanted & ~self.beside[fact] for fact in facts)
 
     def _happen(self, pre: tuple[int, ...], add: tuple[int, ...], kept: int) -> None:
-        beside, wanted = -1, _bits(pre)
+        beside, wanted = -1, bits_of(pre)
         for fact in pre:
             row = self.beside[fact]
             if wanted & ~row:
                 return
             beside &= row
         if beside < 0:  # needs nothing: beside whatever may be true
-            beside = _bits(fact for fact, row in enumerate(self.beside) if row)
-        row = beside & kept | _bits(add)
+            beside = bits_of(fact for fact, row in enumerate(self.beside) if row)
+        row = beside & kept | bits_of(add)
         for fact in add:
             new = row & ~self.beside[fact]
             if new:
                 self.beside[fact] |= new
                 self._stale.add(fact)
                 mine = 1 << fact
-                for bit in _each_bit(new):
-                    other = bit.bit_length() - 1
+                for other in numbers_in(new):
                     self.beside[other] |= mine
                     self._stale.add(other)
 
 
 def exclusive_groups(pairs: ReachablePairs, facts: Iterable[int], deadline: Deadline) -> list[frozenset[int]]:
     """Disjoint groups of facts of which no two are ever true together, the largest first."""
-    every = _bits(facts)
+    every = bits_of(facts)
     against = {f: every & ~pairs.beside[f] & ~(1 << f) for f in facts}
     cliques = {_clique(seed, against) for seed in deadline.each(against)}
     chosen: list[frozenset[int]] = []
@@ -76,7 +76,7 @@ def exclusive_groups(pairs: ReachablePairs, facts: Iterable[int], deadline: Dead
         best = max(cliques, key=lambda bits: (bits.bit_count(), bits))
         if best.bit_count() < 2:
             break
-        chosen.append(frozenset(bit.bit_length() - 1 for bit in _each_bit(best)))
+        chosen.append(frozenset(numbers_in(best)))
         cliques = {clique & ~best for clique in cliques}
     return chosen
 
@@ -85,7 +85,7 @@ def _clique(seed: int, against: dict[int, int]) -> int:
     """A largest group with a fact, as greed finds it."""
     members, candidates = 1 << seed, against[seed]
     while candidates:
-        facts = [bit.bit_length() - 1 for bit in _each_bit(candidates)]
+        facts = list(numbers_in(candidates))
         beside = [(against[fact] & candidates).bit_count() for fact in facts]
         most = max(beside)
         best = [fact for fact, count in zip(facts, beside, strict=True) if count == most]
@@ -93,17 +93,3 @@ def _clique(seed: int, against: dict[int, int]) -> int:
             members |= 1 << fact
             candidates &= against[fact]
     return members
-
-
-def _each_bit(bits: int) -> Iterator[int]:
-    while bits:
-        lowest = bits & -bits
-        yield lowest
-        bits ^= lowest
-
-
-def _bits(facts: Iterable[int]) -> int:
-    found = 0
-    for fact in facts:
-        found |= 1 << fact
-    return found

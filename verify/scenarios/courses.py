@@ -5,12 +5,13 @@ from functools import cache
 from typing import Final, NamedTuple
 
 from serendipity.model import HumanPlan
-from verify.base.execution import State, executed, fits, is_last, met, sets_beside, unchosen
-from verify.base.fact_bits import BitCondition, BitOperator, BitOperators, FactBits, each_bit
+from verify.base.execution import executed, fits, is_last, met, sets_beside, unchosen
+from verify.base.fact_bits import BitCondition, BitOperator, BitOperators, FactBits
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE
 from verify.calls.call import ExaminedCall
 from verify.exhaustive.without_epochs import LeastLeft
+from verify.packed.bits import numbers_in
 from verify.rules.leftovers import Prices
 from verify.scenarios.measure import Measure
 from verify.scenarios.suffixes import suffix_of
@@ -101,7 +102,7 @@ class Moves:
         """What happens anyway (semantics 10), the clock's tick apart; None if that is impossible."""
         if not state & self._going_on:
             return self._nothing
-        facts, actions = facts_of(state), self._task.actions
+        facts, actions = frozenset(numbers_in(state)), self._task.actions
         ids = met(self._task, facts, ())
         if executed(facts, [actions[i] for i in ids], strict=self._call.options.strict) is None:
             return None
@@ -170,9 +171,9 @@ class Course:
         left = LeastLeft(question, part)
         suffix, asked = suffix_of(task, call.options, call.human_plan or (), call.plans)
         self._asked, self._matters = of(asked), of(left.facts)
-        self._suffix = cache(lambda state, *at: suffix(facts_of(state), *at))
+        self._suffix = cache(lambda state, *at: suffix(frozenset(numbers_in(state)), *at))
         self._rest = cache(lambda rest: pay(sum(call.prices.team[i] for i in rest)))
-        self._bound = cache(lambda state: left(facts_of(state)))
+        self._bound = cache(lambda state: left(frozenset(numbers_in(state))))
 
     def least(self, at: Member, epoch: int) -> int:
         """No less is left to pay after an epoch; after the last one exactly that."""
@@ -223,8 +224,3 @@ class Course:
         if together is not None:
             after = Member(at.scenario, together[1], at.phase, at.epochs, at.rest, at.ahead)
             yield Way(self._moves.seen(part), together[0], after)
-
-
-def facts_of(state: int) -> State:
-    """The facts of a state."""
-    return frozenset(bit.bit_length() - 1 for bit in each_bit(state))

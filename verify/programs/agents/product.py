@@ -206,10 +206,7 @@ class _Explorer:
     def _by_first_fact(self, facts: frozenset[int]) -> dict[int, list[_Entry]]:
         """Actions projected on ``facts``, by one fact that they need (-1: none)."""
         needs = {i: facts.intersection(self._part.pre[i]) for i in self._deadline.each(self._actions)}
-        popular: dict[int, int] = {}
-        for pre in self._deadline.each(needs.values()):
-            for f in pre:
-                popular[f] = popular.get(f, 0) + 1
+        popular = Counter(f for pre in self._deadline.each(needs.values()) for f in pre)
         table: dict[int, list[_Entry]] = {}
         for i, action in self._deadline.each(self._actions.items()):
             pre = needs[i]
