@@ -27,9 +27,9 @@ from verify.exhaustive.epoch_by_epoch import OtherMethodError
 from verify.exhaustive.team import TeamEpochs
 from verify.exhaustive.team_problem import team_problem
 from verify.limits import limits
-from verify.packed.layout import Words
+from verify.packed.layout import Ints, Words
 from verify.packed.least_paid import LeastPaid
-from verify.packed.operators import FAR, Ints, OperatorTable
+from verify.packed.operators import FAR, OperatorTable
 from verify.packed.problem import TooLargeError
 
 Score = tuple[int, int]

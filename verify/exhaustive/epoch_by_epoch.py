@@ -34,9 +34,9 @@ from verify.exhaustive.team import NOBODY, Bools, Steps, TeamEpochs
 from verify.exhaustive.team_problem import as_operator, team_problem
 from verify.limits import limits
 from verify.packed.cheapest_path import SumTooLargeError, TooManyPackedStatesError
-from verify.packed.layout import Words
+from verify.packed.layout import Ints, Words
 from verify.packed.least_paid import LeastPaid
-from verify.packed.operators import FAR, Ints, OperatorTable, PackedOperator
+from verify.packed.operators import FAR, OperatorTable, PackedOperator
 from verify.packed.problem import PackedProblem
 from verify.programs.effort import Minimum
 from verify.programs.mending import best_suffix, replay

@@ -7,9 +7,9 @@ import numpy as np
 
 from serendipity.model import Deadline
 from verify.exhaustive.team import NOBODY, Steps
-from verify.packed.layout import Words
+from verify.packed.layout import Ints, Words
 from verify.packed.least_paid import LeastPaid
-from verify.packed.operators import Ints, OperatorTable
+from verify.packed.operators import OperatorTable
 
 
 @dataclass(slots=True)

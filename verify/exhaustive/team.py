@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from serendipity.model import Deadline, GroundAction, Task
 from verify.base.execution import awake, is_last
 from verify.limits import limits
-from verify.packed.layout import PackedLayout, Words
-from verify.packed.operators import Ints, OperatorTable
+from verify.packed.layout import Ints, PackedLayout, Words
+from verify.packed.operators import OperatorTable
 
 Bools = NDArray[np.bool_]
 

@@ -5,6 +5,7 @@ of them add up to no more than the weight of any plan (cost partitioning).  It i
 the first pattern on and from the last: the larger sum holds.
 """
 
+from collections import Counter
 from collections.abc import Sequence
 from itertools import product
 from typing import Final
@@ -13,8 +14,8 @@ import numpy as np
 
 from serendipity.model import Deadline
 from verify.limits import limits
-from verify.packed.layout import Words
-from verify.packed.operators import FAR, Ints, OperatorTable
+from verify.packed.layout import Ints, Words
+from verify.packed.operators import FAR, OperatorTable
 from verify.packed.pattern import Pattern, TooManyMovesError
 
 _A_SECOND: Final = 20_000
@@ -106,10 +107,7 @@ class PatternBounds:
         fields, wanted = self._table.layout.fields, self._goal.conditions
         chosen, size = [field], fields[field].size
         while True:
-            strength: dict[int, int] = {}
-            for member in chosen:
-                for other, count in self._causes[member].items():
-                    strength[other] = strength.get(other, 0) + count
+            strength = sum((self._causes[member] for member in chosen), Counter[int]())
             ways = [f for f in strength if f not in chosen and size * fields[f].size <= most]
             if not ways:
                 return tuple(sorted(chosen))
@@ -135,11 +133,10 @@ class PatternBounds:
         return way
 
 
-def _causes(table: OperatorTable) -> list[dict[int, int]]:
+def _causes(table: OperatorTable) -> list[Counter[int]]:
     """For each field, which others operators look at or change when they change it, and how often."""
-    found: list[dict[int, int]] = [{} for _ in table.layout.fields]
+    found = [Counter[int]() for _ in table.layout.fields]
     for conditions, effects in zip(table.conditions, table.effects, strict=True):
         for field in effects:
-            for other in {*conditions, *effects} - {field}:
-                found[field][other] = found[field].get(other, 0) + 1
+            found[field].update({*conditions, *effects} - {field})
     return found

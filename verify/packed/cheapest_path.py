@@ -7,8 +7,8 @@ import numpy as np
 
 from serendipity.model import Deadline
 from verify.limits import limits
-from verify.packed.layout import Words
-from verify.packed.operators import Ints, OperatorTable, Test
+from verify.packed.layout import Ints, Words
+from verify.packed.operators import OperatorTable, Test
 from verify.packed.state_table import Numbers, StateTable
 
 

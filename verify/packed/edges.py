@@ -8,9 +8,9 @@ from typing import Final
 import numpy as np
 
 from serendipity.model import Deadline
-from verify.packed.operators import Ints
+from verify.packed.layout import Ints
 
-NOTHING: Final[Ints] = np.zeros(0, np.int64)
+_NOTHING: Final[Ints] = np.zeros(0, np.int64)
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,17 +39,21 @@ class Rows:
         start = np.concatenate(([0], np.cumsum(np.bincount(keys, minlength=count))))
         return cls(start, order if items is None else items[order])
 
+    def sizes(self, keys: Ints) -> Ints:
+        """How many items some lists have."""
+        found: Ints = self.start[keys + 1] - self.start[keys]
+        return found
+
     def keys(self) -> Ints:
         """The list that each item is in."""
         return np.repeat(np.arange(len(self.start) - 1), np.diff(self.start))
 
     def at(self, keys: Ints) -> Ints:
         """The items of some lists, one after the other."""
-        first = self.start[keys]
-        sizes = self.start[keys + 1] - first
+        first, sizes = self.start[keys], self.sizes(keys)
         total = int(sizes.sum())
         if not total:
-            return NOTHING
+            return _NOTHING
         ends = np.cumsum(sizes)
         return self.items[np.repeat(first - ends + sizes, sizes) + np.arange(total)]
 

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 Words = NDArray[np.uint64]
 """States, a row each."""
 
+Ints = NDArray[np.int64]
+
 _BITS = 64
 
 
@@ -111,7 +113,7 @@ class PackedLayout:
             rows[row] = filled
         return rows
 
-    def values(self, field: int, states: Words) -> NDArray[np.int64]:
+    def values(self, field: int, states: Words) -> Ints:
         """The value of a field in each state."""
         at = self.fields[field]
         masked: Words = (states[:, at.word] & np.uint64(at.mask)) >> np.uint64(at.shift)

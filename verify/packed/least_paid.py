@@ -7,8 +7,8 @@ import numpy as np
 
 from serendipity.model import Deadline
 from verify.packed.cheapest_path import TooManyPackedStatesError
-from verify.packed.layout import Words
-from verify.packed.operators import FAR, Ints
+from verify.packed.layout import Ints, Words
+from verify.packed.operators import FAR
 from verify.packed.state_table import StateTable
 
 

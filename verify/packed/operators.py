@@ -8,9 +8,8 @@ from typing import Final, NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from verify.packed.layout import PackedLayout, Words
-
-Ints = NDArray[np.int64]
+from verify.packed.edges import Rows
+from verify.packed.layout import Ints, PackedLayout, Words
 
 FAR: Final = np.int64(2**61)
 """No way there, or none that anybody asks about: sums of weights that count are below ``limits().weight``."""
@@ -110,45 +109,38 @@ class OperatorTable:
         fields = self.layout.fields
         shared = Counter(pair for needed in self.conditions for pair in needed.items())
         base = np.cumsum([0, *(field.size for field in fields)])
-        lists: dict[int, list[int]] = {}
+        listed: list[tuple[int, int, int]] = []
         always: list[int] = []
         for number, needed in enumerate(self.conditions):
             if self.impossible[number]:
                 continue
             if needed:
-                field, value = min(needed.items(), key=lambda pair: (shared[pair], pair))
-                lists.setdefault(int(base[field]) + value, []).append(number)
+                listed.append((*min(needed.items(), key=lambda pair: (shared[pair], pair)), number))
             else:
                 always.append(number)
-        keys = sorted({int(np.searchsorted(base, key, side="right")) - 1 for key in lists})
+        field, value, numbers = np.array(listed, np.int64).reshape(-1, 3).T
+        self._listed = Rows.by(base[field] + value, int(base[-1]), numbers)
+        keys = np.unique(field).tolist()
         self._key_word = np.array([fields[k].word for k in keys], np.int64)
         self._key_shift = np.array([fields[k].shift for k in keys], np.uint64)
         self._key_mask = np.array([fields[k].mask >> fields[k].shift for k in keys], np.uint64)
         self._key_base = np.array([base[k] for k in keys], np.int64)
-        counts = np.zeros(int(base[-1]) + 1, np.int64)
-        for key, numbers in lists.items():
-            counts[key] = len(numbers)
-        self._start = np.concatenate(([0], np.cumsum(counts)))
-        self._listed = np.array([n for key in sorted(lists) for n in lists[key]], np.int64)
         self._always = np.array(always, np.int64)
 
     def applicable(self, states: Words) -> tuple[Ints, Ints]:
         """Pairs of a state's row and an operator that is applicable there, by rows."""
         values = (states[:, self._key_word] >> self._key_shift) & self._key_mask
         keys = values.astype(np.int64) + self._key_base
-        first = self._start[keys]
-        sizes = self._start[keys + 1] - first
+        sizes = self._listed.sizes(keys)
         looked_at = np.cumsum(sizes.sum(axis=1) + len(self._always))
         parts = np.split(np.arange(len(states)), np.flatnonzero(np.diff(looked_at // _AT_ONCE)) + 1)
-        found = [self._fitting(states, here, first[here].ravel(), sizes[here]) for here in parts]
+        found = [self._fitting(states, here, keys[here], sizes[here]) for here in parts]
         rows, chosen = zip(*found, strict=True)
         return np.concatenate(rows), np.concatenate(chosen)
 
-    def _fitting(self, states: Words, here: Ints, first: Ints, sizes: Ints) -> tuple[Ints, Ints]:
-        """The same for some rows, of what is listed for them: from where on, and how many."""
-        of_each = sizes.ravel()
-        offsets = np.arange(of_each.sum()) - np.repeat(np.cumsum(of_each) - of_each, of_each)
-        chosen = self._listed[np.repeat(first, of_each) + offsets]
+    def _fitting(self, states: Words, here: Ints, keys: Ints, sizes: Ints) -> tuple[Ints, Ints]:
+        """The same for some rows, of what is listed for them: under which keys, and how much."""
+        chosen = self._listed.at(keys.ravel())
         rows = np.repeat(here, sizes.sum(axis=1))
         if len(self._always):
             rows = np.concatenate((rows, np.repeat(here, len(self._always))))

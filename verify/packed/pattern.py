@@ -7,8 +7,8 @@ import numpy as np
 
 from serendipity.model import Deadline
 from verify.packed.edges import distances
-from verify.packed.layout import PackedLayout, Words
-from verify.packed.operators import FAR, Ints, OperatorTable, Test
+from verify.packed.layout import Ints, PackedLayout, Words
+from verify.packed.operators import FAR, OperatorTable, Test
 
 _BYTES_A_MOVE: Final = 80
 

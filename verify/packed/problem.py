@@ -8,9 +8,9 @@ from serendipity.model import Deadline
 from verify.limits import limits
 from verify.packed.bounds import PatternBounds
 from verify.packed.cheapest_path import PackedSearch, SumTooLargeError, TooManyPackedStatesError
-from verify.packed.layout import Effects, PackedLayout, Words
+from verify.packed.layout import Effects, Ints, PackedLayout, Words
 from verify.packed.mutexes import ReachablePairs, exclusive_groups
-from verify.packed.operators import Ints, OperatorTable, PackedOperator
+from verify.packed.operators import OperatorTable, PackedOperator
 
 
 class TooLargeError(Exception):

@@ -12,8 +12,7 @@ from serendipity.model import Deadline
 from verify.exhaustive.decoupled.rows import Collected
 from verify.limits import limits
 from verify.packed.cheapest_path import TooManyPackedStatesError
-from verify.packed.layout import Words
-from verify.packed.operators import Ints
+from verify.packed.layout import Ints, Words
 
 _AT_ONCE: Final = 250_000
 

@@ -6,9 +6,8 @@ import numpy as np
 
 from serendipity.model import Deadline
 from verify.exhaustive.team import Bools
-from verify.packed.layout import Words
+from verify.packed.layout import Ints, Words
 from verify.packed.least_paid import LeastPaid
-from verify.packed.operators import Ints
 
 _AT_ONCE: Final = 250_000
 """Rows that are told apart before the clock is looked at, again."""

@@ -25,8 +25,7 @@ from verify.exhaustive.decoupled.timeline import RobotTimeline, parts
 from verify.exhaustive.team_problem import all_disabled, as_operator, team_space
 from verify.limits import limits
 from verify.packed.cheapest_path import TooManyPackedStatesError
-from verify.packed.layout import PackedLayout, Words
-from verify.packed.operators import Ints
+from verify.packed.layout import Ints, PackedLayout, Words
 from verify.packed.problem import PackedProblem, StateSpace, TooLargeError
 from verify.programs.effort import Minimum
 

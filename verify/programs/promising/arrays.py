@@ -4,15 +4,15 @@ Moves of all agents are numbered through, ordered by agent and state; states are
 Literals are numbers: ``f`` says that a fact is true, ``f`` plus the number of facts that it is false.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from serendipity.model import Deadline
-from verify.packed.edges import NOTHING, Rows
-from verify.packed.operators import Ints
+from verify.packed.edges import Rows
+from verify.packed.layout import Ints
 from verify.programs.agents.product import Move
 from verify.programs.promising.team import TeamMoves
 
@@ -145,25 +145,16 @@ class Ways:
         self._run(deadline)
 
     def _run(self, deadline: Deadline) -> None:
-        seen, known = np.zeros(len(self.done), bool), np.zeros(len(self._literals), bool)
-        while True:
-            deadline.check()
-            here, made = _least(self.done, seen, self._far), _least(self._literals, known, self._far)
-            first = [
-                int(values[now[0]]) for values, now in ((self.done, here), (self._literals, made)) if len(now)
-            ]
-            if not first:
-                return
-            value = min(first)
-            here, made = here[self.done[here] == value], made[self._literals[made] == value]
-            seen[here], known[made] = True, True
+        kinds = self.done, self._literals
+        seen = [np.zeros(len(values), bool) for values in kinds]
+        for value, (here, made) in in_order(kinds, seen, self._far, deadline):
             there = self._waiting.at(made)
             np.subtract.at(self._missing, there, 1)
             new = np.unique(there[self._missing[there] == 0])
             self.ready[new] = value
             blocked = self._of_action.at(new)
             leaving = self._leaving.at(here)
-            self._go(value, np.concatenate((leaving, blocked[seen[self._source[blocked]]])))
+            self._go(value, np.concatenate((leaving, blocked[seen[0][self._source[blocked]]])))
 
     def _go(self, value: int, moves: Ints) -> None:
         moves = moves[self.ready[self._action[moves]] <= value]
@@ -177,11 +168,27 @@ class Ways:
         np.minimum.at(self._literals, facts[wanted], prices[wanted])
 
 
-def _least(values: Ints, seen: Mask, far: int) -> Ints:
-    """The nodes of least value that have not been seen."""
-    open_values = np.where(seen, far, values)
-    least = open_values.min(initial=far)
-    return NOTHING if least >= far else np.flatnonzero(open_values == least)
+def in_order(
+    kinds: Sequence[Ints], seen: Sequence[Mask], none: int, deadline: Deadline, first: np.ufunc = np.minimum
+) -> Iterator[tuple[int, list[Ints]]]:
+    """The values of nodes of several kinds one by one, with the nodes of each kind that have them.
+
+    Args:
+        kinds: by kind, the nodes' values, which may change on the way if they have not come yet.
+        seen: likewise, whether a node has come.
+        none: of a node that does not come.
+        first: whether the least value comes first or the greatest.
+    """
+    while True:
+        deadline.check()
+        opened = [np.where(done, none, values) for done, values in zip(seen, kinds, strict=True)]
+        value = int(first.reduce([first.reduce(values, initial=none) for values in opened]))
+        if value == none:
+            return
+        here = [np.flatnonzero(values == value) for values in opened]
+        for done, now in zip(seen, here, strict=True):
+            done[now] = True
+        yield value, here
 
 
 def which(ids: Iterable[int], count: int) -> Mask:

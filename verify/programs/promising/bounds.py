@@ -19,8 +19,8 @@ import numpy as np
 
 from serendipity.model import Deadline
 from verify.packed.edges import Rows
-from verify.packed.operators import Ints
-from verify.programs.promising.arrays import Actions, Arcs, Mask
+from verify.packed.layout import Ints
+from verify.programs.promising.arrays import Actions, Arcs, Mask, in_order
 
 NEVER: Final = -1
 """Of no use, however little was spent."""
@@ -96,21 +96,9 @@ class Spending:
     def _run(self, deadline: Deadline) -> None:
         first = self._arcs.first
         self.states[first[:-1][self._counted]] = 0
-        seen_states = np.zeros(len(self.states), bool)
-        seen_literals = self.free.copy()
-        while True:
-            deadline.check()
-            states, literals = (
-                np.where(seen_states, self._far, self.states),
-                np.where(seen_literals, self._far, self.literals),
-            )
-            value = min(states.min(initial=self._far), literals.min(initial=self._far))
-            if value >= self._far:
-                return
-            here, known = np.flatnonzero(states == value), np.flatnonzero(literals == value)
-            seen_states[here] = True
-            seen_literals[known] = True
-            self._settle(int(value), self._leaving.at(here), self._waiting.at(known), seen_states)
+        seen = np.zeros(len(self.states), bool), self.free.copy()
+        for value, (here, known) in in_order((self.states, self.literals), seen, self._far, deadline):
+            self._settle(value, self._leaving.at(here), self._waiting.at(known), seen[0])
 
     def _settle(self, value: int, leaving: Ints, lacked: Ints, seen: Mask) -> None:
         """Moves that start now, and actions whose needs are there now, once for each need."""
@@ -186,15 +174,7 @@ class Use:
         kinds = self.states, self._literals, self._used
         seen = [np.zeros(len(values), bool) for values in kinds]
         moved = np.zeros(len(self._used), bool)
-        while True:
-            deadline.check()
-            opened = [np.where(done, NEVER, values) for done, values in zip(seen, kinds, strict=True)]
-            value = max(int(values.max(initial=NEVER)) for values in opened)
-            if value == NEVER:
-                return
-            states, literals, used = (np.flatnonzero(values == value) for values in opened)
-            for done, now in zip(seen, (states, literals, used), strict=True):
-                done[now] = True
+        for value, (states, literals, used) in in_order(kinds, seen, NEVER, deadline, np.maximum):
             self._offer(self._used, self._makers.at(literals), value)
             arcs = np.concatenate((self._into.at(states), self._of_action.at(used)))
             self._before(value, arcs, moved)

@@ -27,7 +27,7 @@ import numpy as np
 
 from verify.limits import limits
 from verify.packed.edges import distances
-from verify.packed.operators import Ints
+from verify.packed.layout import Ints
 from verify.programs.agents.product import Move
 from verify.programs.promising.arrays import Actions, Arcs, Mask, Ways, which
 from verify.programs.promising.bounds import NEVER, Spending, Use
