@@ -4,7 +4,7 @@ What bystanders need for the rest of their plans is worked out backward, from th
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final, NamedTuple
 
@@ -27,7 +27,7 @@ from verify.base.plan_graph import plan_graph
 from verify.rules.layers import Layers
 from verify.rules.leftovers import Leftovers, Prices, left, unpriced
 from verify.rules.noticed import unnoticed
-from verify.rules.replay import replay, replay_human
+from verify.rules.replay import Replay, replay, replay_human
 
 Literals = dict[int, bool]
 """By fact whether it has to be true."""
@@ -47,6 +47,9 @@ class Rule(NamedTuple):
     prices: Prices
 
 
+Examine = Callable[[Task, Result], Iterable[Claim]]
+"""Makes the claims of a task and a result without the rule."""
+
 Solve = Callable[[Task, Options, Sequence[str] | None], Result | None]
 """The best plan for a task beside a plan of the human's, or none."""
 
@@ -59,7 +62,7 @@ def under_the_rule(
     result: Result,
     original: Task,
     deadline: Deadline,
-    examine: Callable[[Task, Result], Iterable[Claim]],
+    examine: Examine,
     solve: Solve | None = None,
 ) -> tuple[Claim, ...]:
     """The claims of a result about one plan of the human's.
@@ -68,59 +71,39 @@ def under_the_rule(
     without the rule, which keeps it.
 
     Args:
-        examine: makes the claims of a task and a result without the rule.
         solve: finds the best plan for a task, for claims about what is best where leaving costs something.
     """
     if not is_bound(original, result.options) or not isinstance(result.horizon, int):
         return tuple(examine(task, result))
     if is_tied(result):
-        return _claims_over_ties(task, result, original, deadline, examine, solve)
+        rules = RulesOfHelp(task, result.options.but(ties="fixed"), original, deadline)
+        return _claims_over_ties(rules, result, examine, solve)
+    rules = RulesOfHelp(task, result.options, original, deadline)
     try:
         names = result.human_plan
         plan = None if names is None else replay_human(task, names, deadline)
     except PlanError:
         return tuple(examine(task, result))  # which says so
-    rule = rule_of(task, result.options, plan, result.horizon, original)
-    fault = fault_of(task, result, rule, plan, original, deadline)
+    rule = rules.of(plan, result.horizon)
+    fault = rules.fault(result, rule, plan)
     if fault is not None:
         return (Claim("replay", "refuted", fault),)
-
-    def bound(kept: Iterable[int] = ()) -> Task:
-        return bound_task(task, result.options, rule, kept, plan, original, deadline)
-
     plain = replace(result, options=interfering_plainly(result.options))
     binds = result.statistics.get("rule_binds")
     if rule.prices and (binds or left(rule.prices, last_state(task, result))):
-        return _priced_claims(task, plain, rule, bound, examine, solve)
-    return tuple(examine(bound(), plain) if binds else examine(task, result))
-
-
-def fault_of(
-    task: Task, result: Result, rule: Rule, plan: HumanPlan | None, original: Task, deadline: Deadline
-) -> str | None:
-    """What a plan beside one of the human's breaks of the rules, in words."""
-    return (
-        broken(task, result, rule, deadline)
-        or disturbs(task, result, original, deadline)
-        or unnoticed(task, result, plan, original, deadline)
-    )
+        return _priced_claims(rules, plain, rule, plan, examine, solve)
+    return tuple(examine(rules.bound(rule, plan), plain) if binds else examine(task, result))
 
 
 def _claims_over_ties(
-    task: Task,
-    result: Result,
-    original: Task,
-    deadline: Deadline,
-    examine: Callable[[Task, Result], Iterable[Claim]],
-    solve: Solve | None,
+    rules: "RulesOfHelp", result: Result, examine: Examine, solve: Solve | None
 ) -> tuple[Claim, ...]:
     """The claims over ties: what the best answer costs beside each plan, under the rule for that plan."""
-    asked = result.options.but(ties="fixed")
+    task, asked, deadline = rules.task, rules.options, rules.deadline
 
     def bound(plan: HumanPlan) -> tuple[Rule, Task]:
-        last = len(plan) if asked.horizon is None else int(asked.horizon)
-        rule = rule_of(task, asked, plan, last, original)
-        return rule, bound_task(task, asked, rule, (), plan, original, deadline)
+        rule = rules.of(plan, len(plan) if asked.horizon is None else int(asked.horizon))
+        return rule, rules.bound(rule, plan)
 
     def solved(plan: HumanPlan) -> Result | None:
         """The best answer without the rule, if it keeps it, or else under it (semantics 12)."""
@@ -128,7 +111,7 @@ def _claims_over_ties(
         if solve is None or rule.prices:
             return None
         free = solve(task, asked, named(plan))
-        if free is None or fault_of(task, free, rule, plan, original, deadline) is None:
+        if free is None or rules.fault(free, rule, plan) is None:
             return free
         return solve(under, interfering_plainly(asked), named(plan))
 
@@ -172,22 +155,23 @@ def _claims_over_ties(
 
 
 def _priced_claims(
-    task: Task,
+    rules: "RulesOfHelp",
     result: Result,
     rule: Rule,
-    bound: Callable[[Iterable[int]], Task],
-    examine: Callable[[Task, Result], Iterable[Claim]],
+    plan: HumanPlan | None,
+    examine: Examine,
     solve: Solve | None,
 ) -> tuple[Claim, ...]:
     """The claims where leaving something costs something: the plan's by itself, and that none is better."""
-    options = result.options.but(leave_price=None, leave_free=None)
+    task, options = rules.task, result.options.but(leave_price=None, leave_free=None)
     if result.status == "infeasible":  # whatever it would cost
-        return tuple(examine(bound(()), replace(result, options=options)))
+        return tuple(examine(rules.bound(rule, plan), replace(result, options=options)))
     if result.plan is None or result.objective is None:
         return tuple(Claim(name, "undecided", wording.NOT_EXAMINED) for name in needed(result))
 
     def solved(kept: frozenset[int]) -> tuple[Result, State] | None:
-        found = None if solve is None else solve(bound(kept), options, result.human_plan)
+        under = rules.bound(rule, plan, kept)
+        found = None if solve is None else solve(under, options, result.human_plan)
         if found is None or found.status not in ("optimal", "infeasible"):
             return None
         return found, last_state(task, found)
@@ -206,7 +190,7 @@ def _priced_claims(
         alone = None  # then nothing is better, whatever it costs
     # first of all, since what examines may take its time
     verdict = Leftovers(solved, rule.prices, weight, alone).none_below(below)
-    claims = [claim for claim in examine(bound(()), said) if claim.claim not in UNPRICED]
+    claims = [claim for claim in examine(rules.bound(rule, plan), said) if claim.claim not in UNPRICED]
     told: dict[bool | None, Verdict] = {True: "proved", False: "refuted", None: "undecided"}
     asked = (name for name in needed(result) if name in UNPRICED)
     return (*claims, *(Claim(name, told[verdict], wording.PRICED[verdict]) for name in asked))
@@ -217,95 +201,107 @@ def last_state(task: Task, found: Result) -> State:
     return replay(task, found.plan or (), Deadline(), strict=found.options.strict).last
 
 
-def bound_task(
-    task: Task,
-    options: Options,
-    rule: Rule,
-    kept: Iterable[int],
-    plan: HumanPlan | None,
-    original: Task,
-    deadline: Deadline,
-) -> Task:
-    """The task of an answer that the rules bind.
+@dataclass(frozen=True, slots=True)
+class RulesOfHelp:
+    """What a call asks of help.
 
-    Args:
-        kept: priced facts that are kept, too.
+    Attributes:
+        original: the task as it was given, where the other one is in single epochs.
     """
-    as_idle = {fact: rule.prices[fact][0] for fact in kept}
-    positive, negative = ([f for f, true in as_idle.items() if true is value] for value in (True, False))
-    bound = with_goals(with_goals(task, rule.facts), Condition(tuple(positive), tuple(negative)))
-    return Layers(bound, options, plan, rule.most if task.robot_goal else None, original, deadline).task
 
+    task: Task
+    options: Options
+    original: Task
+    deadline: Deadline
 
-def broken(task: Task, result: Result, rule: Rule, deadline: Deadline) -> str | None:
-    """What a plan breaks of the rule, in words; None if nothing, or if it can't be executed."""
-    found = replay(task, result.plan or (), deadline, strict=result.options.strict)
-    if result.plan is None or found.fault is not None:
+    def of(self, plan: HumanPlan | None, last: int) -> Rule:
+        """The rule beside a plan of the human's, or beside none.
+
+        Args:
+            plan: the human's, epoch by epoch.
+            last: ``T``.
+        """
+        task, options, original = self.task, self.options, self.original
+        state = waited(task, task.init, last, strict=options.strict, plan=plan or ())
+        if state is None:
+            return Rule(Condition(), None, {})
+        chosen_ones = (action for i, action in enumerate(task.actions) if i not in task.of_bystanders)
+        changed = {fact for action in chosen_ones for fact in (*action.add, *action.delete)}
+        kept: Literals = {}
+        everybody = nobody_pays(original, options)
+        if everybody:
+            kept |= _bystanders_need(task, state, len(original.agents))
+        prices: dict[int, tuple[bool, Fraction]] = {}
+        rest = leftovers(options)
+        for fact, price in enumerate(() if rest is None else rest.prices(original.facts)):
+            if price is None:
+                kept[fact] = fact in state
+            elif price and fact in changed:
+                prices[fact] = (fact in state, price)
+        facts = Condition(
+            tuple(sorted(fact for fact, true in kept.items() if true and fact in changed)),
+            tuple(sorted(fact for fact, true in kept.items() if not true and fact in changed)),
+        )
+        return Rule(facts, task.cost_of(plan) if everybody and plan is not None else None, prices)
+
+    def bound(self, rule: Rule, plan: HumanPlan | None, kept: Iterable[int] = ()) -> Task:
+        """The task of an answer that the rules bind.
+
+        Args:
+            kept: priced facts that are kept, too.
+        """
+        as_idle = {fact: rule.prices[fact][0] for fact in kept}
+        positive, negative = ([f for f, true in as_idle.items() if true is value] for value in (True, False))
+        bound = with_goals(with_goals(self.task, rule.facts), Condition(tuple(positive), tuple(negative)))
+        most = rule.most if self.task.robot_goal else None
+        return Layers(bound, self.options, plan, most, self.original, self.deadline).task
+
+    def fault(self, result: Result, rule: Rule, plan: HumanPlan | None) -> str | None:
+        """What a plan beside one of the human's breaks of the rules, in words; None: nothing.
+
+        Where it can't be executed others say so.
+        """
+        found = replay(self.task, result.plan or (), self.deadline, strict=result.options.strict)
+        words = None
+        if result.plan is not None and found.fault is None:
+            words = self._broken(found, rule) or self._disturbs(found, result)
+        return words or unnoticed(self.task, result, plan, self.original, self.deadline)
+
+    def _broken(self, found: Replay, rule: Rule) -> str | None:
+        """What a plan breaks of the rule for it."""
+        task = self.task
+        his = (task.actions[i] for chosen in found.sets.values() for i in chosen)
+        paid = sum((one.cost for one in his if task.human in one.participants), Fraction(0))
+        if rule.most is not None and paid > rule.most:
+            return wording.HUMAN_PAYS.format(float(paid), float(rule.most))
+        if not rule.facts.holds(found.last):
+            wrong = [fact for fact in rule.facts.positive if fact not in found.last]
+            wrong += [fact for fact in rule.facts.negative if fact in found.last]
+            return wording.LEFT_CHANGED.format(", ".join(task.facts[fact] for fact in wrong))
         return None
-    his = (task.actions[i] for chosen in found.sets.values() for i in chosen)
-    paid = sum((one.cost for one in his if task.human in one.participants), Fraction(0))
-    if rule.most is not None and paid > rule.most:
-        return wording.HUMAN_PAYS.format(float(paid), float(rule.most))
-    if not rule.facts.holds(found.last):
-        wrong = [fact for fact in rule.facts.positive if fact not in found.last]
-        wrong += [fact for fact in rule.facts.negative if fact in found.last]
-        return wording.LEFT_CHANGED.format(", ".join(task.facts[fact] for fact in wrong))
-    return None
 
-
-def disturbs(task: Task, result: Result, original: Task, deadline: Deadline) -> str | None:
-    """Whether a plan disturbs the human more than it may, in words (semantics 13)."""
-    found = replay(task, result.plan or (), deadline, strict=result.options.strict)
-    most, kinds = result.options.max_disturbance, disturbance_from(result.options.disturbance)
-    if most is None or result.plan is None or found.fault is not None:
-        return None
-    seen, amount, started = surroundings(original), Fraction(0), {i for _, i in task.due}
-    for epoch, chosen in found.sets.items():
-        before = found.state_after(epoch - 1)
-        here = {at for fact, (who, at) in seen.located.items() if fact in before and who == result.human}
-        for i in chosen:
-            action, begins = task.actions[i], i not in started
-            doers = {task.agents[agent] for agent in action.participants}
-            if result.human in doers:
-                amount += kinds.ask if begins and len(doers) > 1 else 0
-            elif task.script.people.isdisjoint(action.participants):
-                changes = [fact for fact in (*action.add, *action.delete) if fact < len(original.facts)]
-                named = [seen.located.get(f) for f in ((*action.pre, *action.add) if begins else action.add)]
-                amount += kinds.sight * any(here & seen.parts[fact] for fact in changes)
-                amount += kinds.meet * any(
-                    at is not None and at[0] in doers and at[1] in here for at in named
-                )
-    return None if amount <= most else wording.DISTURBS.format(float(amount), float(most))
-
-
-def rule_of(task: Task, options: Options, plan: HumanPlan | None, last: int, original: Task) -> Rule:
-    """The rule beside a plan of the human's, or beside none.
-
-    Args:
-        plan: the human's, epoch by epoch.
-        last: ``T``.
-    """
-    state = waited(task, task.init, last, strict=options.strict, plan=plan or ())
-    if state is None:
-        return Rule(Condition(), None, {})
-    chosen_ones = (action for i, action in enumerate(task.actions) if i not in task.of_bystanders)
-    changed = {fact for action in chosen_ones for fact in (*action.add, *action.delete)}
-    kept: Literals = {}
-    everybody = nobody_pays(original, options)
-    if everybody:
-        kept |= _bystanders_need(task, state, len(original.agents))
-    prices: dict[int, tuple[bool, Fraction]] = {}
-    rest = leftovers(options)
-    for fact, price in enumerate(() if rest is None else rest.prices(original.facts)):
-        if price is None:
-            kept[fact] = fact in state
-        elif price and fact in changed:
-            prices[fact] = (fact in state, price)
-    facts = Condition(
-        tuple(sorted(fact for fact, true in kept.items() if true and fact in changed)),
-        tuple(sorted(fact for fact, true in kept.items() if not true and fact in changed)),
-    )
-    return Rule(facts, task.cost_of(plan) if everybody and plan is not None else None, prices)
+    def _disturbs(self, found: Replay, result: Result) -> str | None:
+        """Whether a plan disturbs the human more than it may (semantics 13)."""
+        task, facts = self.task, len(self.original.facts)
+        most, kinds = result.options.max_disturbance, disturbance_from(result.options.disturbance)
+        if most is None:
+            return None
+        seen, amount, started = surroundings(self.original), Fraction(0), {i for _, i in task.due}
+        for epoch, chosen in found.sets.items():
+            before = found.state_after(epoch - 1)
+            here = {at for f, (who, at) in seen.located.items() if f in before and who == result.human}
+            for i in chosen:
+                action, begins = task.actions[i], i not in started
+                doers = {task.agents[agent] for agent in action.participants}
+                if result.human in doers:
+                    amount += kinds.ask if begins and len(doers) > 1 else 0
+                elif task.script.people.isdisjoint(action.participants):
+                    changes = [fact for fact in (*action.add, *action.delete) if fact < facts]
+                    named = map(seen.located.get, (*action.pre, *action.add) if begins else action.add)
+                    meets = any(at is not None and at[0] in doers and at[1] in here for at in named)
+                    amount += kinds.sight * any(here & seen.parts[fact] for fact in changes)
+                    amount += kinds.meet * meets
+        return None if amount <= most else wording.DISTURBS.format(float(amount), float(most))
 
 
 def with_goals(task: Task, facts: Condition) -> Task:

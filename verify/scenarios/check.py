@@ -21,7 +21,7 @@ from verify.rules.case import Case
 from verify.rules.header import mode_and_human, reason, status_and_fields
 from verify.rules.layers import Layers
 from verify.rules.leftovers import left
-from verify.rules.nobody_pays import Rule, fault_of, last_state, rule_of
+from verify.rules.nobody_pays import Rule, RulesOfHelp, last_state
 from verify.rules.replay import replay_human
 from verify.scenarios.beliefs import considered_plans, faults
 from verify.scenarios.reading import condition, listed, recognised
@@ -114,11 +114,11 @@ def _bound(
         return plain, None
     rules, plans, paid = list[Rule](), list[HumanPlan](), list[Fraction]()
     for one, entry in pairs:
-        own = tasks[one.goal]
+        own, told = tasks[one.goal], replace(result, plan=entry.plan)
+        asked = RulesOfHelp(own, options, original, deadline)
         plans.append(replay_human(own, one.plan, deadline))
-        rules.append(rule_of(own, options, plans[-1], int(result.horizon or 0), original))
-        told = replace(result, plan=entry.plan)
-        fault = fault_of(own, told, rules[-1], plans[-1], original, deadline)
+        rules.append(asked.of(plans[-1], int(result.horizon or 0)))
+        fault = asked.fault(told, rules[-1], plans[-1])
         if fault is not None:
             return plain, f"scenario '{one.name}': {fault}"
         leaves = left(rules[-1].prices, last_state(own, told)) if rules[-1].prices else {}
@@ -129,11 +129,11 @@ def _bound(
     known: dict[object, Layers] = {}
     found = []
     for (one, _), plan, rule, price in zip(pairs, plans, rules, paid, strict=True):
-        asked = (one.goal, plan) if options.noticed else None
-        if asked not in known:
-            known[asked] = Layers(tasks[one.goal], options, plan, most, original, deadline)
-        layers = known[asked]
-        goal = layers.goal(layers.task.goal if asked else one.goal, rule.most)
+        alike = (one.goal, plan) if options.noticed else None
+        if alike not in known:
+            known[alike] = Layers(tasks[one.goal], options, plan, most, original, deadline)
+        layers = known[alike]
+        goal = layers.goal(layers.task.goal if alike else one.goal, rule.most)
         found.append(Aimed(layers.task.with_goal(goal, rule.facts), layers.original, rule.prices, price))
     return found, None
 
