@@ -66,17 +66,14 @@ def _saving(call: ExaminedCall, cost: int | None) -> float | None:
 
 def _header(call: ExaminedCall) -> dict[str, Any]:
     task, plan = call.task, call.human_plan
+    horizon: Horizon | None = None
+    if plan is not None or not call.needs_pi_h:
+        horizon = len(plan or ()) if call.options.mode == "individual" else call.horizon
     return {
         "mode": call.options.mode,
         "human": task.agents[task.human],
         "options": call.options,
-        "horizon": _horizon(call),
+        "horizon": horizon,
         "human_plan": None if plan is None else tuple(task.actions[i].name for i in plan),
         "human_cost": None if plan is None else figure(task.cost_of(plan)),
     }
-
-
-def _horizon(call: ExaminedCall) -> Horizon | None:
-    if call.human_plan is None and call.needs_pi_h:
-        return None
-    return len(call.human_plan or ()) if call.options.mode == "individual" else call.horizon

@@ -15,7 +15,6 @@ from verify.calls.answer import CallAnswer, answer, best_plan, is_help
 from verify.calls.call import ExaminedCall, Score
 from verify.calls.methods import decide, decide_without_horizon
 from verify.calls.results import found_result, plan_steps
-from verify.certificate.savings import savings_fault
 from verify.programs.alone import cost_alone
 from verify.programs.effort import Attempt, SolverCall
 from verify.rules import Checker
@@ -26,6 +25,28 @@ Verdict = tuple[ClaimVerdict, str, PricedPlan | None]
 
 _BOUNDED = ("optimal", "no_opportunity", "lower_bound")
 """Claims that bound the objective."""
+
+
+def savings_fault(
+    result: Result, baseline: Fraction | None, idle: Fraction | None, cost: Fraction
+) -> str | None:
+    """Why ``saving_alone`` or ``saving`` is wrong; None where neither is.
+
+    Args:
+        baseline: what doing nothing costs; None: it is no answer.
+        idle: what the human pays at best without robots, or ``baseline``.
+        cost: the result's own.
+    """
+    if baseline is None or idle is None:
+        nothing = result.saving is None and result.saving_alone is None
+        return None if nothing else wording.NOTHING_TO_COMPARE
+    alone, saving = baseline - idle, baseline - cost if result.opportunity else Fraction(0)
+    is_open = result.saving_alone is None and result.status == "feasible"  # a limit came first
+    if not is_open and not agrees(result.saving_alone, alone):
+        return wording.FIGURE.format("saving_alone", float(alone), result.saving_alone)
+    if not agrees(result.saving, saving):
+        return wording.FIGURE.format("saving", float(saving), result.saving)
+    return None
 
 
 class Examiner:
@@ -122,8 +143,8 @@ class Examiner:
         """Refutes figures that need an optimiser: ``saving`` with ``G_R``, ``saving_alone``."""
         baseline, result = self.call.baseline, self.result
         if baseline is None:
-            nothing = result.saving is None and result.saving_alone is None
-            return None if nothing else ("refuted", wording.NOTHING_TO_COMPARE, None)
+            fault = savings_fault(result, None, None, Fraction(0))
+            return None if fault is None else ("refuted", fault, None)
         return None if result.plan is None else self._saved(baseline)
 
     def _saved(self, baseline: int) -> Verdict | None:

@@ -127,7 +127,8 @@ class EachPlan:
     def _nobody(self, *limits: int) -> bool:
         """Whether a program allows no plan within limits on objective and cost, beside any optimal plan."""
         effort = self._effort
-        if isinstance(effort.proof, ProofReader) and not _is_next(effort.proof):
+        left = effort.proof.left if isinstance(effort.proof, ProofReader) else None
+        if left is not None and not (left and BESIDE_ANY in str(left[0].get("name"))):
             return False  # it took too long when the proof was written
         method = "pruned" if effort.method == "auto" else effort.method
         effort = replace(effort, deadline=ANY_PLAN.turn(effort.deadline), method=method)
@@ -188,11 +189,6 @@ def kin(call: ExaminedCall) -> Hashable:
             return plan
         return in_plan(call.task, plan) if options.keep_prefix or any(call.prices.talk) else None
     return None if call.question.is_free else plan
-
-
-def _is_next(proof: ProofReader) -> bool:
-    """Whether the next program is one of plans beside any of the human's."""
-    return bool(proof.left) and BESIDE_ANY in str(proof.left[0].get("name"))
 
 
 def _solved(call: ExaminedCall) -> SolvedPlan:

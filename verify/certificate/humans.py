@@ -116,11 +116,8 @@ def _out_of_reach(call: ExaminedCall, most: int | None) -> bool:
     if effort.method == "exhaustive" or not uses(JOINT_PLANS.name):
         return False
     if effort.method == "auto":
-        deadline = JOINT_PLANS.turn(effort.deadline)
-        effort, question = (
-            replace(effort, method="pruned", deadline=deadline),
-            question.but(deadline=deadline),
-        )
+        effort = replace(effort, method="pruned", deadline=JOINT_PLANS.turn(effort.deadline))
+        question = question.but(deadline=effort.deadline)
     return decide(question, effort, call.plans).status == "none"
 
 

@@ -12,8 +12,8 @@ from verify.base import wording
 from verify.base.obligations import is_mean
 from verify.base.optimal_plans import OptimalPlans
 from verify.certificate.achieved import NotAchievedError, achieved
+from verify.certificate.claims import savings_fault
 from verify.certificate.each_plan import EachPlan, SolvedPlan
-from verify.certificate.savings import savings_fault
 from verify.programs.effort import Effort
 from verify.rules.tied import tied_answers
 
@@ -104,10 +104,7 @@ def _savings_fault(result: Result, each: EachPlan) -> str | None:
     call = None if plan is None or result.plan is None else each.call(plan)
     if call is None or not call.robots_goal:
         return None
-    if call.baseline is None:
-        nothing = result.saving is None and result.saving_alone is None
-        return None if nothing else wording.NOTHING_TO_COMPARE
-    baseline = call.prices.cost(call.baseline)
+    baseline = None if call.baseline is None else call.prices.cost(call.baseline)
     return savings_fault(result, baseline, baseline, as_written(result.cost or 0.0))
 
 

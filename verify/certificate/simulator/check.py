@@ -48,9 +48,8 @@ class _Examination:
         self.task = task
         self.result = result
         self.plans = plans
-        self.human_plan = (
-            () if result.human_plan is None else replay_human(task, result.human_plan, plans.deadline)
-        )
+        names = result.human_plan
+        self.human_plan = () if names is None else replay_human(task, names, plans.deadline)
         self.steps = [Step(step.epoch, _action(task, step.action, step.agents)) for step in result.plan or ()]
 
     def faults(self) -> Iterator[str]:
