@@ -271,10 +271,9 @@ class _Series:
 
 
 def _at_work(run: Execution) -> bool:
-    """Whether robots have something to do still that they see to."""
-    return bool(run.left and (run.decided.actions or run.decided.plan)) or bool(
-        run.task.robot_goal and run.going
-    )
+    """Whether robots have something to do still: what they see to, or what they undid for it."""
+    owed = run.left or not run.done
+    return bool(owed and (run.decided.actions or run.decided.plan)) or bool(run.task.robot_goal and run.going)
 
 
 def _spoils(run: Execution, person: Person) -> bool:

@@ -162,3 +162,17 @@ def test_two_robots_do_at_once_only_what_one_of_them_may_fail_in() -> None:
     assert len(Execution(task).decided.actions) == 2, "where nothing fails"
     run = lived(Execution(task, adapter=Scripted(Report("done"), Report("failed"))), Replanner(task))
     assert run.done and run.human_cost <= 4
+
+
+def test_who_has_arrived_has_their_goal_back_when_robots_have_theirs() -> None:
+    """The person needs nothing; the robot needs the door open for a moment, and shuts it again."""
+    task = build(
+        agents="hum rob",
+        human="hum",
+        init="shut",
+        goal="shut",
+        robot_goal="aired",
+        actions={"air rob": "-> aired !shut", "close rob": "-> shut", "shut hum": "!shut -> shut"},
+    )
+    (row,) = serendipity.execute(task, "omniscient", discount="0").rows
+    assert row.reached and row.human_cost == 0
