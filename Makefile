@@ -142,7 +142,7 @@ bench-limits: $(READY)  ## measure how well limits of time and memory are kept: 
 	$$LIMITS-memory.jsonl memory || missed=1; exit $$missed
 
 bench-extra: $(READY)
-	@$(BIN)/python -c 'import sys; from serendipity.evaluation.benchmark.fast_downward import absent; sys.exit(bool(absent()))' \
+	@$(BIN)/python -c 'import sys; from serendipity.classical.fast_downward import absent; sys.exit(bool(absent()))' \
 	  || { if command -v uv >/dev/null 2>&1; then \
 	         uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-bench.txt; \
 	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \

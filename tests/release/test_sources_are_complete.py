@@ -4,6 +4,7 @@ import re
 import subprocess
 import sys
 import tarfile
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -35,3 +36,10 @@ def test_what_runs_is_installed_as_developers_have_it() -> None:
         for name in ("requirements.txt", "requirements-dev.txt")
     }
     assert pins["requirements.txt"] <= pins["requirements-dev.txt"]
+
+
+def test_the_makefile_imports_what_is_there() -> None:
+    """`make bench` asked a module that had moved, and installed Fast Downward each time."""
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    found = re.findall(r"from (serendipity[\w.]*) import (\w+)", makefile)
+    assert found and all(hasattr(import_module(module), name) for module, name in found)
