@@ -1,7 +1,6 @@
 """Ablation of the search: calls with all strategies, techniques and bounds, and without each.
 
-    python -m benchmarks.ablation -o FILE.jsonl [--limits 2,10] [--suites families,buildings,competition]
-        [--stride N] [--calls individual,composite-inf] [--techniques]
+    python -m benchmarks.ablation -o FILE.jsonl [--techniques] [OPTIONS]
     python -m benchmarks.ablation -o FILE.jsonl --table
 
 Limits are seconds by the clock, since other processes do some of the work.  A call is asked again without
@@ -25,7 +24,7 @@ import typer
 
 import serendipity
 from benchmarks.families import FAMILIES
-from benchmarks.problems import PROBLEMS, building, can_alone, of_suite
+from benchmarks.problems import PROBLEMS, building, can_alone, of_suite, run
 from benchmarks.techniques import NAMES
 from benchmarks.techniques import without as doing_without
 from search.strategies.portfolio import STRATEGIES, TURNS
@@ -209,5 +208,4 @@ def _told(calls: Iterable[Row]) -> str:
 
 
 if __name__ == "__main__":
-    main.__doc__ = __doc__
-    typer.run(main)
+    run(main, __doc__)

@@ -22,9 +22,9 @@ from typing import Annotated, Any
 import typer
 
 import serendipity
-from benchmarks.problems import PROBLEMS
+from benchmarks.problems import PROBLEMS, run
 from serendipity import Result, SerendipityError, Task
-from serendipity.testing.generator.calls import PlanCall, random_call
+from serendipity.testing.generator.calls import random_call
 
 TIMED = ("elapsed_seconds", "seconds", "gap")
 """Fields that depend on the clock: improvements are told of now and then."""
@@ -51,37 +51,32 @@ def main(
 def _random(seed: int) -> Iterator[tuple[str, Ask]]:
     """Questions about one random task."""
     call = random_call(seed)
-    task, dice = call.task, Random(f"answers {seed}")
+    task, asked, dice = call.task, call.keywords(), Random(f"answers {seed}")
     result = None
     with suppress(SerendipityError):
-        result = serendipity.plan(task, human_plan=call.human_plan, **call.keywords())
-    yield f"plan {seed}", lambda: _last(call)
+        result = serendipity.plan(task, human_plan=call.human_plan, **asked)
+    yield f"plan {seed}", lambda: [*serendipity.plan_anytime(task, human_plan=call.human_plan, **asked)][-1]
     if result is not None:
         yield from _about(seed, task, result)
     if seed % 4 == 1:
-        yield f"interruptions {seed}", lambda: serendipity.interruptions(task, discount="0.5").to_dict()
+        yield f"interruptions {seed}", partial(serendipity.interruptions, task, discount="0.5")
     if seed % 2 == 0:
         yield from _goals(seed, task, dice)
     if len(task.agents) == 2 and not task.robot_goal:
         ties = dice.choice(("fixed", "robust", "optimistic", "expected"))
-        yield f"assistance {seed}", lambda: _certified(task, mode="assistance", ties=ties, discount="0")
+        yield f"assistance {seed}", partial(_certified, task, mode="assistance", ties=ties, discount="0")
 
 
 def _about(seed: int, task: Task, result: Result) -> Iterator[tuple[str, Ask]]:
-    yield f"result {seed}", result.to_dict
-    yield f"check {seed}", lambda: serendipity.check(task, result).to_dict()
+    yield f"result {seed}", lambda: result
+    yield f"check {seed}", partial(serendipity.check, task, result)
     if seed % 3 == 0:
-        yield f"verify {seed}", lambda: serendipity.verify(task, result).to_dict()
+        yield f"verify {seed}", partial(serendipity.verify, task, result)
     if result.plan is not None:
         for model in ("observant", "local"):
-            yield f"simulate {seed} {model}", partial(_simulated, task, result, model)
+            yield f"simulate {seed} {model}", partial(serendipity.simulate, task, result, model)
     if seed % 4 == 0:
-        yield f"explain {seed}", lambda: serendipity.explain(task, result).to_dict()
-
-
-def _last(call: PlanCall) -> dict[str, Any]:
-    *_, last = serendipity.plan_anytime(call.task, human_plan=call.human_plan, **call.keywords())
-    return last.to_dict()
+        yield f"explain {seed}", partial(serendipity.explain, task, result)
 
 
 def _goals(seed: int, task: Task, dice: Random) -> Iterator[tuple[str, Ask]]:
@@ -91,48 +86,43 @@ def _goals(seed: int, task: Task, dice: Random) -> Iterator[tuple[str, Ask]]:
     mine = [task.actions[i].name for i in task.human_actions]
     observed = dice.sample(mine, 1) if mine and dice.random() < 0.5 else []
     discount = dice.choice(("0", "0.5", "0.9"))
-    yield f"recognise {seed}", lambda: serendipity.recognise(task, goals, observed).to_dict()
-    yield f"goals {seed}", lambda: _certified(task, goals=goals, observed=observed, discount=discount)
+    yield f"recognise {seed}", partial(serendipity.recognise, task, goals, observed)
+    yield f"goals {seed}", partial(_certified, task, goals=goals, observed=observed, discount=discount)
 
 
 def _certified(task: Task, **options: Any) -> list[Any]:
     """An answer, checked by the rules, and certified where the goal is not known."""
     result = serendipity.plan(task, **options)
     judges = (serendipity.check, serendipity.verify)[: 2 if "goals" in options else 1]
-    return [result.to_dict(), *(judge(task, result).to_dict() for judge in judges)]
+    return [result, *(judge(task, result) for judge in judges)]
 
 
 def _usar(folder: Path) -> Iterator[tuple[str, Ask]]:
     for path in sorted(folder.glob("test*")):
         task = serendipity.load(path)
         for mode, discount in product(("serendipity", "communication", "composite"), ("0", "0.6")):
-            yield f"{path.name} {mode} {discount}", partial(_planned, task, mode=mode, discount=discount)
-
-
-def _planned(task: Task, **options: Any) -> dict[str, Any]:
-    return serendipity.plan(task, **options).to_dict()
-
-
-def _simulated(task: Task, result: Result, model: Any) -> dict[str, Any]:
-    return serendipity.simulate(task, result, model).to_dict()
+            yield (
+                f"{path.name} {mode} {discount}",
+                partial(serendipity.plan, task, mode=mode, discount=discount),
+            )
 
 
 def _said(ask: Ask) -> Any:
     """An answer, or the error that came instead."""
     try:
-        return _without_times(ask())
+        return _plain(ask())
     except SerendipityError as error:
         return f"{type(error).__name__}: {error}"
 
 
-def _without_times(value: Any) -> Any:
+def _plain(value: Any) -> Any:
+    """As JSON has it, without times."""
+    if hasattr(value, "to_dict"):
+        value = value.to_dict()
     if isinstance(value, dict):
-        return {key: _without_times(item) for key, item in value.items() if key not in TIMED}
-    if isinstance(value, list | tuple):
-        return [_without_times(item) for item in value]
-    return value
+        return {key: _plain(item) for key, item in value.items() if key not in TIMED}
+    return [_plain(item) for item in value] if isinstance(value, list | tuple) else value
 
 
 if __name__ == "__main__":
-    main.__doc__ = __doc__
-    typer.run(main)
+    run(main, __doc__)

@@ -1,9 +1,6 @@
 """Time of a certificate, and what is proved: on folders of tasks, buildings of any size, suites of domains.
 
-    python -m benchmarks.certificates [FOLDER] [--human H] [--buildings 84x3,84x3x2,210x6] [--suite FOLDER]
-        [--stride N] [--modes NAME,...] [--discounts D,...] [--plan-limit SECONDS] [--time-limit SECONDS]
-        [--encoding automata] [--solver highs] [--method auto] [--methods=-NAME,...] [--proofs]
-        [--veripb PATH] [--apart] [--record FILE]
+    python -m benchmarks.certificates [FOLDER] [--buildings 84x3,84x3x2,210x6] [--suite FOLDER] [OPTIONS]
 
 A building is named by its rooms, medkits and robots; there are five of each.  A task is read, planned, read
 again and verified.  What a limit left unplanned is left out.  ``seconds`` are from the second reading to the
@@ -37,7 +34,7 @@ from typing import Annotated, Any, NamedTuple
 import typer
 
 import serendipity
-from benchmarks.problems import Source, load, of_suite
+from benchmarks.problems import Source, load, of_suite, run
 from serendipity import Result, SerendipityError
 from serendipity.evaluation.benchmark.contenders import MODES
 from serendipity.evaluation.measuring.figures import children_memory, peak_memory, percentile, timed
@@ -240,5 +237,4 @@ def _proofs(rows: Sequence[Row]) -> Iterator[Line | Grid]:
 
 
 if __name__ == "__main__":
-    main.__doc__ = __doc__
-    typer.run(main)
+    run(main, __doc__)

@@ -18,12 +18,9 @@ Edges = list[tuple[int, int]]
 
 
 def _each(names: str, values: Iterable[object], *texts: str) -> Actions:
-    """Actions for every agent, ``{a}`` in their texts, and every value of what else they name.
+    """Actions for every agent, ``{a}`` in their texts, and every value, or tuple of values, of other names.
 
-    Args:
-        names: with blanks between them.
-        values: of the name, or tuples of those of several names.
-        texts: ``action: body``, as :func:`serendipity.testing.builders.task` has them, with names in braces.
+    Texts are ``action: body``, as :func:`serendipity.testing.builders.task` has it.
     """
     found = {}
     for agent, value in product(AGENTS, [*values]):

@@ -15,9 +15,8 @@ from itertools import zip_longest
 from random import Random
 from typing import Any
 
-import typer
-
 import serendipity
+from benchmarks.problems import run
 from serendipity import Options, SerendipityError, Task
 from serendipity.model.task.plans_in_time import broken_script
 from serendipity.testing.generator.among_people import random_call_among
@@ -97,5 +96,4 @@ def _task(dice: Random, seed: int) -> Task:
 
 
 if __name__ == "__main__":
-    main.__doc__ = __doc__
-    typer.run(main)
+    run(main, __doc__)

@@ -23,9 +23,8 @@ from random import Random
 from statistics import fmean
 from typing import Final, NamedTuple
 
-import typer
-
 import serendipity
+from benchmarks.problems import run
 from serendipity.evaluation.measuring.tables import as_markdown, table
 from serendipity.execution import Habits, learn
 from serendipity.model import Condition, PlanStep, Result, Script, Task
@@ -125,14 +124,13 @@ Policy = Callable[[Day], Decision]
 def by_frequency(task: Task, habits: Habits) -> Decision:
     """Things are brought to where they are needed, the most frequent first, if more often than not."""
     state, steps, robot = task.init, list[str](), task.with_human("robot")
-    often = dict.fromkeys((activity.name for activity in ACTIVITIES), 0.0)
-    for plan in habits.plans:
-        for activity in ACTIVITIES:
-            often[activity.name] += plan.probability * (f"{activity.name} ann" in plan.plan)
-    for name, share in sorted(often.items(), key=lambda one: -one[1]):
-        place, thing = next((a.place, a.thing) for a in ACTIVITIES if a.name == name)
+    often = {
+        each: sum(plan.probability for plan in habits.plans if f"{each.name} ann" in plan.plan)
+        for each in ACTIVITIES
+    }
+    for activity, share in sorted(often.items(), key=lambda one: -one[1]):
         if share > 0.5:
-            wanted = Facts(robot.facts).condition([f"{thing}_{place}", "free_robot"])
+            wanted = Facts(robot.facts).condition([f"{activity.thing}_{activity.place}", "free_robot"])
             for action in _way(robot, state, wanted):
                 steps.append(action)
                 state = apply(state, robot.actions[robot.named[action][0]])
@@ -252,4 +250,4 @@ COLUMNS: Final = {
 
 
 if __name__ == "__main__":
-    typer.run(main)
+    run(main, __doc__)

@@ -1,7 +1,6 @@
 """Four domains of the planning competition of 2002 in time, with the agents that CoDMAP 2015 gave them.
 
-    python -m benchmarks.ipc2002time [FOLDER] [--suite FOLDER] [--calls one,alone,serendipity]
-        [--time-limit 20] [--only WORD] [--record FILE]
+    python -m benchmarks.ipc2002time [FOLDER] [--calls one,alone,serendipity] [OPTIONS]
 
 The folder has one for each domain (driverlog, rovers, satellite, zenotravel: *SimpleTime*), with
 ``domain.pddl`` and problems for a single agent.  Of these a suite in MA-PDDL is written, unfactored, in which
@@ -15,9 +14,10 @@ Each call is a process; its limit and its seconds are by the clock, once the fil
 when a plan was known.  All plans are checked by unified-planning on the original files (extra ``up``).
 """
 
+import re
 import time
-from collections.abc import Iterator, Sequence
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any, Final, NamedTuple
@@ -25,7 +25,7 @@ from typing import Annotated, Any, Final, NamedTuple
 import typer
 
 import serendipity
-from benchmarks.problems import PROBLEMS
+from benchmarks.problems import PROBLEMS, run
 from serendipity import Result, SerendipityError, Task
 from serendipity.evaluation.measuring.record import apart, measured
 from serendipity.evaluation.measuring.suites import Problem, Roles, may_alone, problems, roles
@@ -142,69 +142,57 @@ def _task(asked: Asked) -> Task:
 
 def write_suite(source: Path, target: Path) -> None:
     """Write MA-PDDL of the competition's files: a folder for each domain."""
-    for domain in sorted(AGENTS):
-        if not (source / domain).is_dir():
-            continue
+    for file in sorted(path for domain in AGENTS for path in (source / domain).glob("*.pddl")):
+        text, domain = file.read_text(), file.parent.name
         (target / domain).mkdir(parents=True, exist_ok=True)
-        for file in sorted((source / domain).glob("*.pddl")):
-            text = file.read_text()
-            if file.name == "domain.pddl":
-                text = _written(with_agents(_tree(text), domain))
-            (target / domain / file.name).write_text(text)
+        written = _written(with_agents(_tree(text), domain)) if file.name == "domain.pddl" else text
+        (target / domain / file.name).write_text(written)
 
 
-def with_agents(domain: SExpression, name: str) -> SExpression:
+Tree = list[Any]
+"""PDDL as lists of words, and of such lists."""
+
+
+def with_agents(domain: Tree, name: str) -> Tree:
     """The domain with an agent for each action: a parameter of their type, or whoever it takes."""
-    for part in _nodes(domain):
-        if part.head == ":requirements":
-            part.items += [":multi-agent", ":unfactored-privacy"]
-        elif part.head == ":durative-action":
-            place = part.items.index(":parameters")
-            parameters = _typed(part.items[place + 1])
-            agent = next((variable for variable, kind in parameters if kind == AGENTS[name]), None)
+    for part in domain[1:]:
+        if part[0] == ":requirements":
+            part += [":multi-agent", ":unfactored-privacy"]
+        elif part[0] == ":durative-action":
+            place = part.index(":parameters")
+            kinds = _typed(part[place + 1])
+            agent = next((variable for variable, kind in kinds.items() if kind == AGENTS[name]), None)
             if agent is None:
                 agent, condition = _BY[name]
-                asked = part.items[part.items.index(":condition") + 1]
-                assert isinstance(asked, SExpression), "checked by whoever reads it"
-                asked.items.append(_tree(condition))
-            others = [pair for pair in parameters if pair[0] != agent]
-            part.items[place + 1] = _node(word for variable, kind in others for word in (variable, "-", kind))
-            part.items[place:place] = [":agent", agent, "-", AGENTS[name]]
+                part[part.index(":condition") + 1].append(_tree(condition))
+            kinds.pop(agent, None)
+            part[place + 1] = [word for variable, kind in kinds.items() for word in (variable, "-", kind)]
+            part[place:place] = [":agent", agent, "-", AGENTS[name]]
     return domain
 
 
-def _tree(text: str) -> SExpression:
-    (tree,) = _nodes(read_tree(text, Work()))
+def _tree(text: str) -> Tree:
+    def plain(node: SExpression) -> Tree:
+        return [item if isinstance(item, str) else plain(item) for item in node.items]
+
+    (tree,) = plain(read_tree(text, Work()))
     return tree
 
 
-def _nodes(node: SExpression) -> Iterator[SExpression]:
-    return (item for item in node.items if isinstance(item, SExpression))
-
-
-def _node(items: Any) -> SExpression:
-    node = SExpression(1)
-    node.items = [*items]
-    return node
-
-
-def _typed(node: Any) -> list[tuple[str, str]]:
+def _typed(words: Tree) -> dict[str, Any]:
     """Variables, each with its type."""
-    found: list[tuple[str, str]] = []
-    names: list[str] = []
-    words = iter(node.items)
-    for word in words:
-        if word == "-":
-            kind = next(words)
-            found += [(name, kind) for name in names]
-            names = []
-        else:
+    found, names = dict[str, Any](), list[str]()
+    for before, word in pairwise(["", *words]):
+        if before == "-":
+            found |= dict.fromkeys(names, word)
+            names.clear()
+        elif word != "-":
             names.append(word)
     return found
 
 
 def _written(item: Any) -> str:
-    return item if isinstance(item, str) else f"({' '.join(map(_written, item.items))})"
+    return item if isinstance(item, str) else f"({' '.join(map(_written, item))})"
 
 
 # -- what unified-planning says
@@ -222,9 +210,8 @@ def is_valid(asked: Asked, task: Task, result: Result) -> bool:
     get_environment().credits_stream = None
     source = Path(asked.source) / asked.domain
     domain = _tree((source / "domain.pddl").read_text())
-    problem = PDDLReader().parse_problem_string(
-        _written(_without_either(domain)), (source / f"{asked.name}.pddl").read_text().lower()
-    )
+    texts = _without_either(_written(domain)), (source / f"{asked.name}.pddl").read_text().lower()
+    problem = PDDLReader().parse_problem_string(*texts)
     plan = []
     steps = list(result.plan or ())
     try:
@@ -241,32 +228,26 @@ def is_valid(asked: Asked, task: Task, result: Result) -> bool:
     return bool(TimeTriggeredPlanValidator().validate(problem, TimeTriggeredPlan(plan)))
 
 
-def _original(domain: SExpression, name: str, action: str, words: list[str]) -> list[str]:
+def _original(domain: Tree, name: str, action: str, words: list[str]) -> list[str]:
     """The arguments of an action as the original file has them, of those with the agent in front."""
-    (schema,) = (n for n in _nodes(domain) if n.head == ":durative-action" and n.items[1] == action)
-    kinds = [kind for _, kind in _typed(schema.items[schema.items.index(":parameters") + 1])]
+    (schema,) = (part for part in domain if part[:2] == [":durative-action", action])
+    kinds = [*_typed(schema[schema.index(":parameters") + 1]).values()]
     agent, *others = words
     if AGENTS[name] in kinds:
         others.insert(kinds.index(AGENTS[name]), agent)
     return others
 
 
-def _without_either(domain: SExpression) -> SExpression:
+def _without_either(domain: str) -> str:
     """The domain with a type for each ``(either ...)``, which unified-planning does not read."""
-    text = _written(domain)
-    (types,) = (node for node in _nodes(domain) if node.head == ":types")
-    for predicates in (node for node in _nodes(domain) if node.head == ":predicates"):
-        for kinds in (n for p in _nodes(predicates) for n in _nodes(p) if n.head == "either"):
-            united = "_or_".join(str(kind) for kind in kinds.items[1:])
-            text = text.replace(_written(kinds), united)
-            text = text.replace(_written(types), _written(_united(types, kinds.items[1:], united)))
-    return _tree(text)
-
-
-def _united(types: SExpression, kinds: Sequence[Any], united: str) -> SExpression:
-    rest = [item for item in types.items if item not in kinds]
-    return _node([*rest[:1], *kinds, "-", united, *rest[1:-2], united, *rest[-2:]])
+    for kinds in dict.fromkeys(re.findall(r"\(either (.*?)\)", domain)):
+        (types,) = re.findall(r"\(:types (.*?) - object\)", domain)
+        others = " ".join(word for word in types.split() if word not in kinds.split())
+        united = kinds.replace(" ", "_or_")
+        domain = domain.replace(f"(either {kinds})", united)
+        domain = domain.replace(f":types {types}", f":types {kinds} - {united} {others} {united}")
+    return domain
 
 
 if __name__ == "__main__":
-    typer.run(main)
+    run(main, __doc__)

@@ -1,7 +1,6 @@
 """Overruns of ``--time-limit`` and ``--memory-limit``, command by command, as processes.
 
-    python -m benchmarks.limits plan|verify|memory [--suite FOLDER] [--record FILE] [--jobs N]
-        [--limits 0.1,1] [--rotate N]
+    python -m benchmarks.limits plan|verify|memory [OPTIONS]
 
 ``plan``: every mode on all tasks of the suite, limits of 0.1 and 1 s.  ``verify``: certificates of answers of
 every mode, 0.05, 0.5 and 5 s, on every third task of the suite, published buildings, generated ones, problems
@@ -30,10 +29,8 @@ from pathlib import Path
 from threading import Timer
 from typing import Final, Literal, NamedTuple
 
-import typer
-
 import serendipity
-from benchmarks.problems import PROBLEMS, silent, silent_task
+from benchmarks.problems import PROBLEMS, run, silent, silent_task
 from serendipity import Task
 from serendipity.evaluation.measuring.record import apart, measured
 from serendipity.evaluation.measuring.suites import folders, may_alone, problems, roles
@@ -111,15 +108,12 @@ runpy.run_module("serendipity", None, "__main__")
 
 
 class Named(NamedTuple):
-    """A task, what names it on a command line, the same with one robot (empty: it has more),
-    a file of goals to guess, and its number of ground actions.
-    """
+    """A task, its words on a command line, with one robot (empty: it has more), a file of goals to guess."""
 
     name: str
     words: str
     alone: str
     goals: Path
-    size: int
 
 
 class Job(NamedTuple):
@@ -171,8 +165,6 @@ def main(
         folder = Path(scratch if record is None else record.absolute().with_suffix(".files"))
         folder.mkdir(parents=True, exist_ok=True)
         named = apart(_tasks, study, suite, folder)
-        if usual.largest:
-            named = sorted(named, key=lambda task: task.size)[-usual.largest :]
         asked = [
             Job(name, task.name, line, float(limit), usual.memory, folder)
             for turn, task in enumerate(named)
@@ -196,12 +188,14 @@ def _tasks(study: str, suite: Path, folder: Path) -> list[Named]:
     if study == "verify":
         others = _others(suite, folder)
         found += [(name, words, words * (len(task.robots) < 2), task) for name, words, task in others]
-    named = []
+    named, largest = [], STUDIES[study].largest
+    if largest:
+        found = sorted(found, key=lambda each: len(each[-1].actions))[-largest:]
     for name, words, alone, task in found:
         file = folder / f"{_slug(name)}-goals.json"
         goals = [{"goal": [task.facts[fact]]} for fact in sorted(task.goal.positive)[:3]]
         file.write_text(json.dumps(goals))
-        named.append(Named(name, words, alone, file, len(task.actions)))
+        named.append(Named(name, words, alone, file))
     return named
 
 
@@ -305,5 +299,4 @@ def _tables(rows: Sequence[Row]) -> Iterator[Line | Grid]:
 
 
 if __name__ == "__main__":
-    main.__doc__ = __doc__
-    typer.run(main)
+    run(main, __doc__)

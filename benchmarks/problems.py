@@ -8,6 +8,8 @@ from random import Random
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import typer
+
 import serendipity
 from serendipity import SerendipityError, Task
 from serendipity.evaluation.measuring.suites import Problem, Roles, folders, problems, roles
@@ -28,6 +30,12 @@ Source = tuple[Any, ...]
 """A task by what makes it: rooms, medkits, robots and seed of a building; family, seed, size and agents of a
 random one; a folder and who is the human; or domain and problem files, human and robots.
 """
+
+
+def run(main: Callable[..., None], about: str | None) -> None:
+    """Call a benchmark as the command line has it; its help is what its module says."""
+    main.__doc__ = about
+    typer.run(main)
 
 
 def load(source: Source) -> Task:
@@ -62,13 +70,9 @@ def of_suite(
     stride: int = 1,
     smallest: int | None = None,
 ) -> Iterator[tuple[Problem, Roles, Source]]:
-    """Problems of a suite, with the human and two robots; none where it is not there.
+    """Problems of a suite, with the human, who is ``able`` alone, and two robots; none where it is not there.
 
-    Args:
-        suite: a folder of domains.
-        able: whether a human is known to have a plan alone.
-        stride: every so many of a domain's problems.
-        smallest: how many of each domain, from its first.
+    Of each domain every so many, or only so many of the smallest.
     """
     found = problems(suite, stride=stride) if suite.is_dir() else []
     for of in grouped(found, lambda problem: problem.domain).values():

@@ -23,10 +23,9 @@ from tempfile import TemporaryDirectory
 from typing import Any, Final
 
 import httpx
-import typer
 
 import serendipity
-from benchmarks.problems import PROBLEMS
+from benchmarks.problems import PROBLEMS, run
 from serendipity.evaluation.measuring.figures import percentile
 from serendipity.live.guards.connections import listening, url
 
@@ -133,5 +132,4 @@ async def _balanced(replicas: list[str]) -> AsyncIterator[str]:
 
 
 if __name__ == "__main__":
-    main.__doc__ = __doc__
-    typer.run(main)
+    run(main, __doc__)

@@ -12,10 +12,8 @@ from pathlib import Path
 from random import Random
 from typing import Any, Final, NamedTuple
 
-import typer
-
 import serendipity
-from benchmarks.problems import PROBLEMS, Source, can_some, load, of_suite, usar
+from benchmarks.problems import PROBLEMS, Source, can_some, load, of_suite, run, usar
 from serendipity import Condition, SerendipityError, Task, UsageError
 from serendipity.evaluation.measuring.record import measured
 from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, grouped, table, total
@@ -91,10 +89,9 @@ def priced(job: Job) -> Row | None:
 
 
 def _shared(task: Task, *, bystander: bool) -> Task:
-    """The task with half of its goals for the human, and, with a bystander, one of the others for them.
+    """The task with half of its goals for the human, and one of the others for a bystander.
 
-    Raises:
-        UsageError: nothing is left for a bystander to want, or they can't reach it alone.
+    A UsageError where nothing is left for a bystander to want, or they can't reach it alone.
     """
     goals = sorted(task.goal.positive)
     if len(goals) < 2 and not bystander:
@@ -122,5 +119,4 @@ COLUMNS: Final[Mapping[str, Cell]] = {
 
 
 if __name__ == "__main__":
-    main.__doc__ = __doc__
-    typer.run(main)
+    run(main, __doc__)

@@ -1,8 +1,7 @@
 """Help for a person of whom two to five goals are possible, by robots that watch, or commit themselves.
 
-    python -m benchmarks.scenarios [--tables buildings,domains,home] [--stride N] [--limit S] [--jobs N]
-        [--record FILE]
-    python -m benchmarks.scenarios --tables runs [--limit 0.1] [...]
+    python -m benchmarks.scenarios [--tables buildings,domains,home] [OPTIONS]
+    python -m benchmarks.scenarios --tables runs [--limit 0.1] [OPTIONS]
 
 Beside both stands what it would be worth to know the goal from the start: the mean of the answers for each.
 Where a policy is proved, no robots that watch close more of the gap (*by the best*).
@@ -21,10 +20,8 @@ from statistics import fmean, median
 from time import perf_counter
 from typing import Any, NamedTuple
 
-import typer
-
 import serendipity
-from benchmarks.problems import PROBLEMS, Source, can_some, load, of_suite, usar
+from benchmarks.problems import PROBLEMS, Source, can_some, load, of_suite, run, usar
 from serendipity import Task
 from serendipity.evaluation.measuring.record import measured
 from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, grouped, table, total
@@ -84,14 +81,11 @@ def planned(job: Job) -> Row | None:
         took = perf_counter() - begun
         found[policy] = {"status": result.status, "cost": result.cost, "seconds": took}
         found["idle"] = None if result.cost is None else result.cost + (result.saving or 0)
-    singles = [
-        (served.probability, serendipity.plan(task, goals=[goal], **asked))
-        for goal in goals
-        for served in result.goals or ()
-        if served.name == goal["name"]
-    ]
-    known = all(single.status == "optimal" for _, single in singles)
-    costs = [probability * (single.cost or 0) for probability, single in singles]
+    shares = {served.name: served.probability for served in result.goals or ()}
+    possible = [goal for goal in goals if goal["name"] in shares]
+    singles = {goal["name"]: serendipity.plan(task, goals=[goal], **asked) for goal in possible}
+    known = all(single.status == "optimal" for single in singles.values())
+    costs = (shares[name] * (single.cost or 0) for name, single in singles.items())
     return found | {"knowing": sum(costs) if known else None}
 
 
@@ -217,5 +211,4 @@ RUNS: dict[str, Cell] = {
 
 
 if __name__ == "__main__":
-    main.__doc__ = __doc__
-    typer.run(main)
+    run(main, __doc__)

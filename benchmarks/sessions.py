@@ -12,10 +12,8 @@ from collections.abc import Iterator
 from itertools import cycle
 from random import Random
 
-import typer
-
 import serendipity
-from benchmarks.problems import PROBLEMS
+from benchmarks.problems import PROBLEMS, run
 from serendipity import Session, Task
 from serendipity.evaluation.measuring.figures import percentile
 
@@ -54,5 +52,4 @@ def _day(task: Task, stray: float, dice: Random) -> Iterator[tuple[str, float]]:
 
 
 if __name__ == "__main__":
-    main.__doc__ = __doc__
-    typer.run(main)
+    run(main, __doc__)

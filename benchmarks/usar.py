@@ -2,11 +2,10 @@
 
     python -m benchmarks.usar [FOLDER] [--stride N]
 
-*Reading* is parsing, uniting and grounding with the files in the page cache, after a
-warm-up: ``warm`` keeps what was parsed of equal domain texts, ``cold`` forgets it before
-each task.  *Preparing* is what ``serendipity.load`` does besides: packed actions and what
-depends on them alone.  The search itself is what ``serendipity bench`` measures.
-All of it is processor time but the whole process, which is by the deadline; milliseconds.
+*Reading* is parsing, uniting and grounding with the files in the page cache, and nothing kept of equal
+domain texts.  *Preparing* is what ``serendipity.load`` does besides: packed actions and what depends on
+them alone.  The search itself is what ``serendipity bench`` measures.  Processor time in milliseconds, but
+the whole process by the clock.
 There is no garbage collection while something is timed: a caller has one task in memory, not 200.
 """
 
@@ -20,7 +19,7 @@ from typing import Annotated
 
 import typer
 
-from benchmarks.problems import PROBLEMS
+from benchmarks.problems import PROBLEMS, run
 from search import prepare
 from serendipity.evaluation.measuring.figures import children_memory, machine, peak_memory, timed
 from serendipity.evaluation.measuring.suites import folders
@@ -32,17 +31,15 @@ from serendipity.pddl import forget_parsed, read_folder
 def main(folder: Annotated[Path, typer.Argument()] = PROBLEMS / "usar200", stride: int = 1) -> None:
     """Print a table of medians, 95th percentiles and maxima."""
     places = folders(folder, stride)
-    rows = [
-        _row("whole process: serendipity plan FOLDER", _processes(places[0]))
-    ]  # first: memory is its parent's, too
+    whole = _processes(places[0])  # first: memory is its parent's, too
     memory = children_memory()
-    read_folder(places[0])
-    gc.collect()
-    rows.append(_row("reading, warm", [timed(lambda p=place: read_folder(p))[1] for place in places]))
-    rows.append(_row("reading, nothing kept", [_cold(place) for place in places]))
     tasks = [read_folder(place) for place in places]
     gc.collect()
-    rows.append(_row("preparing, once a task", [timed(lambda t=task: prepare(t))[1] for task in tasks]))
+    rows = [
+        _row("whole process: serendipity plan FOLDER", whole),
+        _row("reading", [_cold(place) for place in places]),
+        _row("preparing, once a task", [timed(lambda t=task: prepare(t))[1] for task in tasks]),
+    ]
     told = f"Peak memory: {memory:.0f} MiB of a process, {peak_memory():.0f} MiB with all tasks loaded."
     header = ("milliseconds", "median", "95 %", "longest")
     print(as_markdown([Line(f"{len(places)} tasks; {machine()}"), Grid(header, rows), Line(told)]), end="")
@@ -69,5 +66,4 @@ def _cold(folder: Path) -> float:
 
 
 if __name__ == "__main__":
-    main.__doc__ = __doc__
-    typer.run(main)
+    run(main, __doc__)

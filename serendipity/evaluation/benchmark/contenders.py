@@ -103,12 +103,8 @@ def searched(
 ) -> Outcome:
     """The search's answer, for a process of its own: no other call warms it up, and all memory is its own.
 
-    Args:
-        load: reads the task within a ``deadline``.
-        options: of the call.
-        time_limit: seconds by the clock for preparing and planning.
-        reading: seconds for reading, or None.
-        again: whether to ask the same call once more.
+    ``load`` reads the task within a ``deadline`` of ``reading`` seconds; the limit is by the clock, for
+    preparing and planning.  With ``again`` the same call is asked once more.
     """
     asked = Options(**options)
     try:
@@ -148,10 +144,7 @@ def outside(
 ) -> Outcome:
     """A planner for a single agent's answer; ``seconds`` are of its search process, by its own clock.
 
-    Args:
-        files: the problem.
-        ground: whether nothing is left in it to be ground; then ``seconds`` are its search time, or all
-            processor time until the limit.
+    Where nothing is left to be ground, they are its search time, or all processor time until the limit.
 
     Raises:
         SerendipityError: it fails, with what it says.
@@ -161,14 +154,7 @@ def outside(
     used, seconds = children_seconds() - before, found.seconds
     if ground:
         seconds = used if found.status == "unknown" else found.search_seconds
-    return Outcome(
-        found.status,
-        found.cost,
-        found.lower_bound,
-        found.expanded,
-        seconds=seconds,
-        plan_seconds=None if found.cost is None else found.seconds,
-        read_seconds=found.read_seconds,
-        process_seconds=used,
-        memory=found.memory,
-    )
+    same = ("status", "cost", "lower_bound", "expanded", "read_seconds", "memory")
+    first = None if found.cost is None else found.seconds
+    about = {name: getattr(found, name) for name in same}
+    return Outcome(**about, seconds=seconds, plan_seconds=first, process_seconds=used)

@@ -86,23 +86,14 @@ CONTENDERS: Final[dict[str, Contender]] = {
 
 
 def contenders_with(scorpion: Path | None) -> Mapping[str, Contender]:
-    """:data:`CONTENDERS`, and Scorpion where its program is given.
-
-    Raises:
-        UsageError: there is no program.
-    """
+    """:data:`CONTENDERS`, and Scorpion where its program is given; a UsageError where it is not there."""
     if scorpion is None:
         return CONTENDERS
     return {**CONTENDERS, "scorpion": _classical(fast_downward.scorpion(scorpion))}
 
 
 def can_alone(problem: Problem, who: Roles, time_limit: float) -> bool:
-    """True if the human is found to have a plan alone: by the search, else by Fast Downward.
-
-    Args:
-        who: who it is about.
-        time_limit: seconds for each of them.
-    """
+    """True if the human is found to have a plan alone: by the search, else by Fast Downward."""
     call = Call(problem, who, "individual", Fraction(0), time_limit)
     found = _search(call).status
     if found in ("unknown", "failed") and fast_downward.absent() is None:
@@ -120,20 +111,11 @@ def measure(
     time_limit: float = 20.0,
     known: Mapping[str, Contender] = CONTENDERS,
 ) -> Iterator[Row]:
-    """Ask each contender each call that it knows.
+    """Ask each contender each call that it knows, with as many seconds for reading it as for the call.
 
-    Where the human is not known to have a plan alone, nothing is asked that is about that plan.
-
-    Args:
-        problems: of a suite.
-        modes: names in ``MODES``.
-        contenders: names in ``known``; those that are absent must be left out before.
-        discount: of what robots do.
-        robots: how many there are at most.
-        time_limit: seconds for each call, and as many for reading it.
-        known: those that there are, by name.
-
-    A problem that can't be read is one row for each contender, with status ``error``.
+    Contenders are some of the ``known``; those that are absent must be left out before.  Where the human is
+    not known to have a plan alone, nothing is asked that is about that plan.  A problem that can't be read
+    is one row for each contender, with status ``error``.
 
     Raises:
         UsageError: a mode, a contender or the discount is unknown.

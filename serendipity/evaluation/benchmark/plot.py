@@ -21,11 +21,7 @@ _SOONEST: Final = 0.001
 
 
 def check_suffix(suffix: str) -> None:
-    """Complain before the work is done, not after.
-
-    Raises:
-        UsageError: plots have no such format, or matplotlib is not installed.
-    """
+    """A UsageError, before the work is done, where plots have no such format, or matplotlib is missing."""
     if suffix not in SUFFIXES:
         raise UsageError(f"--plot: expected a file that ends in {', '.join(SUFFIXES)}, got '{suffix}'")
     figure(1, 1)

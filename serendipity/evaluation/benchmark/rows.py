@@ -64,11 +64,7 @@ def as_table(rows: Iterable[Row]) -> Table:
 
 
 def read_rows(path: Path) -> list[Row]:
-    """The rows of such a file; several may stand in it one after another.
-
-    Raises:
-        InputError: it is something else.
-    """
+    """The rows of such a file, or of several one after another; an InputError for something else."""
     rows: list[Row] = []
     header: list[str] = []
     for line, text in enumerate(read_text(path).splitlines(), start=1):

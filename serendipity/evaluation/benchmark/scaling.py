@@ -69,17 +69,10 @@ _MORE_SEEDS: Final = 4
 
 
 def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> Iterator[Row]:
-    """Answer the tasks of each axis, one after another.
+    """Answer the tasks of each axis, ``seeds`` of each value, one after another.
 
-    Args:
-        axes: names in ``AXES``.
-        seeds: tasks for each value.  Every second one's building has cycles: a
-            connection more for each twenty rooms.
-        time_limit: seconds for each call.
-
-    Raises:
-        UsageError: there is no such axis.
-        SerendipityError: a process fails.
+    Every second one's building has cycles: a connection more for each twenty rooms.  Errors are those of
+    :func:`planned`, and a SerendipityError where a process fails.
     """
     for name, value, seed in planned(axes, seeds):
         size = {"mode": "serendipity", "discount": "0.9", **_USUAL, **(AXES[name].fixed or {})}
@@ -97,11 +90,7 @@ def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> I
 
 
 def planned(axes: Iterable[str], seeds: int) -> list[tuple[str, Any, int]]:
-    """The tasks of series: axis, value on it or None, seed.
-
-    Raises:
-        UsageError: there is no such axis.
-    """
+    """The tasks of series: axis, value on it or None, seed; a UsageError where there is no such axis."""
     tasks: list[tuple[str, Any, int]] = []
     for name, axis in chosen(axes, AXES, "--scaling").items():
         if axis.values:

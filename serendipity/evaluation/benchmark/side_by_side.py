@@ -77,15 +77,10 @@ def measure(
     repeat: int = 5,
     time_limit: float | None = None,
 ) -> Iterator[Row]:
-    """Time each contender on each call of a mode that it knows.
+    """Time each contender on each call of a mode that it knows; who is absent must be left out before.
 
-    Args:
-        modes: names in ``MODES``.
-        discounts: as texts, so that they stay exact.
-        contenders: names in ``CONTENDERS``; those that are absent must be left out before.
-        repeat: calls per figure, after a warm-up; for contenders that answer the discounts in
-            turn, passes through all of them.  What takes over a second is done once.
-        time_limit: seconds for each call.
+    A figure is of ``repeat`` calls after a warm-up, or, where discounts are answered in turn, of as many
+    passes through all of them.  What takes over a second is done once.
 
     Raises:
         UsageError: a mode or contender is unknown.

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from itertools import cycle
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from serendipity.model.errors import UsageError
 from serendipity.model.printable import markup
+from serendipity.pictures.formats.png import empty_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,19 +34,8 @@ class Labels(NamedTuple):
 
 
 def figure(width: float, height: float) -> "Figure":
-    """An empty figure, in inches.
-
-    Raises:
-        UsageError: matplotlib is not installed.
-    """
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError:
-        raise UsageError("plots need matplotlib: pip install serendipity-planner[plot]") from None
-    empty = Figure(figsize=(width, height), layout="constrained")
-    FigureCanvasAgg(empty)
-    return empty
+    """An empty figure, in inches; a UsageError where matplotlib is not installed."""
+    return empty_figure("plots", figsize=(width, height), layout="constrained")
 
 
 def as_bytes(drawn: "Figure", suffix: str) -> bytes:

@@ -18,23 +18,16 @@ T = TypeVar("T")
 class Lines:
     """JSON values on disk, one a line; one that a kill has cut off is dropped when they are read again.
 
-    Args:
-        path: the file; made when the first line is written.
-        begins: what its lines begin with, so that the end of another file is not taken for one
-            that was cut off.
+    By what its lines begin with, the end of another file is not taken for one that was cut off.
     """
 
     def __init__(self, path: Path, what: str, begins: tuple[bytes, ...]) -> None:
         self.path, self._what, self._begins = path, what, begins
 
     def read(self, decoded: Callable[[Any, int], T]) -> Iterator[T]:
-        """The values that are there already, one by one.
+        """What the values that are there stand for, one by one; an InputError where the file is another.
 
-        Args:
-            decoded: what a value on a line of some number stands for; it may fail like a look-up.
-
-        Raises:
-            InputError: the file is something else.
+        ``decoded`` gets a value and the number of its line; it may fail like a look-up.
         """
         cut_off, whole = b"", 0
         try:

@@ -60,14 +60,7 @@ def is_suite(folder: Path) -> bool:
 
 
 def problems(folder: Path, domains: Sequence[str] = (), stride: int = 1) -> list[Problem]:
-    """Every ``stride``-th problem of each domain.
-
-    Args:
-        domains: only these of them; none means all.
-
-    Raises:
-        UsageError: there is no such domain.
-    """
+    """Every ``stride``-th problem of some domains, or of all; a UsageError where there is no such domain."""
     there = {path.name: path for path in _domains(folder)}
     asked = chosen(domains, there, "--domains") or there
     return [
@@ -79,11 +72,7 @@ def problems(folder: Path, domains: Sequence[str] = (), stride: int = 1) -> list
 
 
 def chosen(names: Iterable[str], known: Mapping[str, T], what: str, where: str = "") -> dict[str, T]:
-    """Values by their names, in the order in which they are named.
-
-    Raises:
-        UsageError: for nothing; it says ``what`` they are names of, and ``where``.
-    """
+    """Values by their names, in this order; else a UsageError says ``what`` they name, and ``where``."""
     found = {}
     for name in names:
         if name not in known:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import product
+from operator import attrgetter
 from statistics import fmean, median
 from typing import Any, Final, NamedTuple
 
@@ -124,17 +125,13 @@ def examples() -> list[dict[str, Any]]:
     return answers
 
 
-_Cost = Callable[[Row], Fraction | None]
-
-
-def _variants(modes: Iterable[str]) -> list[tuple[str, str, _Cost]]:
-    found: list[tuple[str, str, _Cost]] = []
+def _variants(modes: Iterable[str]) -> Iterator[tuple[str, str, Callable[[Row], Fraction | None]]]:
+    """Variants, each with its mode and figure."""
     for mode in modes:
-        found.append((mode, mode, lambda row: row.cost))
+        yield mode, mode, attrgetter("cost")
         if mode == "serendipity":
-            found.append((f"{mode}, best tie", mode, lambda row: row.best_tie))
-            found.append((f"{mode}, worst tie", mode, lambda row: row.worst_tie))
-    return found
+            yield f"{mode}, best tie", mode, attrgetter("best_tie")
+            yield f"{mode}, worst tie", mode, attrgetter("worst_tie")
 
 
 def _papers_own(run: Reproduction) -> bool:

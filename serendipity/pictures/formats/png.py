@@ -9,6 +9,7 @@ from serendipity.pictures.picture.drawing import Circle, Group, Picture, Polylin
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _DPI = 72  # one unit of a picture is a point, so font sizes need no conversion
 _MOST_PIXELS = 10_000
@@ -20,14 +21,9 @@ def png(picture: Picture) -> bytes:
     Raises:
         UsageError: matplotlib is not installed.
     """
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError:
-        raise UsageError("PNG pictures need matplotlib: pip install serendipity-planner[plot]") from None
     scale = min(2.0, _MOST_PIXELS / max(picture.width, picture.height))
-    figure = Figure(figsize=(picture.width / _DPI, picture.height / _DPI), dpi=_DPI * scale)
-    FigureCanvasAgg(figure)
+    size = (picture.width / _DPI, picture.height / _DPI)
+    figure = empty_figure("PNG pictures", figsize=size, dpi=_DPI * scale)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_xlim(0, picture.width)
     axes.set_ylim(picture.height, 0)
@@ -38,6 +34,22 @@ def png(picture: Picture) -> bytes:
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", metadata={"Software": None})
     return buffer.getvalue()
+
+
+def empty_figure(what: str, **look: Any) -> "Figure":
+    """A figure of matplotlib without anything on it.
+
+    Raises:
+        UsageError: it is not installed; ``what`` need it.
+    """
+    try:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise UsageError(f"{what} need matplotlib: pip install serendipity-planner[plot]") from None
+    empty = Figure(**look)
+    FigureCanvasAgg(empty)
+    return empty
 
 
 class _Painter:
