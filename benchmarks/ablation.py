@@ -135,16 +135,15 @@ def _useful(part: Row) -> bool:
 
 def _asked(task: Task, where: Row, without: str) -> Row:
     more = {"strategies": f"-{without}"} if without and without not in NAMES else {}
-    begun = time.process_time()
+    about, begun = {**where, "without": without}, time.process_time()
     try:
         options = {"discount": "0.9", **MODES[where["call"]], **more, "time_limit": where["limit"]}
         with doing_without(without):
             answer = serendipity.plan(task.at(task.init), **options)
     except SerendipityError as error:
-        return {**where, "without": without, "status": str(error), "gap": 0.0, "seconds": 0.0, "tried": []}
+        return {**about, "status": str(error), "gap": 0.0, "seconds": 0.0, "tried": []}
     return {
-        **where,
-        "without": without,
+        **about,
         "status": answer.status,
         "cost": answer.cost,
         "bound": answer.lower_bound,

@@ -2,15 +2,13 @@
 
     python -m benchmarks.answers -o FILE [--count N] [--usar FOLDER]
 
-Writes one JSON line a call: the results of random calls with their
-certificates, simulations, reports of interruptions and explanations; of random tasks with several
-goals and with silent assistance; and, where the folder is there, of the paper's problems in three
-modes at two discounts.  A change that is meant to change nothing
-gives the same file: compare with ``diff``.
+Writes one JSON line a call: the results of random calls with their certificates, simulations, reports of
+interruptions and explanations; of random tasks with several goals and with silent assistance; and, where the
+folder is there, of the paper's problems in three modes at two discounts.  A change that is meant to change
+nothing gives the same file: compare with ``diff``.
 """
 
 import json
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import partial
@@ -43,9 +41,7 @@ def main(
         for name, ask in chain(chain.from_iterable(map(_random, range(count))), _usar(usar)):
             out.write(f"{json.dumps([name, _said(ask)], sort_keys=True)}\n")
             lines += 1
-            if lines % 100 == 0:
-                print(f"\r{lines} answers", end="", file=sys.stderr)
-    print(f"\r{lines} answers in {output}")
+    print(f"{lines} answers in {output}")
 
 
 def _random(seed: int) -> Iterator[tuple[str, Ask]]:

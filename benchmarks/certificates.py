@@ -6,8 +6,7 @@ A building is named by its rooms, medkits and robots; there are five of each.  A
 again and verified.  What a limit left unplanned is left out.  ``seconds`` are from the second reading to the
 verdict, of processor time, the solver's included, which other work on the machine leaves as it is; ``by the
 clock`` is the certificate alone; ``decided by`` is the method of the claim that took longest (a program
-without calls: pruning).  With ``--apart`` all is done in processes of their own, whose memory is told.
-
+without calls: pruning).  With ``--apart`` all is done in processes of their own, whose memory is told;
 ``--methods`` leaves methods out, or all but some (``verify.calls.methods``): what each is good for.
 
 With ``--proofs`` a proof is written: ``write`` is all of ``verify --proof``, reading included;
@@ -15,9 +14,6 @@ With ``--proofs`` a proof is written: ``write`` is all of ``verify --proof``, re
 ``compare`` is ``check-proof`` with task and result, which reads the task and makes the programs again;
 ``form`` is writing the same in the field's form, of which ``OPB`` are the problems and ``pbp`` the proofs of
 version 2.0. With ``--veripb`` VeriPB checks each program's proof, of version 1.1 if it knows no other.
-
-With ``--record`` answers and what comes of them are written down, and a later run with the same file goes
-on where the first one stopped.
 """
 
 import subprocess
@@ -34,7 +30,7 @@ from typing import Annotated, Any, NamedTuple
 import typer
 
 import serendipity
-from benchmarks.problems import Source, load, of_suite, run
+from benchmarks.problems import Record, Source, load, of_suite, run
 from serendipity import Result, SerendipityError
 from serendipity.evaluation.benchmark.contenders import MODES
 from serendipity.evaluation.measuring.figures import children_memory, peak_memory, percentile, timed
@@ -89,7 +85,7 @@ def main(
     proofs: bool = False,
     veripb: str = "",
     separate: Annotated[bool, typer.Option("--apart")] = False,
-    record: Path | None = None,
+    record: Record = None,
 ) -> None:
     """Plan, verify, print a table."""
     how = {"encoding": encoding, "solver": solver, "method": method, "time_limit": time_limit}

@@ -80,7 +80,11 @@ def doors(dice: Random, size: int) -> Task:
         "unlock_{a}_{door}_{x} {a}: at_{a}_{x} has_{a}_{door} -> open_{door} @ 2",
     )
     behind = {b for _, b in locked}
-    start = [room for room in range(size + 3) if not _is_behind(room, edges, behind)]
+    shut = set[int]()
+    for above, room in edges:  # from the root on
+        if room in behind or above in shut:
+            shut.add(room)
+    start = [room for room in range(size + 3) if room not in shut]
     keys = {door: dice.choice(start) for door in behind}
     actions |= _each(
         "door room",
@@ -91,13 +95,6 @@ def doors(dice: Random, size: int) -> Task:
     actions |= _each("room", looked, "look_{room} h: at_h_{room} -> seen_{room}")
     init = [f"at_{agent}_{dice.choice(start)}" for agent in AGENTS] + [f"key_{door}" for door in behind]
     return _made(init, [f"seen_{room}" for room in looked], actions)
-
-
-def _is_behind(room: int, edges: Edges, doors: set[int]) -> bool:
-    above = {b: a for a, b in edges}
-    while room and room not in doors:
-        room = above[room]
-    return room > 0
 
 
 def assembly(dice: Random, size: int) -> Task:

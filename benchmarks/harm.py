@@ -51,9 +51,8 @@ def harmed(seed: int) -> list[str]:
     if row.alone is None:
         return ["no plan alone"]
     # Who is told may have a part in robots' own goals, where there is nobody else.
-    kind = (
-        "told, beside robots with goals of their own" if human == "omniscient" and task.robot_goal else human
-    )
+    has_part = human == "omniscient" and task.robot_goal
+    kind = "told, beside robots with goals of their own" if has_part else human
     marks = {
         kind: True,
         f"{kind}: paid more than alone": row.human_cost > row.alone,

@@ -189,9 +189,8 @@ def paid_looking(task: Task, day: Day, decision: Decision) -> int:
 
 def _decided(result: Result, plan: Iterable[PlanStep], alone: float) -> Decision:
     steps = {step.epoch: step.action for step in plan if step.agents == ("robot",)}
-    return Decision(
-        steps, *(None if cost is None else alone - cost for cost in (result.cost, result.lower_bound))
-    )
+    saved = (None if cost is None else alone - cost for cost in (result.cost, result.lower_bound))
+    return Decision(steps, *saved)
 
 
 def _way(task: Task, state: frozenset[int], goal: Condition) -> list[str]:

@@ -25,7 +25,7 @@ from typing import Annotated, Any, Final, NamedTuple
 import typer
 
 import serendipity
-from benchmarks.problems import PROBLEMS, run
+from benchmarks.problems import PROBLEMS, Record, run
 from serendipity import Result, SerendipityError, Task
 from serendipity.evaluation.measuring.record import apart, measured
 from serendipity.evaluation.measuring.suites import Problem, Roles, may_alone, problems, roles
@@ -71,7 +71,7 @@ def main(
     calls: str = ",".join(CALLS),
     time_limit: float = 20,
     only: str = "",
-    record: Path | None = None,
+    record: Record = None,
 ) -> None:
     """Write the suite, ask, and print a line for each call and a table."""
     with TemporaryDirectory() as folder:

@@ -12,8 +12,7 @@ limit is the *overrun*; a limit is *kept* if that is at most 10 % of it and 50 m
 15 s is killed.  On a busy machine the deadline also counts what others do: rows that are late by little are
 worth a second look.
 
-With ``--record`` rows are written as they come, and what is there already is not measured again; answers to
-check are kept in a folder beside it.
+Answers to check are kept in a folder beside ``--record``.
 """
 
 import json
@@ -30,7 +29,7 @@ from threading import Timer
 from typing import Final, Literal, NamedTuple
 
 import serendipity
-from benchmarks.problems import PROBLEMS, run, silent, silent_task
+from benchmarks.problems import PROBLEMS, Record, run, silent, silent_task
 from serendipity import Task
 from serendipity.evaluation.measuring.record import apart, measured
 from serendipity.evaluation.measuring.suites import folders, may_alone, problems, roles
@@ -157,7 +156,7 @@ def main(
     rotate: int | None = None,
     limits: str = "",
     jobs: int = 1,
-    record: Path | None = None,
+    record: Record = None,
 ) -> None:
     """Measure and print tables; exit code 1 where a limit was not kept."""
     usual = STUDIES[study]

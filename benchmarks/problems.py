@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Annotated, Any
 
 import typer
 
@@ -15,6 +15,7 @@ from serendipity import SerendipityError, Task
 from serendipity.evaluation.measuring.suites import Problem, Roles, folders, problems, roles
 from serendipity.evaluation.measuring.tables import grouped
 from serendipity.model import Condition
+from serendipity.pictures.map.names import natural
 from serendipity.testing.generator import FAMILIES, family_task
 
 PROBLEMS = Path(os.environ.get("SERENDIPITY_PROBLEMS") or Path(__file__).resolve().parents[2] / "shared")
@@ -22,6 +23,10 @@ PROBLEMS = Path(os.environ.get("SERENDIPITY_PROBLEMS") or Path(__file__).resolve
 
 ``SERENDIPITY_PROBLEMS`` names it; without, it is ``../shared``, beside the checkout.
 """
+
+Record = Annotated[
+    Path | None, typer.Option(help="Write results here as they come; what is there is not asked again.")
+]
 
 Pair = tuple[Path, Path]
 """A domain and a problem file."""
@@ -79,11 +84,8 @@ def of_suite(
         ordered = sorted(of, key=lambda problem: (len(problem.name), problem.name)) if smallest else of
         for problem in ordered[:smallest]:
             who = roles(problem, 2, able)
-            yield (
-                problem,
-                who,
-                (str(problem.domain_file), str(problem.problem_file), who.human, *who.robots),
-            )
+            files = (str(problem.domain_file), str(problem.problem_file))
+            yield problem, who, (*files, who.human, *who.robots)
 
 
 def can_alone(problem: Problem, who: Roles) -> bool:
@@ -111,20 +113,16 @@ def _decides(make: Callable[[], Task], seconds: float) -> bool:
 
 def silent(folder: Path = PROBLEMS / "spa") -> Iterator[tuple[str, Pair, Pair]]:
     """The published problems of silent assistance: name, files of the human, *prime*, and the supporter."""
-    found = list(folder.glob("*/*_problem_*_prime.pddl"))
-    for prime in sorted(found, key=lambda path: (path.parent.name, _number(path))):
+    found = folder.glob("*/*_problem_*_prime.pddl")
+    for prime in sorted(found, key=lambda path: (path.parent.name, natural(path.name))):
         supporter = prime.with_name(prime.name.replace("_prime", "_supporter"))
-        name = f"{prime.parent.name}/{_number(prime)}"
-        yield name, (_domain(prime), prime), (_domain(supporter), supporter)
+        (number,) = re.findall(r"problem_(\d+)", prime.name)
+        yield f"{prime.parent.name}/{number}", (_domain(prime), prime), (_domain(supporter), supporter)
 
 
 def silent_task(prime: Pair, supporter: Pair) -> Task:
     """The task of such a problem."""
     return serendipity.load_agents({"prime": prime, "supporter": supporter}, human="prime")
-
-
-def _number(problem: Path) -> int:
-    return int(re.findall(r"problem_(\d+)", problem.name)[0])
 
 
 def _domain(problem: Path) -> Path:

@@ -32,7 +32,6 @@ from serendipity.live.guards.connections import listening, url
 EXAMPLES: Final = ("room2", "room5", "flights", "parcels", "morning", "office")
 BREAKFASTS: Final = ("p4", "p6")
 HOW_TO: Final = Path(__file__).resolve().parents[1] / "docs" / "howto" / "serve.md"
-
 DISCOUNTS: Final = ("0.5", "0.6", "0.7", "0.8", "0.9")
 
 

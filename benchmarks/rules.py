@@ -8,12 +8,11 @@ best without the rule, if both are proved; problems that are not there are left 
 """
 
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from random import Random
 from typing import Any, Final, NamedTuple
 
 import serendipity
-from benchmarks.problems import PROBLEMS, Source, can_some, load, of_suite, run, usar
+from benchmarks.problems import PROBLEMS, Record, Source, can_some, load, of_suite, run, usar
 from serendipity import Condition, SerendipityError, Task, UsageError
 from serendipity.evaluation.measuring.record import measured
 from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, grouped, table, total
@@ -26,7 +25,6 @@ RULES: Final[Mapping[str, Mapping[str, Any]]] = {
     "noticed": {"noticed": True},
     "no disturbance": {"max_disturbance": 0},
 }
-
 
 SMALL: Final[Mapping[str, int]] = {"blocks": 3, "logistics": 3, "switches": 6}
 """Families of random tasks, and how many blocks, parcels, and switches."""
@@ -47,7 +45,7 @@ def main(
     small: int = 100,
     limit: float = 10,
     jobs: int = 1,
-    record: Path | None = None,
+    record: Record = None,
 ) -> None:
     """Measure and print the table."""
     found = measured([*_jobs(smallest, stride, small, limit)], priced, record, processes=jobs)

@@ -14,14 +14,13 @@ is for each epoch then.  Problems that are not there are left out.
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
-from pathlib import Path
 from random import Random
 from statistics import fmean, median
 from time import perf_counter
 from typing import Any, NamedTuple
 
 import serendipity
-from benchmarks.problems import PROBLEMS, Source, can_some, load, of_suite, run, usar
+from benchmarks.problems import PROBLEMS, Record, Source, can_some, load, of_suite, run, usar
 from serendipity import Task
 from serendipity.evaluation.measuring.record import measured
 from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, grouped, table, total
@@ -50,7 +49,7 @@ def main(
     stride: int = 1,
     limit: float | None = None,
     jobs: int = 1,
-    record: Path | None = None,
+    record: Record = None,
 ) -> None:
     """Measure and print the table."""
     runs = tables == "runs"

@@ -12,8 +12,7 @@ from collections.abc import Iterator
 from itertools import cycle
 from random import Random
 
-import serendipity
-from benchmarks.problems import PROBLEMS, run
+from benchmarks.problems import PROBLEMS, load, run
 from serendipity import Session, Task
 from serendipity.evaluation.measuring.figures import percentile
 
@@ -21,9 +20,7 @@ from serendipity.evaluation.measuring.figures import percentile
 def main(epochs: int = 200, stray: float = 0, names: str = "p4,p6,p8") -> None:
     """Measure and print."""
     domain = PROBLEMS / "home" / "domain.pddl"
-    tasks = [
-        serendipity.load_pddl(domain, domain.with_name(f"{name}.pddl"), "ann") for name in names.split(",")
-    ]
+    tasks = [load((domain, domain.with_name(f"{name}.pddl"), "ann")) for name in names.split(",")]
     taken = dict[str, list[float]]()
     answers = (timed for task in cycle(tasks) for timed in _day(task, stray, Random(f"{task.name} {stray}")))
     left = epochs

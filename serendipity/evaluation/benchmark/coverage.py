@@ -1,9 +1,7 @@
 """Coverage of a suite's tasks over time: the search and others beside it; who decides what, and when.
 
-A suite is a folder of domains in MA-PDDL with their problems, as competitions give them.  Every
-call is a process of its own, under a limit by the clock; times leave out reading and grounding on
-both sides, and contain everything else.  In a cell, the figures of several contenders stand in the order
-of :func:`contenders_in`.
+Every call is a process of its own, under a limit by the clock; times leave out reading and grounding on both
+sides, and contain everything else.  In a cell, figures stand in the order of :func:`contenders_in`.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -265,12 +263,9 @@ def _median_seconds(rows: Sequence[Row]) -> str:
 
 
 def _beside(rows: Sequence[Row], mode: str, other: str) -> str:
+    proved = [row for row in rows if row.outcome.proved and row.mode == mode]
     ours, theirs = (
-        {
-            (row.domain, row.task): row.outcome.expanded
-            for row in rows
-            if row.outcome.proved and row.mode == mode and row.contender == name
-        }
+        {(row.domain, row.task): row.outcome.expanded for row in proved if row.contender == name}
         for name in (_OURS, other)
     )
     both = ours.keys() & theirs.keys()

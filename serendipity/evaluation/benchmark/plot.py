@@ -64,8 +64,8 @@ def series(rows: Sequence[Row], suffix: str) -> bytes:
             _points(axes, [*zip(xs, ys, of, strict=True)], ("o", COLOURS[0]), ("", ""))
         lower.set_ylim(0, None)
         if numeric and (fit := power_law(xs, times)) is not None:
-            ends = [min(xs), max(xs)]
-            upper.plot(ends, [fit.at(x) for x in ends], color="black", label=f"exponent {fit.exponent:.2f}")
+            ends, fitted = (min(xs), max(xs)), f"exponent {fit.exponent:.2f}"
+            upper.plot(ends, [fit.factor * x**fit.exponent for x in ends], color="black", label=fitted)
         _legend(upper)
     return as_bytes(drawn, suffix)
 
@@ -87,10 +87,7 @@ def over_time(rows: Sequence[Row], suffix: str) -> bytes:
 
 
 def _points(
-    axes: "Axes",
-    points: Sequence[tuple[Any, float, Row]],
-    look: tuple[str, str],
-    names: tuple[str, str],
+    axes: "Axes", points: Sequence[tuple[Any, float, Row]], look: tuple[str, str], names: tuple[str, str]
 ) -> None:
     """Points of rows that are proved, and as crosses of those that are not, each with its name."""
     marker, colour = look

@@ -152,9 +152,9 @@ Figure = tuple[float, bool]
 def ratios(rows: Sequence[Row]) -> Grid:
     """Times of each contender as multiples of each way to call the search, on the same calls.
 
-    First the ratios of medians and of 95th percentiles, then percentiles of the ratios of
-    single calls.  Calls that met the limit count with what they had taken by then.  Calls that the
-    search itself did not prove are left out: ``calls`` says how many are counted, of how many.
+    First the ratios of medians and of 95th percentiles, then percentiles of the ratios of single calls.  What
+    met the limit counts with what it had taken by then; what the search itself did not prove is left out:
+    ``calls`` says how many are counted, of how many.
     """
     groups = _groups(rows)
     header = ["mode", "contender", "over", "calls", "of medians", "of 95 %", "call by call: 50 %", "95 %"]

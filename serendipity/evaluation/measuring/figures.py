@@ -82,10 +82,6 @@ class PowerLaw:
     factor: float
     error: float
 
-    def at(self, x: float) -> float:
-        """The value at ``x``."""
-        return float(self.factor * x**self.exponent)
-
 
 def power_law(xs: Iterable[float], ys: Iterable[float]) -> PowerLaw | None:
     """The power law of least squares of logarithms; None for fewer than three points, or a single x."""

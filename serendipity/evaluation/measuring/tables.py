@@ -25,11 +25,7 @@ def grouped(rows: Iterable[R], key: Callable[[R], K]) -> dict[K, list[R]]:
     return groups
 
 
-def table(
-    names: Sequence[str],
-    groups: Mapping[N, Sequence[R]],
-    columns: Mapping[str, Cell],
-) -> Grid:
+def table(names: Sequence[str], groups: Mapping[N, Sequence[R]], columns: Mapping[str, Cell]) -> Grid:
     """A row for each group: what names it, and a cell for each column."""
     lines = [[*key, *(str(cell(of)) for cell in columns.values())] for key, of in groups.items()]
     return Grid([*names, *columns], lines)

@@ -82,19 +82,9 @@ class Rows(Sequence[Row]):
 
     def _row(self, test: str, place: int) -> Row:
         *figures, seconds, start, end, status, helps = _BYTES.unpack_from(self._bytes, place * _BYTES.size)
-        cost, human_cost, best_tie, worst_tie = (None if isnan(x) else _exact(x) for x in figures)
-        return Row(
-            test,
-            *self._calls[place % len(self._calls)],
-            _STATUSES[status],
-            cost,
-            human_cost,
-            helps,
-            Window(start, end) if end else None,
-            seconds,
-            best_tie,
-            worst_tie,
-        )
+        cost, human_cost, best, worst = (None if isnan(x) else _exact(x) for x in figures)
+        window, call = Window(start, end) if end else None, self._calls[place % len(self._calls)]
+        return Row(test, *call, _STATUSES[status], cost, human_cost, helps, window, seconds, best, worst)
 
 
 _exact: Final = lru_cache(maxsize=1024)(as_written)

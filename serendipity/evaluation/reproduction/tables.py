@@ -22,13 +22,10 @@ TESTS: Final = frozenset(str(number) for number in range(1, 201))
 _SERENDIPITY: Final = ((9.82, 1), (9.81, 7), (9.79, 7), (9.76, 12), (9.68, 29), (9.55, 32))
 _TOGETHER: Final = ((9.72, 13), (9.65, 23), (9.48, 34), (9.25, 40), (8.93, 62), (8.51, 70))
 
+_PRINTED: Final = {"serendipity": _SERENDIPITY, "communication": _TOGETHER, "composite": _TOGETHER}
+
 TABLE_1: Final = {
-    mode: dict(zip(map(Fraction, DISCOUNTS), column, strict=True))
-    for mode, column in (
-        ("serendipity", _SERENDIPITY),
-        ("communication", _TOGETHER),
-        ("composite", _TOGETHER),
-    )
+    mode: dict(zip(map(Fraction, DISCOUNTS), column, strict=True)) for mode, column in _PRINTED.items()
 }
 """By mode and discount: the mean cost, and the number of problems in brackets."""
 

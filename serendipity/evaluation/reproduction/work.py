@@ -1,7 +1,6 @@
 """The unit of work: one task, read once, through some modes and discounts."""
 
 import logging
-from dataclasses import replace
 from fractions import Fraction
 from time import perf_counter, time
 from typing import Final, NamedTuple
@@ -104,17 +103,8 @@ def _row(assignment: Assignment, task: Task, call: Call) -> Row:
         return unknown(test, call)
     except Exception as error:  # see above
         return unknown(test, call, "error", _logged(error))
-    return replace(
-        unknown(test, call),
-        status=result.status,
-        cost=exact_cost(result.cost),
-        human_cost=exact_cost(result.human_cost),
-        opportunity=result.opportunity,
-        window=result.window,
-        seconds=seconds,
-        best_tie=best,
-        worst_tie=worst,
-    )
+    cost, human_cost, helps = exact_cost(result.cost), exact_cost(result.human_cost), result.opportunity
+    return Row(test, *call, result.status, cost, human_cost, helps, result.window, seconds, best, worst)
 
 
 def _ties(
