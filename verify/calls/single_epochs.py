@@ -62,10 +62,8 @@ def examined_in_time(
 def _is_known(result: Result) -> bool:
     """Whether such a result is examined in time."""
     options = result.options
-    kind = kind_of(result)
-    if kind != "a plan for each scenario":
-        return True
-    return (options.suffix, options.preservation) == ("replan", "kernel")
+    one = kind_of(result) != "a plan for each scenario"
+    return one or (options.suffix, options.preservation) == ("replan", "kernel")
 
 
 class SingleEpochs:

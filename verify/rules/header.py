@@ -37,9 +37,7 @@ def human_plan_valid(case: Case) -> RuleFault | None:
     """``pi_H`` is a plan of the human alone; it is missing only if they have none, or nothing rests on it."""
     if isinstance(case.human_plan, PlanError):
         return RuleFault(f"pi_H: {case.human_plan.message}")
-    if case.human_plan is not None:
-        return None
-    if _unknown_to_search(case):
+    if case.human_plan is not None or _unknown_to_search(case):
         return None
     optimum = case.alone.predicted()
     return None if optimum is None else RuleFault("no pi_H is reported, but the human has a plan alone")

@@ -12,6 +12,7 @@ Everything here is a relaxation, so that what it drops is on no plan within the 
 
 from collections import defaultdict
 from collections.abc import Container, Mapping, Sequence
+from math import inf
 
 from verify.programs.automata.forward import Forward
 from verify.programs.automata.network import WAIT, Arc, actions_of
@@ -34,8 +35,8 @@ def unroll(setting: NetworkSetting) -> bool:
     while count != (left := _arcs(setting)):
         count = left
         for k, network in enumerate(setting.networks):
-            if network.open_end:  # where nothing limits plans, all its paths are within what fits the horizon
-                _open_backward(setting, forward, k, 0, range(1, setting.horizon + 1))
+            if network.open_end:
+                _open_backward(setting, forward, k, -inf, range(1, setting.horizon + 1))
         forward.filter()
     setting.last = frozenset(ends(setting, forward, setting.task.human))
     return True
@@ -208,9 +209,9 @@ def _human_backward(setting: NetworkSetting, forward: Forward, provided: _Provid
 
 
 def _open_backward(
-    setting: NetworkSetting, forward: Forward, k: int, others: int, active: Container[int]
+    setting: NetworkSetting, forward: Forward, k: int, others: float, active: Container[int]
 ) -> bool:
-    """A network whose flow goes on to the end; False if it can't."""
+    """A network whose flow goes on to the end, beside what others cost at least; False if it can't."""
     network, robot = setting.networks[k], k not in setting.task.script.people
     after = ends(setting, forward, k)
     for epoch in range(setting.horizon, 0, -1):
