@@ -29,9 +29,7 @@ from serendipity.testing.oracle.nobody_pays import Rule
 
 def main(runs: int = 10_000, first: int = 0) -> None:
     """Go through the runs, and print how many of them there are of each kind."""
-    found = Counter[str]()
-    for seed in range(first, first + runs):
-        found.update(harmed(seed))
+    found = Counter(what for seed in range(first, first + runs) for what in harmed(seed))
     for what, number in sorted(found.items()):
         print(f"{number:6} {what}", flush=True)
 
@@ -61,9 +59,7 @@ def harmed(seed: int) -> list[str]:
         "in time": task.needs_time,
         "beside bystanders": bool(task.script.people),
         f"{kind}: bystanders paid": not faults and _bystanders_paid(task, log),
-        "left by robots without faults or goals of their own": bool(
-            row.left and not (faults or task.robot_goal)
-        ),
+        "left without faults or goals of their own": bool(row.left and not (faults or task.robot_goal)),
     }
     return [what for what, holds in marks.items() if holds]
 
