@@ -7,7 +7,9 @@ from hypothesis import assume, given
 
 import serendipity
 from serendipity.execution import Decided, Execution, Outlook, moment_of, person_of
-from serendipity.model import Condition, Deadline, PlanStep, UsageError
+from serendipity.facade.person.follower import Follower
+from serendipity.facade.person.ways import Ways, entries_of
+from serendipity.model import Condition, Deadline, Options, PlanStep, Script, UsageError
 from serendipity.testing.builders import task
 from serendipity.testing.call import Call
 from serendipity.testing.strategies import calls_in_time
@@ -79,3 +81,24 @@ def test_somebody_without_a_plan_waits_until_robots_give_them_one() -> None:
     for model in ("observant", "local"):
         played = serendipity.simulate(about, answer, model)
         assert (played.realised, len(played.epochs)) == (True, 4)
+
+
+@pytest.mark.parametrize("model", ["observant", "local"])
+def test_waiting_at_the_end_is_kept_like_the_rest_of_a_plan(model: str) -> None:
+    """What comes by itself need not be done: the plan works, though no action of it reaches the goal."""
+    actions = {"bread h": " -> fed @ 1", "soup h": " -> fed @ 1", "roll r": "idle -> !idle @ 1"}
+    about = task(init="idle", goal="fed post", actions=actions).with_script(Script(facts=[(4, "post")]))
+    answer = serendipity.plan(about, human_plan=[(2, "soup h"), (4, "noop")])
+    trace = serendipity.simulate(about, answer, model)
+    assert [(epoch.did, epoch.decision) for epoch in trace.epochs] == [
+        (None, "keeps"), ("soup h", "keeps"), (None, "keeps"), (None, "keeps"),
+    ]  # fmt: skip
+
+
+def test_a_habit_that_ends_with_waiting_is_followed() -> None:
+    actions = {"bread h": " -> fed @ 1", "soup h": " -> fed @ 2"}
+    about = task(init="", goal="fed post", actions=actions).with_script(Script(facts=[(4, "post")]))
+    mind = Follower(Ways(Options()))
+    mind.rest, mind.faithful = entries_of(about, about.plan_from_names([(2, "soup h"), (4, "noop")])), True
+    way = mind.look(about, Deadline())
+    assert way is not None and [name for _, name in way.plan] == ["soup h", "noop"]

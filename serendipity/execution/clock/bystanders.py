@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from serendipity.facade.person.ways import Way
+from serendipity.facade.person.ways import Way, begun_in
 from serendipity.model import Condition, PlanStep, Task
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.execution import variant_named
@@ -23,7 +23,8 @@ def would_pay(now: Task, plan: Sequence[PlanStep], alone: Way | None, *, strict:
         return False
     human = (now.agents[now.human],)
     helped = _by_epoch((step.epoch, (step.action, step.agents)) for step in plan)
-    idle = _by_epoch((epoch, (name, human)) for epoch, name in (() if alone is None else alone.plan))
+    begun = () if alone is None else begun_in(alone.plan)
+    idle = _by_epoch((epoch, (name, human)) for epoch, name in begun)
     last = max((*helped, *idle), default=0)
     return not _served(now, idle, last, strict=strict) <= _served(now, helped, last, strict=strict)
 

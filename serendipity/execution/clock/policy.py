@@ -8,6 +8,7 @@ from serendipity.execution.clock.course import after
 from serendipity.execution.clock.supposed import Supposed
 from serendipity.execution.policy_adviser import Policy, PolicyAdviser
 from serendipity.execution.session_adviser import Pledge, moved
+from serendipity.facade.person.ways import begun_in
 from serendipity.facade.results import named_steps
 from serendipity.facade.session import Session
 from serendipity.model import Deadline, PlanError, Step, Task, UsageError
@@ -77,7 +78,7 @@ class PolicyInTime(PolicyAdviser):
 
     def _alone(self, one: Supposed) -> Advice:
         """Robots do nothing."""
-        steps = [Step(epoch, one.task.named[name][0]) for epoch, name in one.meant]
+        steps = [Step(epoch, one.task.named[name][0]) for epoch, name in begun_in(one.meant)]
         plan = named_steps(one.task, self._discount, steps)
         return Advice(plan, None, one.alone or Fraction(0), pays=False, proved=False)
 

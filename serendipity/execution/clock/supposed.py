@@ -15,7 +15,7 @@ from serendipity.execution.why import Why
 from serendipity.facade.person.follower import Follower
 from serendipity.facade.person.played import played_in_time
 from serendipity.facade.person.sight import Sight
-from serendipity.facade.person.ways import Entries, Way, Ways, entries_of
+from serendipity.facade.person.ways import Entries, Way, Ways, begun_in, entries_of
 from serendipity.facade.session import Session
 from serendipity.model import INFINITE, Condition, Deadline, Options, PlanError, PlanStep, Step, Task
 from serendipity.model.errors import LIMITS, LimitReachedError, UsageError
@@ -378,7 +378,7 @@ class Supposed:
 
 def is_over(now: Task, alone: Way | None) -> bool:
     """Whether the person has what they want, or it comes by itself."""
-    return alone is not None and not alone.plan and now.human not in at_work(now)
+    return alone is not None and not begun_in(alone.plan) and now.human not in at_work(now)
 
 
 def with_actions(now: Task, actions: Iterable[GroundAction]) -> Task:

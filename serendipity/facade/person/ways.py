@@ -10,7 +10,8 @@ from search import PreparedTask, optimal_plans_in_time
 from serendipity.facade.planning import planned
 from serendipity.model import Condition, Deadline, HumanPlan, Options, Task
 from serendipity.model.errors import LimitReachedError
-from serendipity.model.task.plans_in_time import cost_alone
+from serendipity.model.task.actions import NOOP
+from serendipity.model.task.plans_in_time import cost_alone, times_of
 from serendipity.model.task.script import Deed, TimedFact
 from serendipity.model.task.unit_steps import unit_steps
 
@@ -22,7 +23,10 @@ _DRAWN: Final = 100
 
 
 Entries = tuple[tuple[int, str], ...]
-"""What somebody means to begin, and in which epochs from now: by names, which hold where ids are others."""
+"""What somebody means to begin, and in which epochs from now: by names, which hold where ids are others.
+
+A last ``noop`` says until when they wait for what comes by itself.
+"""
 
 
 class Way(NamedTuple):
@@ -33,8 +37,14 @@ class Way(NamedTuple):
 
 
 def entries_of(task: Task, plan: HumanPlan) -> Entries:
-    """A plan by names, with the epochs in which its actions begin."""
-    return tuple(zip(task.starts_of(plan), (task.actions[i].name for i in plan), strict=True))
+    """A plan by names, with its epochs."""
+    names = [task.actions[i].name for i in plan]
+    return (*times_of(task, plan).timed(names),)
+
+
+def begun_in(entries: Entries) -> Entries:
+    """The same without waiting."""
+    return tuple((epoch, name) for epoch, name in entries if name != NOOP)
 
 
 class Ways:
