@@ -148,7 +148,7 @@ class SingleEpochs:
             if plan and self._original.starts_of(plan)[0] <= self._result.options.head_start:
                 return Violation("times", "replay", "10.2", "pi_H begins before its head start is over")
         if self._result.bystanders != bystanders_of(self._original):
-            return Violation("bystanders", "replay", "10.3", "bystanders do not what the task's script says")
+            return Violation("bystanders", "replay", "10.3", "bystanders don't do what the script says")
         return None
 
     def _played(self) -> Violation | None:
