@@ -26,6 +26,7 @@ DONE = "--bystander carol=carol.plan"
 
 
 ABOVE, MOST = "domain.pddl:3: action 'walk': expected a duration above 0", "expected at most 1,000,000"
+TWICE = "problem.pddl:2: 'open' becomes true and false"
 CAROLS, HIS = "carol.plan:1: plan of carol: ", "--human-plan carol.plan"
 
 
@@ -54,13 +55,20 @@ def plan(text: str) -> dict[str, str]:
         ({"init": "(open) (at -3 (there ann))"}, "", 2, "expected a time above 0, got -3"),
         ({"init": "(at 2 (open)) (at 2 (there ann))"}, "", 0, ""),
         ({"init": "(at 2 (open)) (at 2 (open))"}, "", 0, ""),
-        ({"init": "(at 2 (open)) (at 2 (not (open)))"}, "", 2, "'open' becomes true and false at 2"),
-        ({"init": "(at 2 (open)) (at 1.5 (not (open)))"}, "--epoch 2", 2, "true and false with epoch 1"),
+        ({"init": "(at 2 (open)) (at 2 (not (open)))"}, "", 2, f"{TWICE} at 2"),
+        ({"init": "(at 2 (open)) (at 1.5 (not (open)))"}, "--epoch 2", 2, f"{TWICE} with epoch 1 of 2"),
         ({"init": "(at 2000000 (open))"}, "", 2, "the script takes 1,000,000 epochs, expected"),
         ({"init": "(at 1e9 (open))"}, "", 2, f"takes 500,000,000 epochs of 2, {MOST}"),
-        (plan("0: (fly carol)"), DONE, 2, "'fly carol' is not an action that carol can do alone"),
-        (plan("0: (walk ann)"), DONE, 2, "'walk ann' is not an action that carol can do alone"),
-        (plan("0: (walk carol)\n2: (leave carol)"), DONE, 2, "'leave carol' begins in epoch 2, but"),
+        (plan("0: (fly carol)"), DONE, 2, f"{CAROLS}'fly carol' is not an action that carol can do alone"),
+        (plan("0: (walk ann)"), DONE, 2, f"{CAROLS}'walk ann' is not an action that carol can do alone"),
+        (
+            plan("0: (walk carol)\n2: (leave carol)"),
+            DONE,
+            2,
+            "carol.plan:2: plan of carol: 'leave carol' begins in epoch 2, but",
+        ),
+        (plan("; epoch 0\n(walk carol)"), DONE, 2, "carol.plan:2: plan of carol: expected an epoch from 1"),
+        ({}, "--bystander carol=", 2, "--bystander: expected NAME or NAME=FILE, got no file after '='"),
         (plan("0: (walk carol) [7]"), DONE, 2, f"{CAROLS}expected [4], the duration of 'walk carol'"),
         (plan("1: (walk carol) [4]"), DONE, 2, f"{CAROLS}expected a multiple of 2"),
         (plan("9e9: (walk carol)"), DONE, 2, f"{CAROLS}expected one action"),

@@ -87,6 +87,13 @@ def test_actions_of_one_epoch_are_what_actions_always_were(tmp_path: Path) -> No
     )
 
 
+def test_times_of_the_script_are_said_to_be_rounded_beside_durations(tmp_path: Path) -> None:
+    timed = changed("(:init", "(:init (at 7 (busy ann))", PROBLEM)
+    assert [line.partition(" of 6")[0] for line in read(tmp_path, DOMAIN, timed, epoch=6).warnings] == [
+        "times of the script are rounded up to whole epochs", "durations are rounded up to whole epochs",
+    ]  # fmt: skip
+
+
 def test_an_action_is_as_dear_as_it_is_long_unless_costs_are_said(tmp_path: Path) -> None:
     assert action(read(tmp_path), "walk ann bed hall").cost == 4
     priced = changed("(at end (at ?a ?y))", "(at end (at ?a ?y)) (at start (increase (total-cost) 7))")

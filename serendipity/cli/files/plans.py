@@ -1,12 +1,12 @@
 """Plans as files: that of ``--human-plan``, and those of the planning competitions."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Final
 
 from serendipity.cli.files.reading import read_text
-from serendipity.model import PlanError, PlanStep, Result, Task
+from serendipity.model import InputError, PlanError, PlanStep, Result, Script, Task, UsageError
 from serendipity.model.numbers import plain
 from serendipity.model.printable import printable
 from serendipity.model.task.actions import NOOP, in_turn
@@ -35,9 +35,31 @@ def timed_plan(path: Path, task: Task) -> tuple[PlanEntry, ...]:
 
 
 def bystanders_plan(path: Path, task: Task, person: str) -> tuple[PlanEntry, ...]:
-    """The plan of a bystander in a file; waiting is part of it where actions have times."""
+    """The plan of a bystander in a file; waiting is part of it where actions have times.
+
+    Raises:
+        InputError: ``file:line`` and what was expected.
+        UsageError: that person can't be a bystander.
+    """
     what = f"plan of {person}: "
-    return tuple(entries(_actions_in(path, what), task, path, what))
+    lines = _actions_in(path, what)
+    listed = entries(lines, task, path, what)
+    if _wrong_in_script(task, person, listed):
+        for number, line in enumerate(lines, start=1):
+            wrong = _wrong_in_script(task, person, listed[:number])
+            if wrong:
+                raise InputError(what + wrong, path, line.line)
+    return tuple(listed)
+
+
+def _wrong_in_script(task: Task, person: str, plan: Sequence[PlanEntry]) -> str:
+    """What is wrong with a bystander's plan, other than that person; nothing where all is well."""
+    task.with_script(Script(people={person: ()}))
+    try:
+        task.with_script(Script(people={person: plan}))
+    except UsageError as error:
+        return str(error).removeprefix("script: ")
+    return ""
 
 
 def _actions_in(path: Path, what: str) -> list[PlanLine]:

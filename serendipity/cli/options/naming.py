@@ -215,6 +215,8 @@ class TaskName(Group):
         """The names of bystanders, each with the file of their plan or None."""
         given = [text.partition("=") for text in self.bystander or ()]
         found = [(canonical_name(name), Path(file) if equals else None) for name, equals, file in given]
+        if any(equals and not file for _, equals, file in given):
+            raise UsageError("--bystander: expected NAME or NAME=FILE, got no file after '='")
         if len(dict(found)) < len(found):
             raise UsageError("--bystander: expected each name once")
         return found

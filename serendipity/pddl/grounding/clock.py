@@ -41,6 +41,7 @@ class Clock:
         self._units = [*units]
         self.rounded: dict[Fraction, Key] = {}
         self.rounded_times = False
+        self._said: dict[tuple[int, Key], bool] = {}
         self.epoch = _common(self._units, blocks) if epoch is None else epoch
 
     def epochs(self, key: Key, duration: Cost) -> int:
@@ -60,19 +61,22 @@ class Clock:
         number = ceil(literal.time / self.epoch)
         if number > MAX_EPOCH:
             raise unit.problem_error(f"timed literal: {self._too_long(number)}", literal.line)
+        key, true = literal.literal
+        if self._said.setdefault((number, key), true) != true:
+            twice = f"{quoted(' '.join(key))} becomes true and false with epoch {number}"
+            raise unit.problem_error(f"{twice} of {plain(self.epoch)}", literal.line)
         self.rounded_times |= number * self.epoch != literal.time
         return number
 
     def warnings(self) -> list[str]:
-        """A line where durations or times were rounded."""
-        if not self.rounded:
-            if not self.rounded_times:
-                return []
-            return [f"times of the script are rounded up to whole epochs of {plain(self.epoch)}"]
-        duration, key = next(iter(self.rounded.items()))
-        became = plain(ceil(duration / self.epoch) * self.epoch)
-        example = f"{quoted(' '.join(key))} takes {became} instead of {plain(duration)}"
-        return [f"durations are rounded up to whole epochs of {plain(self.epoch)}: {example}"]
+        """A line where durations were rounded, and one where times were."""
+        whole = f"are rounded up to whole epochs of {plain(self.epoch)}"
+        found = [f"times of the script {whole}"] if self.rounded_times else []
+        for duration, key in [*self.rounded.items()][:1]:
+            became = plain(ceil(duration / self.epoch) * self.epoch)
+            example = f"{quoted(' '.join(key))} takes {became} instead of {plain(duration)}"
+            found.append(f"durations {whole}: {example}")
+        return found
 
     def _too_long(self, number: int) -> str:
         return (

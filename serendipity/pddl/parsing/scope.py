@@ -325,7 +325,7 @@ def _operation(operator: str, values: Sequence[Expression], line: int) -> Expres
     if len(numbers) < len(values):
         return Operation(operator, tuple(values))
     if operator == "/" and 0 in numbers[1:]:
-        raise InputError("division by zero in a cost", line=line)
+        raise InputError("division by zero", line=line)
     return calculate(operator, numbers)
 
 
