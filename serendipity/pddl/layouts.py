@@ -78,7 +78,8 @@ def read_agents(
 ) -> Task:
     """Read one pair of files per agent; facts are shared by name.
 
-    An agent's actions range over the objects of its own files.  Actions of the team
+    An agent's actions range over the objects of its own files, but for an ``:agent``, who is the
+    agent itself if it is one of these.  Actions of the team
     that no agent owns are joint: their participants are the agents whose names occur
     among the parts of the ground action's name, split at ``_`` and blanks.
     """
@@ -105,7 +106,7 @@ def _united(
     check_objects(everyone)
     check_initial(everyone)
     human_name = _choose_human(units, human)
-    sources = [Source(unit, unit.domain.schemas, by_owner(names.index(who))) for who, unit in units.items()]
+    sources = [one for i, unit in enumerate(units.values()) for one in _of_owner(unit, i, names[i])]
     if team is not None:
         owned = {schema.name for unit in units.values() for schema in unit.domain.schemas}
         joint = tuple(schema for schema in team.domain.schemas if schema.name not in owned)
@@ -121,6 +122,14 @@ def _united(
         epoch=epoch,
     )
     return assemble(blueprint, work)
+
+
+def _of_owner(unit: Unit, number: int, name: str) -> list[Source]:
+    """What an agent can do by its own files; what these say that others can do is left out."""
+    alone = tuple(schema for schema in unit.domain.schemas if schema.agent and name in unit.problem.objects)
+    others = tuple(schema for schema in unit.domain.schemas if schema not in alone)
+    owner = by_owner(number)
+    return [Source(unit, alone, owner, frozenset([name])), Source(unit, others, owner)]
 
 
 def read_pddl(

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from serendipity import InputError, Task, UsageError, load_pddl, plan
+from serendipity import InputError, Task, UsageError, load_agents, load_pddl, plan
 from tests.pddl.texts import DATA, pair
 
 DOMAIN, PROBLEM = ((DATA / "delivery" / f"{name}.pddl").read_text() for name in ("domain", "problem"))
@@ -34,6 +34,16 @@ def test_an_action_is_its_agents_alone(tmp_path: Path) -> None:
     assert not any(a.joint for a in task.actions)
     assert {a.name.split()[1] for a in task.actions} == {"v", "w", "x"}
     assert plan(task, mode="composite", horizon="inf", discount="0.5").cost == 1
+
+
+def test_in_its_own_files_an_agent_does_its_own_actions_only(tmp_path: Path) -> None:
+    """That others could do as much is no reason to take their part."""
+    files = pair(tmp_path, DOMAIN, PROBLEM)
+    task = load_agents({"w": files, "v": files}, human="w")
+    whose = {a.name.split()[1]: a.participants for a in task.actions}
+    assert whose == {"w": (0,), "v": (1,)}
+    named_otherwise = load_agents({"one": files, "two": files}, human="one")
+    assert {a.participants for a in named_otherwise.actions} == {(0,), (1,)}
 
 
 def test_others_are_told_of_in_one_line_and_never_ground(tmp_path: Path) -> None:
