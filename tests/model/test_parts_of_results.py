@@ -10,6 +10,7 @@ import pytest
 
 import serendipity
 from serendipity import Result, Task
+from serendipity.model.answers.result import closing
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_4, case_5
 
@@ -101,3 +102,10 @@ def test_parts_that_somebody_put_into_statistics_by_hand() -> None:
     old = replace(result, ties=None, statistics=result.to_dict()["statistics"])
     assert old.checked().ties == result.ties
     assert serendipity.verify(task, old).verdict == "proved"
+
+
+def test_plans_are_counted_apart_from_those_that_were_looked_at() -> None:
+    """The first of two answers costs as much as doing nothing, and so is the dearest."""
+    about = build(goal="g", actions={"a h": " -> g @ 1", "b h": " -> g @ 1", "c r": " -> q @ 1"})
+    said = [*closing(serendipity.plan(about, ties="robust"))]
+    assert said[0] == "2 optimal plans of the human, 1 looked at, an opportunity with 0 (robust)"

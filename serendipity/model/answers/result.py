@@ -326,8 +326,10 @@ def closing(result: Result) -> Iterator[str]:
         yield f"no other plan of the human's was looked at ({result.options.ties})"
     elif result.ties:
         helped = sum(tie.opportunity for tie in result.ties)
-        many = f"{len(result.ties)} optimal plan{'s' if len(result.ties) > 1 else ''} of the human"
-        yield f"{many}, an opportunity with {helped} ({result.options.ties})"
+        many, looked_at = result.optimal_plans, len(result.ties)
+        plans = f"{many} optimal plan{'' if many == 1 else 's'} of the human"
+        some = "" if looked_at == many else f", {looked_at} looked at"
+        yield f"{plans}{some}, an opportunity with {helped} ({result.options.ties})"
     if result.humans:
         saved = ", ".join(f"{one.human} {plain(one.saving)}" for one in result.humans)
         yield f"{result.human} is helped, as whoever saves most: {saved}"
