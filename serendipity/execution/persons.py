@@ -5,7 +5,6 @@ Personas are people by name: ``observant``, ``local``, ``noisy:0.1``, ``omniscie
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from os import PathLike
 from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
@@ -13,13 +12,13 @@ from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
 from search import PreparedTask
 from search.modes.simulation.human import Human
 from search.packed.operators import applicable
-from serendipity.model import Deadline, HumanPlan, InputError, Options, PlanStep, Task, UsageError
+from serendipity.execution.recorded import recorded_actions
+from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Task, UsageError
 from serendipity.model.arguments import TASK, expect
 from serendipity.model.rates import probability
 from serendipity.model.task.actions import apply
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import canonical_name
-from serendipity.recognition.recognise import ObservedGiven, named_actions
 
 if TYPE_CHECKING:
     from serendipity.execution.execution import Execution
@@ -364,19 +363,3 @@ def person_of(task: Task, text: str = "observant", dice: Random | None = None) -
         InputError: the file of ``recorded`` is wrong; it says where.
     """
     return persona_from(task, text).person(task, dice or Random(), drawn=dice is not None)
-
-
-def recorded_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
-    """The actions that were written down, one an epoch; ``noop`` is an epoch of waiting.
-
-    Raises:
-        InputError: a line is no action that the human takes part in.
-    """
-    lines = named_actions(given, "human")
-    for name, line in lines:
-        ids = task.named.get(name, ())
-        if not task.waits(name) and all(task.human not in task.actions[i].participants for i in ids):
-            where = given if isinstance(given, str | PathLike) else None
-            human = task.agents[task.human]
-            raise InputError(f"recorded action '{name}': expected an action of {human}'s", where, line)
-    return tuple(name for name, _ in lines)

@@ -15,7 +15,8 @@ from serendipity.execution.adapters import AdapterChoice, Faults, Maker
 from serendipity.execution.execution import Execution, own_goals
 from serendipity.execution.leftovers import about_robots
 from serendipity.execution.log import log_lines
-from serendipity.execution.persons import Person, Persona, moment_of, persona_from, recorded_actions
+from serendipity.execution.persons import Person, Persona, moment_of, persona_from
+from serendipity.execution.recorded import recorded_actions
 from serendipity.execution.robot_policy import RobotPolicy
 from serendipity.execution.runs import Run, Runs
 from serendipity.facade.planning import plan

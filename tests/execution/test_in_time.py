@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.execution import Execution, log_lines, moment_of, person_of
-from serendipity.model import Condition, Script, Task
+from serendipity.model import Condition, InputError, Script, Task
 from serendipity.robot import Epoch, Report, Simulated
 from serendipity.testing.builders import Builder
 from serendipity.testing.oracle import human_plans
@@ -241,6 +241,17 @@ def test_records_and_strays(tmp_path: Path) -> None:
     )
     again = serendipity.execute(_box(), "noisy:0.5", runs=5, ties="drawn", faults="fail=0.2,slow=0.2")
     assert [(row.cost, row.epochs) for row in strays.rows] == [(row.cost, row.epochs) for row in again.rows]
+
+
+def test_records_say_when(tmp_path: Path) -> None:
+    """Times were taken for nothing: what begins in epoch 3 began at once."""
+    record = tmp_path / "ann.plan"
+    record.write_text("2.000: (rest ann) [1.000]\n4: (carry ann)\n")
+    (log,) = serendipity.execute(_box(), f"recorded:{record}", discount="0").logs
+    assert [line["human"] for line in log[1:5]] == [None, None, "rest ann", None]
+    record.write_text("0: (carry ann)\n1: (rest ann)\n")
+    with pytest.raises(InputError, match=r"ann\.plan:2: recorded action 'rest ann': ann is busy until epoch"):
+        serendipity.execute(_box(), f"recorded:{record}")
 
 
 def test_a_log_names_what_goes_on() -> None:
