@@ -58,6 +58,8 @@ def test_plans_in_time_keep_their_waiting() -> None:
         ({"plan": [PACK]}, "plan 2: the goal does not hold after its last step 'pack h'"),
         ({"plan": [PACK, "(make h"]}, "plan 2, action 2: expected one action"),
         ({"plan": [PACK, "3: make h"]}, "plan 2, action 1: expected a time"),
+        ({"plan": [[0, "make h"]]}, "plan 2, step 1: 'make h': expected an epoch from 1 on, got 0"),
+        ({"plan": [[10**6 + 1, "make h"]]}, "plan 2, step 1: 'make h': expected an epoch from 1 to 1000000"),
         ({"plan": "make h"}, "plan 2: plan: expected a list of actions, got 'make h'"),
         ({"plan": None}, "plan 2: plan: expected a list of actions"),
         ({"goal": ["tea"]}, "plan 2: there is no fact 'tea'"),

@@ -5,6 +5,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from serendipity.model.errors import PlanError
+from serendipity.model.options import MAX_EPOCH
 from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.names import canonical_name
@@ -135,9 +136,10 @@ class _Human:
         if epoch is not None and epoch <= self._busy and waits:
             return
         if epoch is not None:
-            if epoch <= self.course.epoch:
-                early = f"expected an epoch from {self.course.epoch + 1} on, got {epoch}"
-                raise PlanError(f"human plan, step {step}: '{name}': {early}", step=step)
+            if not self.course.epoch < epoch <= MAX_EPOCH:
+                until = "on" if epoch <= MAX_EPOCH else f"to {MAX_EPOCH}"
+                wrong = f"expected an epoch from {self.course.epoch + 1} {until}, got {epoch}"
+                raise PlanError(f"human plan, step {step}: '{name}': {wrong}", step=step)
             self.wait_until(epoch - 1)
         state = self.course.state
         chosen = next((i for i in ids if self.task.actions[i].applicable(state)), None)

@@ -65,7 +65,7 @@ class Timely:
                 self._answers.put(self._ask(observation))
             except (AnswerError, LimitReachedError) as error:
                 self._answers.put(error)
-            except Exception as error:  # whatever a stranger's helper does is its own fault
+            except BaseException as error:  # whatever a stranger's helper does is its own fault, leaving too
                 self._answers.put(AnswerError(f"{type(error).__name__}: {error}"))
 
 

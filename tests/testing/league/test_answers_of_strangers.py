@@ -46,13 +46,14 @@ def test_an_answer_that_is_none_is_waiting_and_counted(answer: Any, fault: str) 
     assert row.fault == fault
 
 
-def test_who_fails_has_no_answer() -> None:
+@pytest.mark.parametrize("error", [ValueError, SystemExit, KeyboardInterrupt])
+def test_who_fails_has_no_answer(error: type[BaseException]) -> None:
     def fails(seen: dict[str, Any]) -> None:
-        raise ValueError("no\nidea")
+        raise error("no\nidea")
 
     row = at_the_door(fails)
     assert_waited(row, bad=3)
-    assert row.fault == "ValueError: no idea"
+    assert row.fault == f"{error.__name__}: no idea"
 
 
 def test_late_answers_are_waiting_and_counted() -> None:
