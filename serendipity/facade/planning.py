@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 
 _UNSURE: Final = ("goals", "observed", "beta", "plans", "noise")
+_OF_GOALS: Final = {"observed": (), "beta": 1, "noise": None}
 """Arguments of those who don't know what the human will do."""
 
 
@@ -245,6 +246,9 @@ def _unsure(options: Options, given: Given, said: Mapping[str, Any]) -> "Callabl
     What answers such calls is loaded here, before time counts, and only for them.
     """
     named = next((name for name in ("goals", "plans") if said.get(name) is not None), None)
+    astray = [name for name, usual in _OF_GOALS.items() if said.get(name, usual) not in (usual, [])]
+    if astray and said.get("goals") is None:
+        raise UsageError(f"{astray[0]}: goes with goals only")
     if named is None and (options.ties != "watched" or given is not None):
         return None
     if named is not None and given is not None:

@@ -1,7 +1,11 @@
 """Plans that the human may follow, each with a goal of its own: answered, told and proved."""
 
+from typing import Any
+
+import pytest
+
 import serendipity
-from serendipity.model import Result
+from serendipity.model import Result, UsageError
 
 
 def test_plans_with_goals_of_their_own_are_proved() -> None:
@@ -32,3 +36,11 @@ def test_one_plan_is_a_given_one() -> None:
     )
     known = serendipity.plan(task, discount="0.9", human_plan=plan)
     assert found.to_dict() | {"statistics": None} == known.to_dict() | {"statistics": None}
+
+
+@pytest.mark.parametrize("more", [{"observed": ["go h"]}, {"beta": 2}, {"noise": "miss=0.1"}])
+def test_what_tells_goals_goes_with_goals_only(more: dict[str, Any]) -> None:
+    task = serendipity.example("room2")
+    for plans in (None, [{"probability": 1, "plan": []}]):
+        with pytest.raises(UsageError, match=f"^{next(iter(more))}: goes with goals only$"):
+            serendipity.plan(task, plans=plans, **more)

@@ -248,11 +248,7 @@ JOBS: Final[dict[str, Job]] = {
 def _call(asked: Given) -> dict[str, Any]:
     """Keyword arguments of a planning call."""
     more = {name: asked.get(name) for name in ("human_plan", "goals", "observed", "beta", "plans")}
-    options = _options(asked)
-    for name in ("observed", "beta"):
-        if more[name] is not None and more["goals"] is None:
-            raise UsageError(f"{name}: goes with goals only")
-    return {**options, **{name: value for name, value in more.items() if value is not None}}
+    return {**_options(asked), **{name: value for name, value in more.items() if value is not None}}
 
 
 def _options(asked: Given) -> dict[str, Any]:
