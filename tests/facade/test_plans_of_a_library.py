@@ -1,11 +1,13 @@
 """Plans that the human may follow, each with a goal of its own: answered, told and proved."""
 
+import time
 from typing import Any
 
 import pytest
 
 import serendipity
 from serendipity.model import Result, UsageError
+from serendipity.testing.builders import task as build
 
 
 def test_plans_with_goals_of_their_own_are_proved() -> None:
@@ -44,3 +46,12 @@ def test_what_tells_goals_goes_with_goals_only(more: dict[str, Any]) -> None:
     for plans in (None, [{"probability": 1, "plan": []}]):
         with pytest.raises(UsageError, match=f"^{next(iter(more))}: goes with goals only$"):
             serendipity.plan(task, plans=plans, **more)
+
+
+@pytest.mark.long
+def test_limits_hold_beside_plans_of_many_epochs() -> None:
+    task = build(init="", goal="lunch", actions={"pack h": "-> lunch", "help r": "-> lunch"})
+    plans = [{"name": str(epoch), "probability": 1, "plan": [[epoch, "pack h"]]} for epoch in (1, 20_000)]
+    began = time.process_time()
+    found = serendipity.plan(task, plans=plans, time_limit=1)
+    assert (found.human_cost, time.process_time() - began < 6) == (1, True)

@@ -1,7 +1,9 @@
 """What one scenario may do in an epoch beside robots: rules 1 to 3 of semantics 3.1 (semantics 11)."""
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import NamedTuple
 
 from search.call.context import SearchContext
@@ -48,7 +50,7 @@ class Guide:
 
     Attributes:
         scenario: its number.
-        remainder: the plan.
+        remainder: the plan, its steps in order.
         phase: of the window at that time.
         context: of the scenario's call.
         variants: its actions.
@@ -63,7 +65,9 @@ class Guide:
     def at(self, epoch: int) -> tuple[JointAction, tuple[int, ...], int]:
         """What robots begin by themselves in an epoch, what the human does, and the phase after it."""
         packed = self.context.packed
-        ops = [packed.op(step.action) for step in self.remainder.steps if step.epoch == epoch]
+        steps, of = self.remainder.steps, attrgetter("epoch")
+        begun = steps[bisect_left(steps, epoch, key=of) : bisect_right(steps, epoch, key=of)]
+        ops = [packed.op(step.action) for step in begun]
         robots = NOTHING
         for op in ops:
             if not op.agents & packed.human_bit and packed.counted(op.action):
@@ -211,6 +215,7 @@ class Line:
         found = self.certain.remainder(at, epoch, deadline, again=False)
         if found.worth >= INFINITE_WORTH:
             return None
+        found = found._replace(steps=tuple(sorted(found.steps)))
         return Guide(self.number, found, at.phase, self._context, self.variants)
 
     def floor(self, at: Member, epoch: int) -> int:
