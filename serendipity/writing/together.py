@@ -1,5 +1,6 @@
 """Files that are there whole or not at all, several of them together; and files that grow line by line."""
 
+import errno
 import os
 import tempfile
 from collections.abc import Iterator, Mapping
@@ -28,6 +29,8 @@ def written_together(files: Mapping[Path, bytes]) -> Iterator[None]:
         for path, content in files.items():
             with _named(path):
                 target = path.resolve()
+                if target.is_dir():
+                    raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
                 made += _folders(target.parent)
                 if not target.exists() or target.is_file():
                     waiting[path] = _beside(target, content)

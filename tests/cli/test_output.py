@@ -44,6 +44,13 @@ def test_a_failed_write_leaves_the_old_file_and_no_other(
     assert list(tmp_path.iterdir()) == [target]
 
 
+def test_a_folder_in_the_way_of_the_last_of_several_leaves_none(tmp_path: Path) -> None:
+    (tmp_path / "b").mkdir()
+    with pytest.raises(UsageError, match="b can't be written: Is a directory"):
+        output.write_answers([output.Answer("text", tmp_path / name) for name in "ab"])
+    assert list(tmp_path.iterdir()) == [tmp_path / "b"]
+
+
 def test_a_link_is_followed_and_a_device_is_not_replaced(tmp_path: Path) -> None:
     (tmp_path / "link").symlink_to(tmp_path / "answer")
     output.write_answer("text", tmp_path / "link")
