@@ -5,7 +5,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Literal
 
 from serendipity.facade.logs import recorded
-from serendipity.model import Certificate, Deadline, Result, Task
+from serendipity.model import Certificate, Deadline, InputError, Result, Task
 from serendipity.model.arguments import PATH, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
@@ -54,6 +54,13 @@ def check(
     with no_collection():
         claims = check_by_rules(task, result, limits)
     return Certificate(claims, perf_counter() - start)
+
+
+def require_answer(task: Task, result: Result, file: object, deadline: Deadline | None = None) -> None:
+    """An InputError about a file, where rules refute the result in it for the task."""
+    wrong = check(task, result, deadline=deadline).refuted
+    if wrong is not None:
+        raise InputError(f"is no answer to this task: {wrong.claim}: {wrong.reason}", file)
 
 
 @recorded("verify", _verdict)

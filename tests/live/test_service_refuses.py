@@ -43,6 +43,13 @@ def test_files_are_named_with_their_lines(server: Server) -> None:
     assert answer.json()["error"].startswith("domain.pddl:2: ")
 
 
+def test_an_answer_that_breaks_a_rule_is_not_explained(server: Server) -> None:
+    result = server.post("/plan", {"task": ROOM2, "options": {"discount": 0.9}}).json()
+    answer = server.post("/explain", {"task": ROOM2, "result": {**result, "cost": 1}})
+    said = "result: is no answer to this task: cost: cost (semantics 2): cost is 11.4, the result says 1"
+    assert (answer.status_code, answer.json()) == (422, {"error": said})
+
+
 @pytest.mark.parametrize(
     ("path", "body", "status", "start"),
     [

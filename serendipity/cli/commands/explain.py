@@ -10,7 +10,7 @@ from serendipity.cli.files.reading import about, read_json
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
 from serendipity.cli.text.render import shown
-from serendipity.model import Deadline, InputError, Result, Task
+from serendipity.model import Deadline, Result, Task
 
 _FILES: Final = naming.files(
     "TASK [RESULT.json]", "The task, named as for `plan`; then the result, or options.", required=False
@@ -49,8 +49,8 @@ def explain(
 def _read(task: Task, path: Path, deadline: Deadline) -> Result:
     """A result that the rules do not refute for the task."""
     result = Result.from_dict(read_json(path), path)
+    from serendipity.facade.certify import require_answer
+
     with about(path):
-        wrong = serendipity.check(task, result, deadline=deadline).refuted
-    if wrong is not None:
-        raise InputError(f"is no answer to this task: {wrong.claim}: {wrong.reason}", path)
+        require_answer(task, result, path, deadline)
     return result

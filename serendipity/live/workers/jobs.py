@@ -11,6 +11,7 @@ from typing import Any, Final
 
 import serendipity
 from serendipity.facade.call import options_from
+from serendipity.facade.certify import require_answer
 from serendipity.facade.session import Session
 from serendipity.model import Deadline, Result, Task, UsageError
 
@@ -200,6 +201,8 @@ def explain(worker: WorkerState, asked: Given, deadline: Deadline) -> Answers:
     """Why an answer is as it is; one over scenarios is explained as a policy."""
     task = worker.tasks.task(asked["task"], deadline)
     result = None if asked["result"] is None else Result.from_dict(asked["result"])
+    if result is not None:
+        require_answer(task, result, "result", deadline)
     if result is not None and len(result.goals or ()) > 1 and not asked["options"]:
         yield serendipity.explain_policy(task, result, deadline=deadline).to_dict()
         return
