@@ -78,3 +78,10 @@ def test_a_record_may_stand_behind_the_task(run: Runs) -> None:
 def test_wrong_input_is_one_line(run: Runs, arguments: str, complaint: str) -> None:
     told = run(f"execute --example room2 {arguments}")
     assert told.code == 2 and complaint in told.err and told.err.count("\n") == 1
+
+
+def test_a_person_who_is_not_named_is_asked_for_by_the_commands_own_option(run: Runs) -> None:
+    Path("domain.pddl").write_text("(define (domain d) (:predicates (p)))")
+    Path("problem.pddl").write_text("(define (problem p) (:domain d) (:init) (:goal (p)))")
+    told = run("execute domain.pddl problem.pddl --human ann --robot bot")
+    assert (told.code, "name --human H (`execute`: --person H) and --robot R" in told.err) == (2, True)

@@ -190,7 +190,8 @@ class TaskName(Group):
         except UsageError as error:
             if self.human is not None:
                 raise
-            raise UsageError(f"{error}; name --human H --robot R ..., in MA-PDDL --human H") from None
+            named = "name --human H (`execute`: --person H) and --robot R ..., in MA-PDDL the human"
+            raise UsageError(f"{error}; {named}") from None
 
     def _beside_others(self, task: Task, deadline: Deadline | None, interference: Interference) -> Task:
         """The task with bystanders, those whose plans are given first."""
