@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, Unpack
 
 from serendipity.facade.planning import plan
 from serendipity.model import Certificate, Deadline, PlanOptions, Result, Task, UsageError
+from serendipity.model.answers.over_scenarios import MEASURES
 from serendipity.model.arguments import FUNCTION, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.keywords import listing
 from serendipity.model.numbers import Number, as_written, plain
@@ -95,7 +96,9 @@ class Front(Tabular, Output):
         """The lines that ``front`` prints."""
         weights = disturbance_from(self.disturbance)
         said = ", ".join(f"{kind} {plain(getattr(weights, kind))}" for kind in ("ask", "meet", "sight"))
-        yield Line(f"{self.human} alone pays {plain(self.human_cost)}; what disturbs: {said}")
+        several = [point.result.options.risk for point in self.points if point.result.goals]
+        pays = f"alone: {MEASURES[several[0]]}" if several else "alone pays"
+        yield Line(f"{self.human} {pays} {plain(self.human_cost)}; what disturbs: {said}")
         rows = [
             tuple(plain(cell) if isinstance(cell, float) else cell or "" for cell in point.cells())
             for point in self.points

@@ -22,5 +22,7 @@ def test_the_front_over_goals_on_the_command_line(run: Runs) -> None:
     asked = "front --example room2 --discount 0.9"
     shown = run(f"{asked} --goals goals.txt --verify --format csv")
     assert (shown.code, shown.out.count("proved")) == (0, 2)
+    regret = run(f"{asked} --goals goals.txt --risk regret")
+    assert regret.out.startswith("commx alone: greatest regret ")
     refused = run(f"{asked} --observed goals.txt")
     assert (refused.code, "--observed: goes with --goals only" in refused.err) == (2, True)
