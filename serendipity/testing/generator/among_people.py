@@ -21,7 +21,7 @@ from serendipity.testing.generator.families import AGENTS
 from serendipity.testing.generator.human_plans import with_times
 from serendipity.testing.generator.in_time import sighted, with_durations
 from serendipity.testing.generator.tasks import corridor, strips, varied
-from serendipity.testing.oracle import optimal_human_plan
+from serendipity.testing.oracle import human_plans, optimal_human_plan
 from serendipity.testing.oracle.alone import with_predicted
 
 MOST_PEOPLE: Final = len(AGENTS) - 1
@@ -69,10 +69,10 @@ def random_call_among(people: int, seed: int) -> PlanCall:
         if task is not None and (plan is None or task.epochs_of(plan) <= _LONGEST):
             break
     options = _options(dice, task, people)
+    early = int(options.get("head_start", "0"))  # after which there may be no plan any more
     if plan is None:
         options["horizon"] = dice.choice(("2", "3", "4"))
-    elif dice.random() < 0.4 or not plan:
-        early = int(options.get("head_start", "0"))
+    elif dice.random() < 0.4 or not plan or next(human_plans(task, head_start=early), None) is None:
         options["horizon"] = str(task.epochs_of(plan) + early + dice.choice((0, 1, 2)))
     given = None
     if plan and "interference" not in options and dice.random() < _GIVEN:

@@ -59,6 +59,14 @@ def test_search_brute_force_and_certificates_agree() -> None:
         assert compare(call, judges, {}) is None, call.seed
 
 
+@pytest.mark.parametrize("seed", [9102843, 9104691])
+def test_who_gets_up_too_late_is_given_a_horizon(seed: int) -> None:
+    """Without one there is none behind the head start, and the search refuses, as it has to."""
+    call = random_call_among(3, seed)
+    judges = {name: JUDGES[name] for name in ("search", "automata")}
+    assert compare(call, judges, {}) is None and "horizon" in call.options
+
+
 def test_brute_force_judges_answers_under_rules(monkeypatch: pytest.MonkeyPatch) -> None:
     bound = (call for people, call in drawn() if people == MOST_PEOPLE)
     call = next(one for one in bound if is_bound(one.task, call_of(one).options) and not one.human_plan)
