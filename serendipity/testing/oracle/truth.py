@@ -115,7 +115,8 @@ class Truth:
         if result.ties is not None or given == self._entries(self._predicted(options)):
             given = None
         if (options, given) not in self._known:
-            plan = None if given is None else self.task.plan_from_names(_earlier(given, options.head_start))
+            early = options.head_start
+            plan = None if given is None else self.task.plan_from_names(_earlier(given, early), early)
             try:
                 self._known[options, given] = self._solved(options, plan)
             except UsageError as error:

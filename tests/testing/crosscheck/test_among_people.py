@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+import serendipity
 from serendipity.model import Condition, Script, Task
 from serendipity.model.task.gate import is_bound, nobody_pays
 from serendipity.testing import shrink
@@ -57,6 +58,13 @@ def test_search_brute_force_and_certificates_agree() -> None:
     judges = {name: JUDGES[name] for name in ("search", "automata")}
     for _, call in drawn(40):
         assert compare(call, judges, {}) is None, call.seed
+
+
+def test_brute_force_follows_a_plan_by_what_is_so_behind_the_head_start() -> None:
+    """Which of two actions of a name a plan means was looked up before it, where it could not be done."""
+    call = random_call_among(3, 9200926)
+    result = serendipity.plan(call.task, human_plan=call.human_plan, **call.keywords())
+    assert truth.Truth(call.task).fault(result) is None
 
 
 @pytest.mark.parametrize("seed", [9102843, 9104691])
