@@ -86,7 +86,10 @@ def _overwriting_nothing(function: Callable[..., int], written: Mapping[str, str
 
 
 WRITTEN: Final = frozenset(
-    ("-o", "--save-plan", "--proof", "--heat-map", "--log", "--clip", "--plot", "--report", "--journal")
+    (
+        *("-o", "--save-plan", "--proof", "--heat-map", "--log", "--clip", "--plot", "--report", "--journal"),
+        *("--picture", "--tables"),
+    )
 )
 """Options that name a file to be written."""
 
@@ -108,16 +111,28 @@ def check(values: Mapping[str, Any], options: Mapping[str, str]) -> None:
     written: dict[Path, str] = {}
     for name, option in options.items():
         for place in _places(name, values.get(name)):
-            if place in read:
+            if any(_takes(place, other) for other in read):
                 raise UsageError(f"{option}: expected another file than {values[name]}, which is read")
-            if place in written:
-                raise UsageError(f"{option}: expected another file than {written[place]} names")
+            for other, first in written.items():
+                if _takes(place, other) or _takes(other, place):
+                    raise UsageError(f"{option}: expected another file than {first} writes")
             written[place] = option
+
+
+def _takes(place: Path, other: Path) -> bool:
+    """Whether what is written to a place takes another one: a proof for VeriPB has several files."""
+    if place.suffix != ".pbp":
+        return place == other
+    from serendipity.writing.veripb import is_of
+
+    return is_of(other, place)
 
 
 def _places(name: str, value: object) -> Iterator[Path]:
     """Files that a value names and that can be replaced: devices can't, and nobody writes to folders."""
-    if isinstance(value, Path):
+    if isinstance(value, Path) and name == "tables":
+        yield from _places("", [Path(f"{value}{number}.csv") for number in (1, 2)])
+    elif isinstance(value, Path):
         place = value.resolve()
         with suppress(OSError):  # a name that is too long: whoever reads or writes it says so
             if place.is_file() or not place.exists():

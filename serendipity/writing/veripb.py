@@ -14,6 +14,7 @@ it only says that they cannot all be taken, which reverse unit propagation sees;
 node, that neither side of a branch can be taken, until nothing is left.
 """
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from math import lcm
@@ -39,6 +40,8 @@ class _Version(NamedTuple):
 
 _VERSIONS: Final = (_Version("2.0", ".pbp", "soli"), _Version("1.1", ".v1.pbp", "o"))
 
+_FORMULA: Final = ".opb"
+
 
 def in_the_fields_form(path: Path, proof: Mapping[str, Any]) -> dict[Path, bytes]:
     """The files of a proof, by name.
@@ -59,10 +62,18 @@ def in_the_fields_form(path: Path, proof: Mapping[str, Any]) -> dict[Path, bytes
         about = f"{proof['claim']}, program {number} of {len(proof['programs'])}"
         refutation = _Refutation(program)
         place = path if number == 1 else path.with_stem(f"{path.stem}-{number}")
-        files[place.with_suffix(".opb")] = _text(refutation.formula(about))
+        files[place.with_suffix(_FORMULA)] = _text(refutation.formula(about))
         for version in _VERSIONS:
             files[place.with_suffix(version.suffix)] = _text(refutation.proof(version))
     return files
+
+
+def is_of(file: Path, path: Path) -> bool:
+    """Whether a file's name is one that a proof has which is written to ``path``."""
+    ends = "|".join(map(re.escape, (_FORMULA, *(version.suffix for version in _VERSIONS))))
+    return file.parent == path.parent and bool(
+        re.fullmatch(rf"{re.escape(path.stem)}(-\d+)?({ends})", file.name)
+    )
 
 
 def _text(lines: Iterator[str]) -> bytes:
