@@ -70,6 +70,14 @@ def test_unknown_goals(server: Server) -> None:
     assert facts(answer.json()) == facts(serendipity.plan(task, goals=goals, discount=0.9).to_dict())
 
 
+def test_a_library_of_plans(server: Server) -> None:
+    task = serendipity.example("room2")
+    listed = [{"probability": 1, "plan": list(serendipity.plan(task).human_plan or ())}]
+    for plans in (listed, {"schema": "serendipity.plans/1", "plans": listed}):
+        answer = server.post("/plan", {"task": ROOM2, "plans": plans}).json()
+        assert facts(answer) == facts(serendipity.plan(task, plans=listed).to_dict())
+
+
 def events(text: str) -> Iterator[tuple[str, Any]]:
     for block in text.replace("\r\n", "\n").split("\n\n"):
         fields = dict(line.split(": ", 1) for line in block.splitlines() if ": " in line)

@@ -85,7 +85,9 @@ class PlanRequest(AnytimeRequest):
     )
     observed: list[str] | None = Field(None, description="what the human has done, for `goals`")
     beta: float | str | None = Field(None, description="of the posterior, for `goals`")
-    plans: list[dict[str, Any]] | None = Field(None, description="plans that the human may follow")
+    plans: list[dict[str, Any]] | dict[str, Any] | None = Field(
+        None, description="plans that the human may follow, or the library that `serendipity learn` writes"
+    )
 
 
 class SessionSnapshot(RequestPart):
