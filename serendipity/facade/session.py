@@ -54,7 +54,7 @@ class Session:
         self._prepared = HELD.take(task)
         weakref.finalize(self, HELD.hold, self._prepared).atexit = False
         self._options = options
-        self._given = None if human_plan is None else checked_entries(human_plan, "human plan")
+        self._given = None if human_plan is None else _entries(task, human_plan)
         """A plan that nothing has been made of yet: it may be one only after the next change."""
         self._human_plan: HumanPlan | None = None
         """The plan; at most one of the two is known."""
@@ -274,9 +274,12 @@ class Session:
         """Say what the human is going to do from here; None predicts it anew.
 
         The next call replays it, and raises :class:`serendipity.PlanError` where it can't be executed.
+
+        Raises:
+            PlanError: an action is unknown.
         """
         self._human_plan, self._predicted, self._is_outdated = None, False, False
-        self._given = None if names is None else checked_entries(names, "human plan")
+        self._given = None if names is None else _entries(self.task, names)
 
     def set_goal(self, goal: Iterable[str]) -> None:
         """Give the human another goal: literals, ``!`` in front of those to be false.
@@ -358,3 +361,13 @@ def _require_compatible(chosen: list[GroundAction]) -> None:
     for action, other in combinations(chosen, 2):
         if conflicting(action, other, strict=False):
             raise UsageError(f"'{action.name}' and '{other.name}' can't share an epoch")
+
+
+def _entries(task: Task, names: Iterable[PlanEntry]) -> tuple[PlanEntry, ...]:
+    """What may be a plan of the human's, now or later: of actions that there are."""
+    entries = checked_entries(names, "human plan")
+    for step, entry in enumerate(entries, start=1):
+        name = canonical_name(entry if isinstance(entry, str) else entry[1])
+        if name not in task.named and not task.waits(name):
+            raise PlanError(f"human plan, step {step}: there is no action '{name}' in the task", step=step)
+    return entries

@@ -58,6 +58,8 @@ def test_what_is_no_snapshot_of_the_task_is_refused() -> None:
         Session.restore(serendipity.example("parcels"), whole)
     with pytest.raises(InputError, match=r"snapshot: schema: 'serendipity.session/9' is newer"):
         Session.restore(serendipity.example("room2"), {**whole, "schema": "serendipity.session/9"})
+    with pytest.raises(serendipity.PlanError, match="human plan, step 1: there is no action 'x' in the task"):
+        Session.restore(serendipity.example("room2"), {**whole, "human_plan": ["x"]})
     wrong = {"facts": 3, "goal": None, "options": [], "answers": [{}], "predicted": None, "human_plan": 7}
     for name in ("facts", "goal", "human_plan", "options", "answers"):
         for bad in ({k: v for k, v in whole.items() if k != name}, {**whole, name: wrong[name]}):

@@ -3,7 +3,7 @@
 import json
 from typing import Any, Final, NamedTuple
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, StrictBool, model_validator
 
 from serendipity.model import Options
 from serendipity.model.keywords import CHOICES
@@ -191,7 +191,7 @@ class ExecuteRequest(RequestPart):
 class ChangeRequest(RequestPart):
     """Facts as they were seen."""
 
-    facts: dict[str, bool]
+    facts: dict[str, StrictBool]
 
 
 class GoalRequest(RequestPart):
