@@ -6,6 +6,7 @@ human does for one activity without another one in between, else on one day, is 
 """
 
 import csv
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -164,6 +165,8 @@ def learn(
     faults = [goal for one in found if isinstance(goal := goals[one.actions], PlanError)]
     known = [one for one in found if not isinstance(goals[one.actions], PlanError)]
     fitting = _fitting(known, on, at, after)
+    if known and not fitting and not weight:
+        raise UsageError("usual: expected a number above 0, since no episode fits")
     reason = faults[0].message if faults else None
     if not known:
         who = task.agents[task.human]
@@ -172,9 +175,8 @@ def learn(
     plans = []
     for number, (key, often) in enumerate(usually.most_common(), start=1):
         activity, actions = key
-        probability = Fraction(often, len(known))
-        if fitting:
-            probability = (counts[key] + weight * probability) / (len(fitting) + weight)
+        usually_so = Fraction(often, len(known))
+        probability = (counts[key] + weight * usually_so) / (len(fitting) + weight)
         name, goal, bounds = (
             f"{activity or 'plan'} {number}",
             goals[actions],
@@ -186,7 +188,7 @@ def learn(
     return Habits(task.agents[task.human], len(found), len(fitting), tuple(plans), len(faults), reason)
 
 
-def _fitting(known: Iterable[Episode], on: str | None, at: str | None, after: str | None) -> list[Episode]:
+def _fitting(known: Sequence[Episode], on: str | None, at: str | None, after: str | None) -> list[Episode]:
     """The episodes that fit what is asked."""
     if on is not None and on not in _ON:
         raise UsageError(f"on: expected one of {', '.join(_ON)}, got '{on:.50}'")
@@ -194,6 +196,8 @@ def _fitting(known: Iterable[Episode], on: str | None, at: str | None, after: st
         minute = None if at is None else _minute(time.fromisoformat(at.zfill(5)))
     except ValueError:
         raise UsageError(f"at: expected a time of day as 7:30, got '{at:.50}'") from None
+    if known and after not in (None, NOTHING) and not any(one.activity for one in known):
+        raise UsageError("after: expected logs that say activities")
     return [
         one
         for one in known
@@ -221,7 +225,10 @@ def read_episodes(task: Task, traces: str | PathLike[str]) -> list[Episode]:
     """
     text = read_text(traces)
     if text.lstrip().startswith("{"):
-        runs = (run[1:] for run in read_logs(traces))
+        runs = [run[1:] for run in read_logs(traces)]
+        for number, value in (line for run in runs for line in run):
+            if not value.keys() & {"human", "change", "drop"}:
+                raise InputError("log: expected an epoch, a change or a drop", traces, number)
         done = [[x for x in run if x.value.get("human") and not x.value.get("in_vain")] for run in runs]
         names = [tuple(_action(task, x.value["human"], traces, x.number) for x in run) for run in done]
         return [Episode("", actions) for actions in names if actions]
@@ -282,7 +289,9 @@ def _moment(row: Mapping[str, str], file: object, line: int) -> tuple[str, int, 
         raise InputError(f"time: expected {form}, got '{clock:.50}'", file, line) from None
     try:
         weekday = date.fromisoformat(day).weekday()
-    except ValueError:  # a day that has another name
+    except ValueError:  # a day may have another name
+        if re.fullmatch(r"\d+-\d+-\d+", day):
+            raise InputError(f"day: expected a date as 2026-03-02, got '{day:.50}'", file, line) from None
         weekday = None
     return day, _minute(at), weekday
 

@@ -121,6 +121,8 @@ def test_wilson_at_its_ends() -> None:
         (f"day,time,actor,action\n1,7:00,h,{'x' * 200_000}\n", "days.csv:1: expected CSV: field larger"),
         ("day,time,actor,action\n", "days.csv: expected a plan that h can follow"),
         ('{"schema": "serendipity.execution/1"}\n{"human": "fly h"}', "days.csv:2: action: there is no"),
+        ("day,time,actor,action\n2026-13-02,7:00,h,make h\n", "days.csv:2: day: expected a date as"),
+        ('{"schema": "serendipity.execution/1"}\n{"event": "x"}', "days.csv:2: log: expected an epoch, a"),
         ('{"schema": "serendipity.execution/1"}\n{"human": 3}', "days.csv:2: action: there is no"),
     ],
 )
@@ -137,6 +139,8 @@ def test_what_is_wrong_with_logs_is_said(text: str, message: str, tmp_path: Path
     [
         ({"on": "today"}, "on: expected one of mon, tue"),
         ({"at": "late"}, "at: expected a time of day as 7:30, got 'late'"),
+        ({"on": "sun", "usual": 0}, "usual: expected a number above 0, since no episode fits"),
+        ({"after": "breakfast"}, "after: expected logs that say activities"),
         ({"usual": -1}, "usual: expected a number of at least 0"),
     ],
 )
