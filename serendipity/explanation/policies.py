@@ -118,8 +118,12 @@ def explain_policy(
     expect(TASK_IN_TIME, task=task)
     expect(RESULT_IN_TIME, result=result)
     entries = result.goals or ()
-    if len(entries) < 2 or result.cost is None or result.options.risk != "mean":
-        raise UsageError("explain: expected an answer over several goals or plans, with risk 'mean'")
+    if len(entries) < 2 or result.cost is None:
+        raise UsageError("explain: expected an answer over several goals or plans")
+    if (risk := result.options.risk) != "mean":
+        raise UsageError(
+            f"explain: expected an answer over several goals or plans with risk mean, got {risk}"
+        )
     library = _library(result, entries)
     asked: dict[str, Any] = {**result.options.but(ties="fixed", time_limit=None, memory_limit=None).to_dict()}
     committed = plan(task, plans=library, deadline=limits, **asked | {"policy": "fixed"})

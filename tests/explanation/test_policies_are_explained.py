@@ -30,6 +30,8 @@ def test_it_is_about_several_scenarios() -> None:
     task = serendipity.example("room2")
     with pytest.raises(UsageError, match="several goals or plans"):
         serendipity.explain_policy(task, serendipity.plan(task))
+    with pytest.raises(UsageError, match="several goals or plans with risk mean, got worst"):
+        serendipity.explain_policy(task, serendipity.plan(task, goals=GOALS, risk="worst"))
 
 
 def test_each_plan_of_a_goal_is_one_for_it() -> None:
