@@ -1,7 +1,9 @@
 """Helpers by name: those that are shipped, functions, programs, addresses, learners."""
 
 from collections.abc import Callable
+from math import inf
 from typing import Final
+from urllib.parse import urlsplit
 
 from serendipity.model import UsageError
 from serendipity.model.options import limit_of
@@ -30,11 +32,13 @@ def helper_named(text: str) -> Helper:
         return Helper(text, baselines.Planned("fixed" if text == "ours-fixed" else "watching").robots)
     if kind == "ours":
         seconds = limit_of("helper ours", rest, "seconds") if rest else None
+        if seconds == inf:
+            raise UsageError("helper ours: expected seconds, got inf")
         return Helper(text, lambda case, _: baselines.ours(case), seconds=seconds, plans=True)
     if kind == "command" and rest:
         process = Process(rest)
         return by_function(process, text, process.close)
-    if kind in ("http", "https"):
+    if kind in ("http", "https") and _has_host(text):
         return by_function(Endpoint(text), text)
     if kind == "python" and rest:
         return by_function(function_named(rest, "helper"), text)
@@ -44,6 +48,13 @@ def helper_named(text: str) -> Helper:
         learner = Learner(function_named(rest, "helper"))
         return Helper(text, learner.robots, learner.close)
     raise UsageError(f"helper: expected {', '.join(SHIPPED)}, {_KINDS}, got '{text:.50}'")
+
+
+def _has_host(address: str) -> bool:
+    try:
+        return bool(urlsplit(address).hostname)
+    except ValueError:
+        return False
 
 
 def by_function(ask: Ask, name: str = "", end: Callable[[], None] = lambda: None) -> Helper:

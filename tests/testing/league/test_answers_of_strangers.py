@@ -181,6 +181,9 @@ def test_an_endpoint_that_is_not_there_has_no_answer() -> None:
         ("command:no-such-program", "helper: there is no program 'no-such-program'"),
         ("python:json", "helper: expected 'package.module:function', got 'json'"),
         ("python:json:lods", "helper 'json:lods': module 'json' has no attribute 'lods'"),
+        ("http://", "helper: expected idle"),
+        ("http://[", "helper: expected idle"),
+        ("ours:inf", "helper ours: expected seconds, got inf"),
         ("ours:soon", "helper ours: expected seconds"),
     ],
 )
