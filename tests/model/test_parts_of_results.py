@@ -109,3 +109,15 @@ def test_plans_are_counted_apart_from_those_that_were_looked_at() -> None:
     about = build(goal="g", actions={"a h": " -> g @ 1", "b h": " -> g @ 1", "c r": " -> q @ 1"})
     said = [*closing(serendipity.plan(about, ties="robust"))]
     assert said[0] == "2 optimal plans of the human, 1 looked at, an opportunity with 0 (robust)"
+
+
+def test_what_is_no_object_is_called_as_in_json() -> None:
+    for given, called in (
+        (None, "null"),
+        ([], "a list"),
+        (3, "a number"),
+        ("x", "a text"),
+        (True, "true or"),
+    ):
+        with pytest.raises(serendipity.InputError, match=f"expected a JSON object, got {called}"):
+            Result.from_dict(given)

@@ -34,6 +34,8 @@ SCHEMA: Final = "serendipity.proof/1"
 CLAIMS: Final = ("optimal", "no_opportunity", "lower_bound", "infeasible", "cost")
 SENSES: Final = ("<=", ">=", "==")
 
+_KINDS: Final[dict[type, str]] = {str: "a text", list: "a list", dict: "an object"}
+
 MOST_BYTES: Final = 1 << 30  # of a file, unpacked
 MOST: Final = 10**30  # the largest number of a program
 MOST_BITS: Final = 1 << 16  # of the common denominator of a leaf
@@ -239,7 +241,7 @@ def _field(data: Any, name: str, kind: type, where: str) -> Any:
     if kind is int:
         return _number(data[name], f"{where}: {name}")
     if type(data[name]) is not kind:
-        _malformed(f"{where}: {name}: expected {kind.__name__}, got {type(data[name]).__name__}")
+        _malformed(f"{where}: {name}: expected {_KINDS[kind]}")
     return data[name]
 
 

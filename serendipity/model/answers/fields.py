@@ -33,9 +33,24 @@ from serendipity.model.task.plans import PlanStep, PlanTimes, Window
 
 T = TypeVar("T")
 
+_KINDS: Final[dict[type, str]] = {
+    dict: "an object",
+    list: "a list",
+    str: "a text",
+    int: "a number",
+    float: "a number",
+    bool: "true or false",
+    type(None): "null",
+}
+
 
 class MalformedError(Exception):
     """A part of a file of another form than it should have; the text says which, and what was expected."""
+
+
+def kind_in_json(value: object) -> str:
+    """What JSON calls such a value; what Python does, where JSON has none."""
+    return _KINDS.get(type(value), type(value).__name__)
 
 
 class Form(NamedTuple):

@@ -15,6 +15,7 @@ from serendipity.model.answers.fields import (
     finite,
     form_of,
     is_whole,
+    kind_in_json,
     mapping,
     number,
     optional,
@@ -82,7 +83,7 @@ def object_of(result: Any) -> dict[str, Any]:
 def fields_of(kind: type, data: Any) -> dict[str, Any]:
     """The fields that the JSON object of a result writes down; ``kind`` is the class that has them."""
     if not isinstance(data, dict):
-        raise MalformedError(f"expected a JSON object, got {type(data).__name__}")
+        raise MalformedError(f"expected a JSON object, got {kind_in_json(data)}")
     if fault := schema_fault(data.get("schema"), SCHEMA):
         raise MalformedError(fault)
     given = _LATER | with_exact(data, data.get("exact", {}), "exact")

@@ -98,6 +98,7 @@ def test_any_bytes(packed: bool, tmp_path: Path, capsys: pytest.CaptureFixture[s
         (b'"' + b" " * 100_000 + b"\xc3", "in position 100001: unexpected end of data\n"),
         (b"NaN", "expected an object with 'schema'"),
         (b'{"schema": 1, "schema": 2}', "each field of an object once"),
+        (b'{"schema": null}', "schema: expected a text"),
         (b"null", "expected an object with 'schema'"),
     ],
 )
