@@ -23,7 +23,7 @@ from serendipity.model.answers.fields import written
 from serendipity.model.arguments import TASK_IN_TIME, expect
 from serendipity.model.numbers import Number
 from serendipity.model.task.names import canonical_name
-from serendipity.model.telling import Grid, Line, Output
+from serendipity.model.telling import Grid, Line, Output, counted
 from serendipity.pddl.parsing.files import read_text
 from serendipity.recognition.library import SCHEMA
 
@@ -110,7 +110,8 @@ class Habits(Output):
 
     def told(self) -> Iterator[Line | Grid]:
         """The lines that ``learn`` prints."""
-        yield Line(f"{self.episodes} episodes of {self.human}, {self.fitting} fit, {len(self.plans)} plans")
+        episodes, plans = counted(self.episodes, "episode"), counted(len(self.plans), "plan")
+        yield Line(f"{episodes} of {self.human}, {self.fitting} fit, {plans}")
         if self.left_out:
             yield Line(f"{self.left_out} left out, the first one since {self.reason}")
         yield Line()
@@ -127,7 +128,7 @@ class Habits(Output):
         yield Grid(("probability", "count", "share (95 %)", "actions", "plan"), rows, numbered=True)
 
     def _in_short(self) -> Iterator[str]:
-        yield f"{len(self.plans)} plans of {self.human}"
+        yield f"{counted(len(self.plans), 'plan')} of {self.human}"
 
 
 def learn(

@@ -8,6 +8,7 @@ from typing import Final
 from serendipity.model import Deadline, InputError, ProofCheck, RefutedProgram, Result, Task, UsageError
 from serendipity.model.arguments import PATH, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.resources.limits import limits_from
+from serendipity.model.telling import counted
 from verify.proofs import checker
 
 _OF_VERIPB: Final = (".pbp", ".opb")
@@ -80,11 +81,7 @@ def check_proof(
 
 def _accepted(programs: tuple[RefutedProgram, ...], *, compared: bool) -> str:
     leaves = sum(program.leaves for program in programs)
-    words = f"{_counted(len(programs), 'program')} refuted, {_counted(leaves, 'leaf', 'leaves')}"
+    words = f"{counted(len(programs), 'program')} refuted, {counted(leaves, 'leaf', 'leaves')}"
     if compared:
         return f"{words}; made again from task and result: the same"
     return f"{words}; whether of the claim's programs takes TASK and RESULT.json to tell"
-
-
-def _counted(number: int, one: str, more: str | None = None) -> str:
-    return f"{number:,} {one if number == 1 else more or f'{one}s'}"

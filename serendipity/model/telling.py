@@ -150,6 +150,11 @@ class Output(Told):
         return json_of(self.to_dict())
 
 
+def counted(number: int, one: str, more: str | None = None) -> str:
+    """A number of things in words; ``more`` is what several are called, by default with an ``s``."""
+    return f"{number:,} {one if number == 1 else more or f'{one}s'}"
+
+
 def team(human: str, robots: Sequence[str]) -> str:
     """The human and the robots in words."""
     if not robots:

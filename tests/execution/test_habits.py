@@ -97,6 +97,13 @@ def test_logs_of_executions_are_episodes(tmp_path: Path) -> None:
     assert (one.count, one.goal, one.plan) == (2, None, serendipity.plan(task).human_plan)
 
 
+def test_one_is_said_of_one(tmp_path: Path) -> None:
+    file = tmp_path / "days.csv"
+    file.write_text("day,time,actor,action\n1,7:00,h,make h\n")
+    (said, *_) = learn(HOME, file).told()
+    assert said.text == "1 episode of h, 1 fit, 1 plan"
+
+
 def test_wilson_at_its_ends() -> None:
     assert wilson(0, 10) == pytest.approx((0, 0.2775), abs=1e-4)
     assert wilson(10, 10) == pytest.approx((0.7225, 1), abs=1e-4)

@@ -189,7 +189,7 @@ def _recorded(files: list[Path] | None, human: str) -> tuple[list[Path] | None, 
 def _replayed(task: serendipity.Task, file: Path, output_file: Path | None) -> int:
     from serendipity.cli.text.render import rendered
     from serendipity.execution import read_logs, replay
-    from serendipity.model.telling import Line
+    from serendipity.model.telling import Line, counted
 
     lines, code = [], ExitCode.ANSWERED
     for number, log in enumerate(read_logs(file), start=1):
@@ -200,6 +200,6 @@ def _replayed(task: serendipity.Task, file: Path, output_file: Path | None) -> i
             code = ExitCode.REFUTED
         else:
             costs = f"{run.human} paid {plain(run.human_cost)}, the team {plain(run.cost)}"
-            lines.append(Line(f"run {number}: the same again; {len(run.passed)} epochs, {costs}"))
+            lines.append(Line(f"run {number}: the same again; {counted(len(run.passed), 'epoch')}, {costs}"))
     output.write_answer(rendered(lines), output_file)
     return code

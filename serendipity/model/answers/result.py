@@ -20,7 +20,7 @@ from serendipity.model.numbers import as_written, plain, plain_seconds
 from serendipity.model.options import Options
 from serendipity.model.table import Table, Tabular
 from serendipity.model.task.plans import PlanEntry, PlanStep, PlanTimes, Window
-from serendipity.model.telling import Grid, Line, Output, team
+from serendipity.model.telling import Grid, Line, Output, counted, team
 
 _COLUMNS: Final = {"epoch": int, "agents": str, "action": str, "cost": float, "duration": int}
 
@@ -327,9 +327,9 @@ def closing(result: Result) -> Iterator[str]:
     elif result.ties:
         helped = sum(tie.opportunity for tie in result.ties)
         many, looked_at = result.optimal_plans, len(result.ties)
-        plans = f"{many} optimal plan{'' if many == 1 else 's'} of the human"
         some = "" if looked_at == many else f", {looked_at} looked at"
-        yield f"{plans}{some}, an opportunity with {helped} ({result.options.ties})"
+        plans = counted(many or 0, "optimal plan")
+        yield f"{plans} of the human{some}, an opportunity with {helped} ({result.options.ties})"
     if result.humans:
         saved = ", ".join(f"{one.human} {plain(one.saving)}" for one in result.humans)
         yield f"{result.human} is helped, as whoever saves most: {saved}"

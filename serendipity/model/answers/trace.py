@@ -8,7 +8,7 @@ from serendipity.model.answers.fields import written
 from serendipity.model.errors import limit_words
 from serendipity.model.numbers import plain
 from serendipity.model.task.plans import PlanStep
-from serendipity.model.telling import Grid, Line, Output
+from serendipity.model.telling import Grid, Line, Output, counted
 
 SCHEMA: Final = "serendipity.trace/1"
 
@@ -127,7 +127,7 @@ class Trace(Output):
 
     def _in_short(self) -> Iterator[str]:
         yield self.human
-        yield f"{len(self.epochs)} epochs"
+        yield counted(len(self.epochs), "epoch")
         yield self._verdict()
 
     def text(self) -> str:

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from serendipity.model import Table
 from serendipity.model.table import Tabular, table_of
-from serendipity.model.telling import Grid, Line, Output, as_html, as_page, wide
+from serendipity.model.telling import Grid, Line, Output, as_html, as_page, counted, wide
 from serendipity.testing.league.cases import Case
 from serendipity.testing.league.play import Played
 
@@ -205,7 +205,7 @@ class League(Tabular, Output):
         limit = "no deadline" if self.deadline is None else f"{self.deadline:g} s a decision"
         every = self.standings()
         cases = every[0].cases if every else 0
-        yield Line(f"season {self.season}: {cases} cases, {limit}", "bold")
+        yield Line(f"season {self.season}: {counted(cases, 'case')}, {limit}", "bold")
         yield Line()
         head = ["helper", "regret", "95 %", *families, *list(_COLUMNS)[2:]]
         lines = [[*_cells(one, [each[name][one.helper] for name in families])] for one in every]
@@ -220,7 +220,7 @@ class League(Tabular, Output):
         for one in every:
             faults = [row.fault for row in self.rows if row.helper == one.helper and row.fault is not None]
             if faults:
-                yield Line(f"{one.helper}: {one.bad} bad answers, the first: {faults[0]}", "red")
+                yield Line(f"{one.helper}: {counted(one.bad, 'bad answer')}, the first: {faults[0]}", "red")
             if one.lost:
                 yield Line(f"{one.helper}: {one.lost:.1%} of the persons never got there", "red")
 
