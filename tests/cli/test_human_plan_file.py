@@ -8,6 +8,9 @@ import pytest
 
 import serendipity
 from serendipity.cli.files.plans import timed_plan
+from serendipity.cli.options.planning import Planning
+from serendipity.model import PlanError, Script
+from serendipity.testing.builders import task as build
 from tests.cli.conftest import Runs, assert_one_line
 
 
@@ -85,3 +88,14 @@ def test_half_a_bracket_or_no_list_of_names_is_named(text: str, said: str, tmp_p
     path.write_text(text)
     with pytest.raises(serendipity.InputError, match=said):
         timed_plan(path, serendipity.example("room2"))
+
+
+def test_a_plan_is_read_behind_its_head_start(tmp_path: Path) -> None:
+    door = build(init="shut", goal="in", actions={"pass h": "!shut -> in"})
+    file = tmp_path / "plan.txt"
+    file.write_text("; through the door\npass h\n")
+    opens = door.with_script(Script(facts=[(2, "!shut")]))
+    assert Planning(file, head_start="3").plan_of(opens) == ("pass h",)
+    shuts = opens.with_script(Script(facts=[(4, "shut")]))
+    with pytest.raises(PlanError, match=r"plan.txt:2: human plan, step 1: 'pass h' is not applicable"):
+        Planning(file, head_start="5").plan_of(shuts)

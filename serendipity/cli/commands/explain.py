@@ -5,7 +5,6 @@ from typing import Annotated, Final
 
 import serendipity
 from serendipity.cli.exit_codes import OF_STATUS
-from serendipity.cli.files.plans import timed_plan
 from serendipity.cli.files.reading import about, read_json
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
@@ -31,7 +30,7 @@ def explain(
     named = list(task.files or ())
     answer = named.pop() if named and named[-1].suffix == ".json" else None
     loaded = task.but(files=named).load(deadline)
-    given = None if options.human_plan is None else timed_plan(options.human_plan, loaded)
+    given = options.plan_of(loaded)
     result = None if answer is None else _read(loaded, answer, deadline)
     if result is not None and len(result.goals or ()) > 1 and not options.given:
         with limits.during("planning"):

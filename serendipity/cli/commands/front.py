@@ -6,7 +6,6 @@ from typing import Annotated, Final
 import serendipity
 from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.files.plans import timed_plan
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
@@ -41,7 +40,7 @@ def front(
         raise UsageError(f"--picture: expected a file that ends in {', '.join(_PICTURES)}, got {picture}")
     deadline = limited.begin("serendipity.facade.front", *unsure, *limits.PLANNING)
     loaded = task.load(deadline)
-    given = None if options.human_plan is None else timed_plan(options.human_plan, loaded)
+    given = options.plan_of(loaded)
     with progress.working("planning") as on_news, cancelling() as cancelled:
         asked = options.given | planning.given(
             goals=goals, plans=plans, observed=observed, beta=beta, noise=noise

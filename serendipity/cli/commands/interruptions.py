@@ -6,7 +6,6 @@ from typing import Annotated, Final
 import serendipity
 from serendipity.cli.choices import option
 from serendipity.cli.exit_codes import ExitCode
-from serendipity.cli.files.plans import timed_plan
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
 from serendipity.cli.text.render import shown
@@ -40,7 +39,7 @@ def interruptions(
     modules = ("serendipity.facade.interruptibility", *limits.PLANNING)
     deadline = limited.begin(*modules)
     loaded = task.load(deadline)
-    given = None if options.human_plan is None else timed_plan(options.human_plan, loaded)
+    given = options.plan_of(loaded)
     with progress.counting("searches") as on_progress, limits.during("planning"):
         early = deadline.sooner(_WRITE_SHARE[form])
         report = serendipity.interruptions(

@@ -55,9 +55,7 @@ def plan(
     if classical is not None:
         asked["classical"] = classical
     if options.human_plan is not None:
-        from serendipity.cli.files.plans import timed_plan
-
-        asked["human_plan"] = timed_plan(options.human_plan, loaded)
+        asked["human_plan"] = options.plan_of(loaded)
     if anybody and (goals or plans or options.human_plan) is not None:
         raise UsageError("--human any: goes without --goals, --plans and --human-plan")
     watched = options.given.get("ties") == "watched" and options.human_plan is None

@@ -4,7 +4,6 @@ from typing import Annotated, Final
 
 import serendipity
 from serendipity.cli.exit_codes import OF_STATUS, ExitCode
-from serendipity.cli.files.plans import timed_plan
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
 from serendipity.cli.text.answers import plan_report
@@ -30,7 +29,7 @@ def solve(
     deadline = limited.begin("serendipity.facade.certify", *limits.CHECKING)
     loaded = task.load(deadline)
     asked = options_from(options.given | limited.given)
-    given = None if options.human_plan is None else timed_plan(options.human_plan, loaded)
+    given = options.plan_of(loaded)
     with progress.working("solving"):
         result = by_program(
             loaded, asked, human_plan=given, encoding=encoding, solver=solver, deadline=deadline

@@ -17,8 +17,8 @@ from serendipity.pddl.parsing.timed_plans import PlanLine, entries, plan_lines, 
 _PLAN: Final = "human plan: "
 
 
-def timed_plan(path: Path, task: Task) -> tuple[PlanEntry, ...]:
-    """The human's plan in a file; waiting is part of it where actions have times.
+def timed_plan(path: Path, task: Task, head_start: int = 0) -> tuple[PlanEntry, ...]:
+    """The human's plan in a file, behind a head start; waiting is part of it where actions have times.
 
     Raises:
         InputError: ``file:line`` and what was expected.
@@ -27,7 +27,7 @@ def timed_plan(path: Path, task: Task) -> tuple[PlanEntry, ...]:
     lines = _actions_in(path, _PLAN)
     listed = entries(lines, task, path, _PLAN)
     try:
-        task.plan_from_names(listed)
+        task.plan_from_names(listed, head_start)
     except PlanError as error:
         line = None if error.step is None else lines[error.step - 1].line
         raise PlanError(error.message, path, line) from None

@@ -11,8 +11,9 @@ from typing import Annotated, Any, Final
 
 from serendipity.cli.choices import option
 from serendipity.cli.groups import Group
-from serendipity.model import Options, UsageError
+from serendipity.model import Options, Task, UsageError
 from serendipity.model.keywords import CHOICES, InterruptionOptions
+from serendipity.model.task.plans import PlanEntry
 
 _TEXTS: Final[Mapping[str, tuple[str, str]]] = {
     "mode": ("What kind of plan.", ""),
@@ -156,6 +157,15 @@ class Planning(Group):
             for names in more or [_ALL]
             for name in names
         ]
+
+    def plan_of(self, task: Task) -> tuple[PlanEntry, ...] | None:
+        """The plan in the file that was named, which is the human's in the task; None without one."""
+        if self.human_plan is None:
+            return None
+        from serendipity.cli.files.plans import timed_plan
+
+        asked = Options(head_start=self.given.get("head_start", 0))
+        return timed_plan(self.human_plan, task, asked.head_start)
 
 
 def _shown(name: str) -> Any:
