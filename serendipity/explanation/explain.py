@@ -65,7 +65,7 @@ def explain(
     expect_or_none(FUNCTION, on_progress=on_progress)
     if result is not None and (options or human_plan is not None):
         raise UsageError("explain: expected a result or options, got both")
-    asked = result.options if result else options_from(options)
+    asked = result.options.but(policy="watching", risk="mean") if result else options_from(options)
     chosen = asked.but(ties="fixed", time_limit=None, memory_limit=None)
     if chosen.mode not in _MODES:
         raise UsageError(f"explain: expected mode {', '.join(_MODES)}, got '{chosen.mode}'")

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 _UNSURE: Final = ("goals", "observed", "beta", "plans", "noise")
 _OF_GOALS: Final = {"observed": (), "beta": 1, "noise": None}
 """Arguments of those who don't know what the human will do."""
+_OF_SCENARIOS: Final = {"policy": "watching", "risk": "mean"}
+"""Options that say something of several scenarios only, and what they are by default."""
 
 
 class AnytimeOptions(PlanOptions, total=False):
@@ -249,6 +251,9 @@ def _unsure(options: Options, given: Given, said: Mapping[str, Any]) -> "Callabl
     astray = [name for name, usual in _OF_GOALS.items() if said.get(name, usual) not in (usual, [])]
     if astray and said.get("goals") is None:
         raise UsageError(f"{astray[0]}: goes with goals only")
+    idle = [name for name, usual in _OF_SCENARIOS.items() if getattr(options, name) != usual]
+    if idle and named is None and options.ties != "watched":
+        raise UsageError(f"{idle[0]}: goes with goals, plans or ties 'watched'")
     if named is None and (options.ties != "watched" or given is not None):
         return None
     if named is not None and given is not None:

@@ -55,3 +55,13 @@ def test_limits_hold_beside_plans_of_many_epochs() -> None:
     began = time.process_time()
     found = serendipity.plan(task, plans=plans, time_limit=1)
     assert (found.human_cost, time.process_time() - began < 6) == (1, True)
+
+
+@pytest.mark.parametrize("asked", [{"risk": "worst"}, {"policy": "fixed"}], ids=str)
+def test_what_says_something_of_several_plans_only_is_refused_of_one(asked: dict[str, Any]) -> None:
+    task = serendipity.example("room2")
+    with pytest.raises(UsageError, match=f"^{next(iter(asked))}: goes with goals, plans or ties 'watched'$"):
+        serendipity.plan(task, **asked)
+    one = [{"goal": [task.facts[i] for i in task.goal.positive]}]
+    assert serendipity.plan(task, ties="watched", **asked).cost is not None
+    assert serendipity.explain(task, serendipity.plan(task, goals=one, **asked)).answer.cost is not None
