@@ -72,6 +72,11 @@ class Prospect(Generic[_Aim]):
         """What the person pays without help; None where they have no plan."""
         return self.hypothesis.alone
 
+    @property
+    def figures(self) -> tuple[float, float | None]:
+        """What the plan costs, and what the person pays without help."""
+        return sum(step.cost for step in self.plan), None if self.alone is None else float(self.alone)
+
 
 def best_for_all(prospects: Sequence[Prospect[_Aim]], deadline: Deadline) -> Prospect[_Aim] | None:
     """The prospect whose robots' part costs least in the mean over all goals; None if none beats waiting.

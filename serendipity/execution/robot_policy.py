@@ -343,6 +343,7 @@ class RobotPolicy:
         own = [s for s in now if self._human not in s.agents and (s.agents, s.action) not in begun]
         offers = tuple(step for step in now if self._human in step.agents and len(step.agents) > 1)
         verdict, why = self._meant(outlook.epoch, prospect, running, [*own, *offers])
+        cost, alone = prospect.figures
         if owed:
             why = replace(why, kind="owed" if why.kind == "pays" else why.kind, owed=owed)
         return Decided(
@@ -354,8 +355,8 @@ class RobotPolicy:
             expected=None if his is None else replace(his, epoch=1),
             plan=prospect.plan,
             window=None if prospect.advice is None else prospect.advice.window,
-            cost=sum(step.cost for step in prospect.plan),
-            alone=None if prospect.alone is None else float(prospect.alone),
+            cost=cost,
+            alone=alone,
             proved=prospect.advice is not None and prospect.advice.proved,
             goals=self.goals,
             because=why,
@@ -369,17 +370,17 @@ class RobotPolicy:
             return "helps", Why("goes-on", action=running[0].action)
         if not prospect.pays:
             return ("works", Why("own-goals")) if new else ("aside", Why("no-help"))
-        cost = sum(step.cost for step in prospect.plan)
-        alone = None if prospect.alone is None else float(prospect.alone)
         if running or new:
-            guess = self._guess(prospect.goal)
-            return "helps", Why("only-way" if alone is None else "pays", cost, alone, goals=guess)
+            kind = "only-way" if prospect.alone is None else "pays"
+            return "helps", Why(kind, *prospect.figures, goals=self._guess(prospect.goal))
         later = min((s.epoch for s in prospect.plan if s.agents != (self._human,)), default=None)
         if later is None:
-            return "aside", Why("done", cost, alone) if self._history.helped else Why("no-help")
+            if self._told and prospect.saving < 0:  # they ask the person for it
+                return "works", Why("own-goals")
+            return "aside", Why("done", *prospect.figures) if self._history.helped else Why("no-help")
         if self._beliefs is not None and len(self._beliefs.possible()) > 1:
             return "unsure", Why("unsure", epoch=epoch + later - 1, goals=self._guess())
-        return "waits", Why("later", cost, alone, epoch=epoch + later - 1)
+        return "waits", Why("later", *prospect.figures, epoch=epoch + later - 1)
 
     def _idle(self, outlook: Outlook, why: Why, running: Sequence[PlanStep] = ()) -> Decided:
         """No plan: at most something that was begun is finished."""

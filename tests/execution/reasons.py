@@ -89,7 +89,8 @@ class _Seen:
             yield "has no reason"
             return
         self.epoch, self.why = event["epoch"], why
-        acts = bool(decision["actions"] or decision["offers"])
+        asks = why["kind"] == "own-goals" and decision["cost"] > decision["alone"]
+        acts = bool(decision["actions"] or decision["offers"] or asks)
         if acts != (verdict in ("helps", "works")):
             yield f"robots {'act' if acts else 'do nothing'}, the verdict is {verdict}"
         begun = why["kind"] != "done" and verdict in ("stopped", "aside") and self._begun()

@@ -3,7 +3,7 @@
 import pytest
 
 import serendipity
-from serendipity.execution import Execution, Moment, Omniscient, Replanner
+from serendipity.execution import Execution, Moment, Omniscient, Replanner, person_of
 from serendipity.model import Condition, Task, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.builders import usar
@@ -158,6 +158,16 @@ def test_robots_see_to_their_own_goals() -> None:
     run = Execution(task)
     assert run.decided.verdict == "works"
     assert [step.action for step in run.step("go h").steps] == ["go h", "tidy r"]
+
+
+@pytest.mark.parametrize("lasts", ["", " [2]"])
+def test_who_is_told_is_asked_to_see_to_robots_goals(lasts: str) -> None:
+    """It was said that robots stay out of the way, as only the person is to do anything."""
+    ways = {"go h": f"a -> b !a{lasts}", "sweep h": f"a -> b done !a @ 3{lasts}", "rest r": "-> rested"}
+    task = build(init="a", goal="b", robot_goal="done", actions=ways)
+    run = lived(Execution(task, told=True), person_of(task, "omniscient"))
+    assert (verdicts(run)[0], run.human_cost) == ("works", 3)
+    assert run.passed[0].decided.reason == "sees to goals of its own"
 
 
 def test_robots_goals_are_out_of_reach_beside_somebody_who_has_nothing_to_do() -> None:

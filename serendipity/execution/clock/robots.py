@@ -269,6 +269,8 @@ class RobotsInTime:
         if not (own or offers):
             if robots:
                 verdict, why = "helps" if found.pays else verdict, Why("goes-on", action=robots[0].action)
+            elif later is None and self._told and before is not None and found.cost > before:
+                verdict, why = "works", Why("own-goals")  # they ask the person for it
             elif later is None:
                 verdict, why = "aside", Why("done" if self._history.helped else "no-help", cost, alone)
             elif self._beliefs is not None and len(self._beliefs.possible()) > 1:
