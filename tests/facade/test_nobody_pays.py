@@ -80,6 +80,16 @@ def test_an_answer_at_somebodys_cost_is_refuted() -> None:
             assert "near" in str(certificate)
 
 
+@pytest.mark.parametrize("ties", ["optimistic", "robust", "expected"])
+def test_rules_alone_leave_no_doubt_of_an_answer_over_ties(ties: Any) -> None:
+    """It was undecided whether its plan can be replayed."""
+    kind = serendipity.plan(tea(), discount="0.5", ties=ties)
+    assert (brings(kind), serendipity.check(tea(), kind).verdict) == (["bring-far r"], "proved")
+    careless = serendipity.plan(tea(), discount="0.5", ties=ties, nobody_pays=False)
+    told = replace(careless, options=careless.options.but(nobody_pays=True))
+    assert serendipity.check(tea(), told).verdict == "refuted"
+
+
 def test_an_answer_that_is_kinder_than_it_needs_to_be_is_refuted() -> None:
     """The dearer help is no optimum where nobody is spared by it."""
     kind = serendipity.plan(tea(), discount="0.5", window_weight=0)
@@ -173,6 +183,7 @@ def as_brute_force(call: Call) -> None:
         assert "by which nobody may have paid" in str(error)
         return
     assert figures(answer) == figures(expected)
+    assert serendipity.check(call.task, answer).refuted is None
     verdict = serendipity.verify(call.task, answer).verdict
     assert verdict == "proved"
 

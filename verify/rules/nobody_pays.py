@@ -77,6 +77,8 @@ def under_the_rule(
         return tuple(examine(task, result))
     if is_tied(result):
         rules = RulesOfHelp(task, result.options.but(ties="fixed"), original, deadline)
+        if solve is None and result.options.leave_price is None:
+            return _without_optimiser(rules, result, examine)
         return _claims_over_ties(rules, result, examine, solve)
     rules = RulesOfHelp(task, result.options, original, deadline)
     try:
@@ -101,13 +103,9 @@ def _claims_over_ties(
     """The claims over ties: what the best answer costs beside each plan, under the rule for that plan."""
     task, asked, deadline = rules.task, rules.options, rules.deadline
 
-    def bound(plan: HumanPlan) -> tuple[Rule, Task]:
-        rule = rules.of(plan, len(plan) if asked.horizon is None else int(asked.horizon))
-        return rule, rules.bound(rule, plan)
-
     def solved(plan: HumanPlan) -> Result | None:
         """The best answer without the rule, if it keeps it, or else under it (semantics 12)."""
-        rule, under = bound(plan)
+        rule, under = _bound_beside(rules, plan)
         if solve is None or rule.prices:
             return None
         free = solve(task, asked, named(plan))
@@ -138,20 +136,38 @@ def _claims_over_ties(
     told = all(costs.get(names) == as_written(cost) for names, cost in listed.items())
     right = told and result.cost is not None and as_written(result.cost) == least[result.options.ties]
     verdict: Verdict = "proved" if right else "refuted"
-    claims: dict[str, Claim] = {}
-    if result.plan is not None and result.human_plan is not None:
-        _, under = bound(replay_human(task, result.human_plan, deadline))
-        said = replace(
-            result,
-            options=interfering_plainly(asked),
-            status="feasible",
-            lower_bound=0.0,
-            ties=None,
-            optimal_plans=None,
-        )
-        claims = {claim.claim: claim for claim in examine(under, said) if claim.claim not in UNPRICED}
+    claims = _of_its_plan(rules, result, examine)
     own = (Claim(name, verdict, wording.RULE_BESIDE_EACH) for name in needed(result) if name not in claims)
     return (*claims.values(), *own)
+
+
+def _bound_beside(rules: "RulesOfHelp", plan: HumanPlan) -> tuple[Rule, Task]:
+    """The rule beside a plan of the human's, and the task that it binds."""
+    rule = rules.of(plan, len(plan) if rules.options.horizon is None else int(rules.options.horizon))
+    return rule, rules.bound(rule, plan)
+
+
+def _of_its_plan(rules: "RulesOfHelp", result: Result, examine: Examine) -> dict[str, Claim]:
+    """The claims of the plan that is followed, by themselves."""
+    if result.plan is None or result.human_plan is None:
+        return {}
+    _, under = _bound_beside(rules, replay_human(rules.task, result.human_plan, rules.deadline))
+    said = replace(
+        result,
+        options=interfering_plainly(rules.options),
+        status="feasible",
+        lower_bound=0.0,
+        ties=None,
+        optimal_plans=None,
+    )
+    return {claim.claim: claim for claim in examine(under, said) if claim.claim not in UNPRICED}
+
+
+def _without_optimiser(rules: "RulesOfHelp", result: Result, examine: Examine) -> tuple[Claim, ...]:
+    """What rules alone say over ties."""
+    claims = _of_its_plan(rules, result, examine) or {one.claim: one for one in examine(rules.task, result)}
+    names = (name for name in needed(result) if name not in claims)
+    return (*claims.values(), *(Claim(name, "not_in_scope", wording.NEEDS_OPTIMISER) for name in names))
 
 
 def _priced_claims(
