@@ -184,6 +184,11 @@ def plain(value: Fraction | float | None) -> str:
     return "-" if value is None else f"{float(value):.10g}"
 
 
+def short(value: Fraction | float) -> str:
+    """A figure for a glance: of up to four digits, or rounded to an integer."""
+    return f"{float(value):.4g}" if abs(float(value)) < 1000 else f"{float(value):.0f}"
+
+
 def plain_seconds(seconds: float) -> str:
     """A time as people write it: ``2.05 s``, ``3.1 ms``."""
     return f"{seconds:.2f} s" if seconds >= 1 else f"{seconds * 1000:.1f} ms"

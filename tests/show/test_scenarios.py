@@ -11,7 +11,7 @@ import serendipity
 from serendipity.model import Result, Task, UsageError
 from serendipity.pictures import Scene, build_scene, draw
 from serendipity.pictures.map.names import ems
-from serendipity.pictures.picture.drawing import Group, Rect, Shape, Text
+from serendipity.pictures.picture.drawing import Group, Polyline, Rect, Shape, Text
 from serendipity.pictures.picture.timeline_picture import lane_labels, timeline_picture
 from serendipity.pictures.picture.tree_picture import tree, tree_height
 from serendipity.pictures.scene.scene import headline, scenario_lines
@@ -56,7 +56,7 @@ def test_a_bar_for_each_history_says_what_may_be_and_by_what_that_is_known(watch
     rows = tree(scene, 0, 0, 13, 10)
     bars = [(s.x - 1, s.x + s.width + 1) for s in rows if isinstance(s, Rect) and s.style.stroke]
     assert bars == [(10 * h.start, 10 * h.end) for h in scene.histories]
-    assert headline(scene) == "expected cost 10.6, 1.066666667 less than 11.66666667 (proved)"
+    assert headline(scene) == "expected cost 10.6, 1.067 less than 11.67 (proved)"
     blind = scene_of(policy(policy="fixed"))
     assert [h.scenarios for h in blind.histories] == [(0, 1, 2)]
 
@@ -84,6 +84,26 @@ def test_a_joint_action_of_some_scenarios_names_them(watching: Result) -> None:
 @pytest.mark.parametrize("rooms", [2, 3, 4, 5])
 def test_words_do_not_overlap(rooms: int) -> None:
     require_apart(scene_of(policy(rooms, LONG)), (0, None), (0, 5), (6, 6), (7, 10), (11, 12))
+
+
+@pytest.mark.parametrize("column", [98, 40, 24])
+@pytest.mark.parametrize("rooms", [3, 5])
+def test_no_line_runs_through_words(rooms: int, column: int) -> None:
+    """The words of a bar near the right edge stood on the line that leads to it."""
+    shapes = list(tree(scene_of(policy(rooms)), 0, 0, 13, column))
+    lines = [shape.points for shape in shapes if isinstance(shape, Polyline)]
+    for text in texts(tuple(shapes)):
+        for _, (x, top), (_, bottom), _ in lines:
+            left, right = _sides(text)
+            assert not (left < x < right and top < text.y < bottom), text.text
+
+
+def test_the_frame_of_the_shown_epoch_stands_behind_words(watching: Result, room2: Scene) -> None:
+    for scene in (scene_of(watching), room2):
+        shapes = timeline_picture(scene, now=2).shapes
+        frame = next(i for i, s in enumerate(shapes) if isinstance(s, Group) and "cursor" in s.data)
+        behind = [s for s in shapes[:frame] if not (isinstance(s, Group) and "column" in s.data)]
+        assert not [*texts(tuple(behind))]
 
 
 def test_bars_in_time_stand_below_the_clock_and_are_as_long_as_actions() -> None:

@@ -7,7 +7,7 @@ from importlib.resources import files
 from string import Template
 from typing import Any, Final
 
-from serendipity.model.numbers import plain
+from serendipity.model.numbers import short
 from serendipity.model.printable import markup, printable
 from serendipity.pictures.formats.svg import path, svg
 from serendipity.pictures.picture import timeline_picture as timeline
@@ -47,8 +47,7 @@ def _played(scene: Scene) -> str:
     last = scene.frames[-1]
     city = map_picture(scene, 0)
     data = json.dumps(_data(scene), ensure_ascii=False, separators=(",", ":"))
-    lanes = timeline.timeline_picture(scene)
-    lanes = Picture(lanes.width, lanes.height, (*lanes.shapes, timeline.cursor(scene)), lanes.description)
+    lanes = timeline.timeline_picture(scene, now=0)
     return Template(_text("played.html")).substitute(
         data=data.replace("<", "\\u003c"),  # it can't end the script element it stands in
         map="" if city is None else svg(city, inline=True, id="map"),
@@ -94,8 +93,8 @@ def _frame(scene: Scene, frame: Frame) -> dict[str, Any]:
     return {
         "caption": printable(frame.caption),
         "tokens": {key: _token(token) for key, token in tokens(scene, frame).items()},
-        "cost": f"{plain(frame.cost)} of {plain(last.cost)}",
-        "former": f"{plain(frame.former_spent)} of {plain(last.former_spent)}",
+        "cost": f"{short(frame.cost)} of {short(last.cost)}",
+        "former": f"{short(frame.former_spent)} of {short(last.former_spent)}",
         "formerValue": float(frame.former_spent),
         "spent": [float(frame.spent[agent]) for agent in scene.lanes],
         "window": frame.in_window,

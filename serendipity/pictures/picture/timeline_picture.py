@@ -100,14 +100,14 @@ def timeline_picture(
     tops += [top for _, top in _fact_tops(scene)]
     shapes = [
         *_columns(scene, first, end),
+        *([Rect(0, _head(scene), width, tree_height(scene), Style(PAPER))] if scene.histories else ()),
+        *([] if now is None or not first <= now <= end else [_cursor(scene, (now - first) * column(scene))]),
         *(tree(scene, _head(scene), first, end, column(scene)) if scene.histories else ()),
         *(Polyline(((0, top), (width, top)), Style(stroke=_RULE, width=1)) for top in tops),
         *_marks(scene, first, end),
         *_acts(scene, first, end),
         *_facts(scene, first, end),
     ]
-    if now is not None and first <= now <= end:
-        shapes.append(cursor(scene, (now - first) * column(scene)))
     steps = [
         f"epoch {act.epoch}: {', '.join(scene.agents[i] for i in act.agents)} {act.action}"
         for act in scene.acts
@@ -116,8 +116,8 @@ def timeline_picture(
     return Picture(width, _height(scene), tuple(shapes), f"Timeline. {'; '.join(steps)}")
 
 
-def cursor(scene: Scene, x: float = 0.0) -> Group:
-    """The frame about the column of the epoch that is shown."""
+def _cursor(scene: Scene, x: float) -> Group:
+    """The frame about the column of the epoch that is shown, which stands behind all words."""
     frame = Rect(1.5, 1.5, column(scene) - 3, _height(scene) - 3, Style(stroke=INK, width=3), round=8)
     return Group((frame,), x, 0, {"cursor": ""})
 
@@ -159,7 +159,7 @@ def _columns(scene: Scene, first: int, last: int) -> Iterator[Shape]:
             Text(width / 2, _HEAD / 2, text, size, INK, bold=True),
         ]
         time = scene.clock(epoch).partition("–")[2]  # at the end of the epoch
-        shapes += [Text(width - 3, _HEAD, *fitted(time, width - 4, 12, 7), FAINT_INK, "end")] if time else []
+        shapes += [Text(width - 5, _HEAD, *fitted(time, width - 8, 12, 7), FAINT_INK, "end")] if time else []
         title = "the window: the human may be met" if inside else ""
         yield Group(tuple(shapes), (epoch - first) * width, 0, {"column": str(epoch)}, title)
 

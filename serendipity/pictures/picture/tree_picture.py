@@ -36,7 +36,6 @@ def tree_labels(scene: Scene, top: float, width: float) -> Iterator[Shape]:
 def tree(scene: Scene, top: float, first: int, last: int, column: float) -> Iterator[Shape]:
     """The rows between two epochs; a line leads from each bar to those that may follow it."""
     width = (last - first + 1) * column
-    yield Rect(0, top, width, tree_height(scene), Style(PAPER))
     rows = list(_rows(scene, top))
     middles = {history.scenarios: y + _WORDS + bar / 2 for history, y, bar in rows}
     for history, _, _ in rows:
@@ -52,7 +51,9 @@ def tree(scene: Scene, top: float, first: int, last: int, column: float) -> Iter
             colour = drawing.HUMAN if scene.scenario in history.scenarios else WALL
             paint = Style(drawing.tint(colour, 0.1), colour, 1.5)
             yield Rect(x + 1, y + _WORDS, long - 2, bar, paint, round=8)
-            yield from _words(scene, history, x + 6, y + _WORDS / 2, width)
+            ends = ((one.end - first) * column for one in scene.histories if one.end < history.start)
+            left = max([0.0, *ends]) + 6
+            yield from _words(scene, history, x, y + _WORDS / 2, left, width)
             yield from _acts(scene, history, y + _WORDS, range(first, last + 1), column)
 
 
@@ -77,18 +78,26 @@ def _numbers(scenarios: Iterable[int]) -> str:
     return ", ".join(str(i + 1) for i in scenarios)
 
 
-def _words(scene: Scene, history: History, x: float, y: float, width: float) -> Iterator[Shape]:
-    """Which scenarios are possible, how probable they are, and what the human did by which that is known."""
+def _words(scene: Scene, history: History, x: float, y: float, left: float, width: float) -> Iterator[Shape]:
+    """Which scenarios are possible, how probable they are, and what the human did by which that is known.
+
+    Args:
+        x: where its bar begins.
+        left: from where on there is no other line before that.
+    """
     goals = scene.result.goals or ()
     may = f"{_numbers(history.scenarios)} · {sum(goals[i].probability for i in history.scenarios):.4g}"
     act = None if history.seen is None else scene.told[history.seen]
     sign = "" if history.start == 1 else "seen: wait" if act is None else f"seen: {act.verb} {act.detail}"
     wide = ems(may) * _SIZE * drawing.BOLD + 10
-    x = max(0.0, min(x, width - wide - ems(sign) * _SIZE))
-    yield Rect(x, y - 9, wide + ems(sign) * _SIZE, 18, Style(PAPER))
-    yield Text(x, y, *drawing.fitted(may, width - x, _SIZE, 9, bold=True), INK, "start", bold=True)
-    if (left := width - x - wide) > 4 * _SIZE:
-        yield Text(x + wide, y, *drawing.fitted(sign, left, _SIZE, 9), drawing.FAINT_INK, "start")
+    long, before, after = wide + ems(sign) * _SIZE, x - 6 - left, width - x - 6
+    leads = long > after and before > after  # before the line that leads here, where there is more room
+    long = min(long, before if leads else after)
+    x = x - 6 - long if leads else x + 6
+    yield Rect(x, y - 9, long, 18, Style(PAPER))
+    yield Text(x, y, *drawing.fitted(may, long, _SIZE, 9, bold=True), INK, "start", bold=True)
+    if long - wide > 4 * _SIZE:
+        yield Text(x + wide, y, *drawing.fitted(sign, long - wide, _SIZE, 9), drawing.FAINT_INK, "start")
 
 
 def _acts(scene: Scene, history: History, top: float, seen: range, column: float) -> Iterator[Shape]:

@@ -1,5 +1,6 @@
 """The scene: all that a picture of a plan shows, epoch by epoch, before it is drawn; and its headline."""
 
+import re
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -10,7 +11,7 @@ from serendipity.model import PlanStep, Result, Task
 from serendipity.model.answers.histories import History
 from serendipity.model.answers.over_scenarios import over_scenarios
 from serendipity.model.answers.result import headlines
-from serendipity.model.numbers import plain
+from serendipity.model.numbers import plain, short
 from serendipity.model.task.variables import Variable
 from serendipity.model.telling import Line
 from serendipity.pictures.map.layout import MapLayout
@@ -262,19 +263,23 @@ def subtitle(scene: Scene) -> str:
 
 def _told(scene: Scene) -> list[str]:
     if scene.histories:
-        return list(
-            takewhile(bool, (part.text for part in over_scenarios(scene.result) if isinstance(part, Line)))
-        )
-    lines = list(headlines(scene.result))
+        told = (part.text for part in over_scenarios(scene.result) if isinstance(part, Line))
+        return [_in_short(line) for line in takewhile(bool, told)]
+    lines = [_in_short(line) for line in headlines(scene.result)]
     if scene.result.opportunity and scene.meetings:
         first = scene.meetings[0]
         return [f"{first.text[:1].upper()}{first.text[1:]} at epoch {first.epoch}", *lines]
     return lines
 
 
+def _in_short(words: str) -> str:
+    """The same with no figure of more than four digits, integers left aside."""
+    return re.sub(r"(?<![\w.-])\d+\.\d+(?![\w.])", lambda found: short(float(found[0])), words)
+
+
 def scenario_lines(scene: Scene) -> Iterator[tuple[str, bool]]:
     """A line for each of several scenarios, and whether it is the one that is played."""
     for i, entry in enumerate(scene.result.goals or () if scene.histories else ()):
         window = f", window [{entry.window.start}, {entry.window.end})" if entry.window else ""
-        words = f"probability {entry.probability:.4g}, cost {plain(entry.cost or 0)}{window}"
+        words = f"probability {entry.probability:.4g}, cost {short(entry.cost or 0)}{window}"
         yield f"{i + 1} {entry.name}: {words}", i == scene.scenario
