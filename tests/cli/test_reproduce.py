@@ -64,6 +64,13 @@ def test_what_is_no_folder_of_tasks_or_no_scheduler(run: Runs) -> None:
     assert_one_line(run(f"reproduce suite {SHORT} --dask nonsense://x --quiet"), "--dask", "nonsense://x")
 
 
+def test_nothing_is_told_of_means_of_no_task(run: Runs, suite: Path) -> None:
+    for problem in suite.glob("*/commx/problem.pddl"):
+        problem.write_text("(define (problem")
+    shown = run(f"reproduce suite {SHORT}").out
+    assert ("error" in shown, "Table I" in shown, "0.000000" in shown) == (True, False, False)
+
+
 def test_a_broken_task_is_told_when_all_others_are_done(run: Runs, suite: Path, tmp_path: Path) -> None:
     problem = suite / "test1" / "commx" / "problem.pddl"
     good = problem.read_text()

@@ -33,14 +33,16 @@ def html_report(run: Reproduction, tables: Tables) -> str:
 
 def titled(tables: Tables) -> Iterator[tuple[str, Grid]]:
     """Each of the tables under its title."""
-    yield "Table I: mean cost (number of tasks in which a robot helps)", _table_1(tables.costs)
+    if any(of.tasks for of in tables.costs):
+        yield "Table I: mean cost (number of tasks in which a robot helps)", _table_1(tables.costs)
     header = ["mode", "calls", "mean", "median", "max", "paper (2015, its machine)"]
     printed = any(of.paper_2015_seconds is not None for of in tables.times)
     rows = []
-    for of in tables.times:
+    for of in (one for one in tables.times if one.calls):
         seconds = (f"{x:.6f}" for x in (of.mean_seconds, of.median_seconds, of.max_seconds))
         rows.append([of.mode, str(of.calls), *seconds, _shown(of.paper_2015_seconds, ".2f")][: 5 + printed])
-    yield "Table II: seconds of a planning call", Grid(header[: 5 + printed], rows)
+    if rows:
+        yield "Table II: seconds of a planning call", Grid(header[: 5 + printed], rows)
     header, rows = ["example", "mode", "discount", "alone", "cost", "window"], []
     for one in tables.examples:
         window = "[{start}, {end})".format(**one["window"]) if one["window"] else ""

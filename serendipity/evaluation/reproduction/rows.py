@@ -71,7 +71,8 @@ class Row:
 
     def cells(self) -> tuple[str, ...]:
         """The texts of ``COLUMNS``; empty where there is no value."""
-        return tuple(_cell(name, value) for name, value in self.to_dict().items())
+        told = self.to_dict() | ({"seconds": None} if self.status == "error" else {})
+        return tuple(_cell(name, value) for name, value in told.items())
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object, in the order of ``COLUMNS``."""
