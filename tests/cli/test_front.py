@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tests.cli.conftest import Runs
+from tests.cli.conftest import Runs, assert_one_line
 
 
 def test_the_front_on_the_command_line(run: Runs) -> None:
@@ -10,6 +10,7 @@ def test_the_front_on_the_command_line(run: Runs) -> None:
     shown = run(f"{asked} ask=1 --format json --picture front.svg")
     assert (shown.code, '"schema": "serendipity.front/1"' in shown.out) == (0, True)
     assert "ask 1, meet 0, sight 0" in run(f"{asked} ask=1").out
+    assert_one_line(run(f"{asked} ask=1 -o front.png"), "-o: is for text and data", "--picture front.png")
     wrong = run(f"{asked} nag=1")
     assert wrong.code == 2
     assert wrong.err.startswith(

@@ -1,7 +1,7 @@
 """``serendipity front``: what less of a saving leaves a person more in peace."""
 
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated
 
 import serendipity
 from serendipity.cli.choices import option
@@ -10,10 +10,7 @@ from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.process.interrupts import cancelling
 from serendipity.cli.streams import output, progress
 from serendipity.cli.text.render import shown
-from serendipity.model import UsageError
 from serendipity.model.numbers import plain
-
-_PICTURES: Final = (".svg", ".png")
 
 
 def front(
@@ -35,9 +32,7 @@ def front(
     unsure = () if goals is None and plans is None else ("serendipity.facade.scenarios",)
     if not unsure:
         planning.require_nothing_observed(observed=observed, beta=beta, noise=noise)
-    output.check_output(picture, "--picture")
-    if picture is not None and picture.suffix not in _PICTURES:
-        raise UsageError(f"--picture: expected a file that ends in {', '.join(_PICTURES)}, got {picture}")
+    output.check_picture(picture, "--picture", to.output_file)
     deadline = limited.begin("serendipity.facade.front", *unsure, *limits.PLANNING)
     loaded = task.load(deadline)
     given = options.plan_of(loaded)

@@ -9,10 +9,7 @@ from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import limits, naming, planning
 from serendipity.cli.streams import output, progress
 from serendipity.cli.text.render import shown
-from serendipity.model import UsageError
 from serendipity.writing.rows import FORMATS as ROWS
-
-_PICTURES: Final = (".svg", ".png")
 
 _WRITE_SHARE: Final = {"json": 0.4} | dict.fromkeys(("text", *ROWS), 0.05)
 """What of the time limit is kept for writing: thousands of windows, in JSON each with its plan."""
@@ -33,9 +30,7 @@ def interruptions(
 ) -> int:
     """Say in which windows help would pay. What the human, or the team, could save, and what would change."""
     form = to.prepare(output.DATA)
-    output.check_output(heat_map, "--heat-map")
-    if heat_map is not None and heat_map.suffix not in _PICTURES:
-        raise UsageError(f"--heat-map: expected a file that ends in {', '.join(_PICTURES)}, got {heat_map}")
+    output.check_picture(heat_map, "--heat-map", to.output_file)
     modules = ("serendipity.facade.interruptibility", *limits.PLANNING)
     deadline = limited.begin(*modules)
     loaded = task.load(deadline)

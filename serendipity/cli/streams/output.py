@@ -20,6 +20,8 @@ FORMATS: Final = ("text", "json")
 DATA: Final = (*FORMATS, *ROWS)
 """The formats of commands whose answers have rows."""
 
+PICTURES: Final = (".svg", ".png")
+
 
 def formats(names: Sequence[str], help: str) -> Parameter:  # noqa: A002 - typer's word
     """``--format`` of a command whose answers have other formats than text and JSON."""
@@ -88,6 +90,15 @@ def check_output(output: Path | None, option: str = "-o") -> None:
         raise UsageError(f"{option}: there is no folder {output.parent}")
     if not os.access(output.parent, os.W_OK) and not output.exists():
         raise UsageError(f"{option}: the folder {output.parent} can't be written to")
+
+
+def check_picture(picture: Path | None, option: str, to: Path | None) -> None:
+    """Complain about a picture's file, as above, and one in the place of the answer's."""
+    check_output(picture, option)
+    if picture is not None and picture.suffix not in PICTURES:
+        raise UsageError(f"{option}: expected a file that ends in {', '.join(PICTURES)}, got {picture}")
+    if to is not None and to.suffix in PICTURES:
+        raise UsageError(f"-o: is for text and data; a picture is {option} {to}")
 
 
 def write_answer(answer: str | bytes, output: Path | None) -> None:
