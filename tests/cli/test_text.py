@@ -31,6 +31,15 @@ def rows(text: str) -> dict[str, list[str]]:
     return table
 
 
+def test_the_one_plan_left_to_watch_is_told_as_any_other(run: Runs) -> None:
+    """The task's name was missing, and the checker's line said the table again."""
+    asked = "plan --example room2 --discount 0.6 --ties"
+    for more, ends in (("", "checker: proves"), ("--verify", "realised ")):
+        found = [run(f"{asked} {ties} {more}").out.splitlines() for ties in ("fixed", "watched")]
+        assert found[1][0] == found[0][0] == "usar-room2: human commx, robot robot"
+        assert all(lines[-1].startswith(ends) for lines in found)
+
+
 def test_the_demo_shows_both_plans_in_parallel(run: Runs) -> None:
     text = run("plan --example room2 --discount 0.6").out
     result = serendipity.plan(serendipity.example("room2"), discount=0.6)

@@ -68,7 +68,7 @@ def plan(
         with progress.working("verifying"):
             known = certify and not cancelled.is_set()
             proof = serendipity.verify(loaded, expected, deadline=deadline) if known else None
-        output.write_answer(_told_for_goals(expected, proof, form), to.output_file)
+        output.write_answer(_told_for_goals(loaded, expected, proof, form), to.output_file)
         _tell_strategies(expected)
         refuted = proof is not None and proof.verdict == "refuted"
         return _code(expected, cancelled, refuted=refuted)
@@ -156,10 +156,13 @@ def _modules(
     return [*modules, "verify.certificate.certify", *limits.CHECKING] if certify else modules
 
 
-def _told_for_goals(result: Result, certificate: Certificate | None, form: str) -> str:
-    """The answer over scenarios."""
+def _told_for_goals(task: Task, result: Result, certificate: Certificate | None, form: str) -> str:
+    """The answer over scenarios, or for the one optimal plan that the human has."""
     if form == "json":
         return _as_json(result, certificate)
+    if result.goals is None:
+        known = certificate or serendipity.check(task, result)
+        return _told(task, result, known, form, claims=certificate is not None)
     from serendipity.cli.text.render import rendered
 
     proof = "" if certificate is None else f"\n{rendered(certificate.told())}"
