@@ -56,6 +56,7 @@ def test_plans_in_time_keep_their_waiting() -> None:
         ({"plan": ["make h", "make h"]}, "plan 2, step 2: 'make h' is not applicable: 'beans' is"),
         ({"plan": ["help r"]}, "plan 2, step 1: 'help r' is not an action that h can do alone"),
         ({"plan": [PACK]}, "plan 2: the goal does not hold after its last step 'pack h'"),
+        ({"plan": []}, "plan 2: it has no step, and the goal does not hold"),
         ({"plan": [PACK, "(make h"]}, "plan 2, action 2: expected one action"),
         ({"plan": [PACK, "3: make h"]}, "plan 2, action 1: expected a time"),
         ({"plan": [[0, "make h"]]}, "plan 2, step 1: 'make h': expected an epoch from 1 on, got 0"),

@@ -248,8 +248,10 @@ class Task(Told):
             PlanError: it has not.
         """
         if not self.goal.holds(state):
-            last = f"after its last step '{self.actions[plan[-1]].name}'" if plan else "with no step"
-            raise PlanError(f"human plan: the goal does not hold {last}")
+            if not plan:
+                raise PlanError("human plan: it has no step, and the goal does not hold")
+            last = self.actions[plan[-1]].name
+            raise PlanError(f"human plan: the goal does not hold after its last step '{last}'")
 
     def waits(self, name: str) -> bool:
         """Whether waiting of the human is called so, in some case at least."""
