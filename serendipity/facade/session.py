@@ -176,7 +176,7 @@ class Session:
     def _known_plan(self, asked: Mapping[str, Any]) -> Given:
         if self._is_outdated:
             self._human_plan, self._given, self._is_outdated = None, None, False
-        others = asked.get("mode") == "assistance" or asked.get("goals") is not None
+        others = asked.get("mode") == "assistance" or (asked.get("goals") or asked.get("plans")) is not None
         unknown = self.human_plan is None or (self._predicted and others)  # which predict the human otherwise
         return None if unknown else self._replayed
 

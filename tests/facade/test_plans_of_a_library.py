@@ -65,3 +65,10 @@ def test_what_says_something_of_several_plans_only_is_refused_of_one(asked: dict
     one = [{"goal": [task.facts[i] for i in task.goal.positive]}]
     assert serendipity.plan(task, ties="watched", **asked).cost is not None
     assert serendipity.explain(task, serendipity.plan(task, goals=one, **asked)).answer.cost is not None
+
+
+def test_a_session_is_asked_about_plans_again() -> None:
+    task = serendipity.example("room2")
+    plans = [{"probability": 1, "plan": list(serendipity.plan(task).human_plan or ())}]
+    session = serendipity.Session(task)
+    assert session.plan(plans=plans).cost == session.plan(plans=plans).cost
