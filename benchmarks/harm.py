@@ -86,8 +86,7 @@ def _task(dice: Random, seed: int) -> Task:
         return random_call_among(2 + seed // 6 % 2, seed).task
     if seed % 3 == 0:
         return random_call_in_time(seed).task
-    task = random_task(dice)
-    return varied(dice, task) if seed % 3 == 1 else task
+    return varied(dice, random_task(dice)) if seed % 3 == 1 else random_task(dice)
 
 
 if __name__ == "__main__":

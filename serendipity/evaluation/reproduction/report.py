@@ -35,9 +35,8 @@ def titled(tables: Tables) -> Iterator[tuple[str, Grid]]:
     """Each of the tables under its title."""
     if any(of.tasks for of in tables.costs):
         yield "Table I: mean cost (number of tasks in which a robot helps)", _table_1(tables.costs)
-    header = ["mode", "calls", "mean", "median", "max", "paper (2015, its machine)"]
+    header, rows = ["mode", "calls", "mean", "median", "max", "paper (2015, its machine)"], []
     printed = any(of.paper_2015_seconds is not None for of in tables.times)
-    rows = []
     for of in (one for one in tables.times if one.calls):
         seconds = (f"{x:.6f}" for x in (of.mean_seconds, of.median_seconds, of.max_seconds))
         rows.append([of.mode, str(of.calls), *seconds, _shown(of.paper_2015_seconds, ".2f")][: 5 + printed])
