@@ -27,7 +27,7 @@ def recorded_actions(task: Task, given: ObservedGiven) -> tuple[str, ...]:
         if epoch is not None and epoch <= over:
             raise InputError(f"recorded action '{name}': {human} is busy until epoch {over}", where, line)
         waited = 0 if epoch is None else epoch - 1 - over
-        found += [*("noop",) * waited, name]
+        found += ["noop"] * waited + [name]
         over += waited + max((task.actions[i].duration for i in ids), default=1)
     return tuple(found)
 

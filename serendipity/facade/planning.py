@@ -30,8 +30,9 @@ if TYPE_CHECKING:
 
 
 _UNSURE: Final = ("goals", "observed", "beta", "plans", "noise")
-_OF_GOALS: Final = {"observed": (), "beta": 1, "noise": None}
 """Arguments of those who don't know what the human will do."""
+_OF_GOALS: Final = {"observed": (), "beta": 1, "noise": None}
+"""Those that say something of goals only, and what they are by default."""
 _OF_SCENARIOS: Final = {"policy": "watching", "risk": "mean"}
 """Options that say something of several scenarios only, and what they are by default."""
 
