@@ -48,6 +48,15 @@ def test_whoever_is_helped_is_told_and_can_be_verified(house: str, run: Runs) ->
         assert_one_line(run(f"{command} {house} --human any day.json"), "--human any: goes with `plan` only")
 
 
+def test_a_bystander_lives_beside_whom_robots_help(house: str, run: Runs) -> None:
+    done = run(f"execute {house} --person ann --bystander bob --discount 0.9 --log day.jsonl --format json")
+    assert (done.code, done.err) == (0, "") and json.loads(done.out)["rows"][0]["reached"]
+    lived = [json.loads(line) for line in Path("day.jsonl").read_text().splitlines()]
+    assert "coffee" in lived[2]["changes"], "Bob has made some"
+    again = run(f"execute {house} --person ann --bystander bob --replay day.jsonl")
+    assert again.code == 0 and "the same again" in again.out
+
+
 def test_what_is_predicted_for_a_bystander_can_be_given(house: str, run: Runs) -> None:
     predicted = run(f"plan {house} --human ann --bystander bob {HELP} -o predicted.json")
     alone = run(f"plan {house} --human bob --mode individual --save-plan bob.plan")

@@ -31,7 +31,7 @@ def execute(
     person: Annotated[
         str | None, option("--person H", "Which agent is the person; by default the only one with a goal.")
     ] = None,
-    task: Annotated[naming.TaskName, ("robot", "agent", "team", "example")],
+    task: Annotated[naming.TaskName, ("robot", "agent", "team", "bystander", "example")],
     mode: Annotated[
         str | None,
         option(
@@ -114,9 +114,6 @@ def execute(
     output.check_output(clip, "--clip")
     film = None if clip is None else _film(clip, adapter, runs)
     named, policy = _recorded(files, human)
-    loaded = task.but(files=named, human=person).load()
-    if replay is not None:
-        return _replayed(loaded, replay, to.output_file)
     given = planning.given(
         mode=mode,
         discount=discount,
@@ -127,6 +124,9 @@ def execute(
         human_model=human_model,
         leave_free=leave_free,
     )
+    loaded = task.but(files=named, human=person).load(interference=given.get("interference", "paper"))
+    if replay is not None:
+        return _replayed(loaded, replay, to.output_file)
     with progress.counting("runs") as on_progress:
         found = serendipity.execute(
             loaded,
