@@ -81,8 +81,6 @@ def kept(task: Task, options: Options, plan: HumanPlan | None, last: int, origin
     """
     if plan is None and _is_broken(original, last, strict=options.strict):
         return Kept(Condition(), None)
-    chosen = (action for i, action in enumerate(task.actions) if i not in task.of_bystanders)
-    changed = {fact for action in chosen for fact in (*action.add, *action.delete)}
     state = _played(task, [Step(epoch, action) for epoch, action in enumerate(plan or (), start=1)], last)
     literals: _Literals = set()
     everybody = nobody_pays(original, options)
@@ -90,14 +88,14 @@ def kept(task: Task, options: Options, plan: HumanPlan | None, last: int, origin
         literals |= _undisturbed(task, state)
     prices: list[tuple[Literal, Fraction]] = []
     rest = leftovers(options)
-    for fact in sorted(f for f in changed if rest is not None and f < len(original.facts)):
+    for fact in sorted(f for f in task.unsettled if rest is not None and f < len(original.facts)):
         price = None if rest is None else rest.price(task.facts[fact])
         if price is None:
             literals.add((fact, fact in state))
         elif price:
             prices.append(((fact, fact in state), price))
     most = task.cost_of(plan) if everybody and plan is not None else None
-    facts = _condition((fact, true) for fact, true in literals if fact in changed)
+    facts = _condition((fact, true) for fact, true in literals if fact in task.unsettled)
     return Kept(facts, most, tuple(prices))
 
 

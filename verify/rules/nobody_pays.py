@@ -241,8 +241,7 @@ class RulesOfHelp:
         state = waited(task, task.init, last, strict=options.strict, plan=plan or ())
         if state is None:
             return Rule(Condition(), None, {})
-        chosen_ones = (action for i, action in enumerate(task.actions) if i not in task.of_bystanders)
-        changed = {fact for action in chosen_ones for fact in (*action.add, *action.delete)}
+        changed = task.unsettled
         kept: Literals = {}
         everybody = nobody_pays(original, options)
         if everybody:

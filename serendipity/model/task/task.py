@@ -188,6 +188,13 @@ class Task(Told):
             or (one.name.startswith(UNDER_WAY) and human not in one.participants)
         )
 
+    @cached_property
+    def unsettled(self) -> frozenset[int]:
+        """Facts that choices may change, or whichever variant of an action a bystander does after these."""
+        varied = {i for kinds in self.due_for.values() for ids in kinds if len(ids) > 1 for i in ids}
+        chosen = (one for i, one in enumerate(self.actions) if i in varied or i not in self.of_bystanders)
+        return frozenset(fact for one in chosen for fact in (*one.add, *one.delete))
+
     @property
     def named(self) -> Mapping[str, tuple[int, ...]]:
         """Action ids by name (names are not unique, see the class)."""

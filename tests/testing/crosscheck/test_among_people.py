@@ -67,6 +67,15 @@ def test_brute_force_follows_a_plan_by_what_is_so_behind_the_head_start() -> Non
     assert truth.Truth(call.task).fault(result) is None
 
 
+def test_what_a_bystander_leaves_otherwise_since_robots_have_been_there_is_left_by_these() -> None:
+    """Pal leaves it ready where the robot has opened; only what robots change themselves was looked at."""
+    call = random_call_among(3, 9401278)
+    result = serendipity.plan(call.task, **call.keywords())
+    assert result.statistics["left"] == {"open2": 0.3, "ready": 0.3} and result.cost == 1.85
+    assert serendipity.verify(call.task, result).verdict == "proved"
+    assert truth.Truth(call.task).fault(result) is None
+
+
 @pytest.mark.parametrize("seed", [9102843, 9104691])
 def test_who_gets_up_too_late_is_given_a_horizon(seed: int) -> None:
     """Without one there is none behind the head start, and the search refuses, as it has to."""
