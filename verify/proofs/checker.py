@@ -33,7 +33,6 @@ from typing import Any, Final, NamedTuple, NoReturn
 SCHEMA: Final = "serendipity.proof/1"
 CLAIMS: Final = ("optimal", "no_opportunity", "lower_bound", "infeasible", "cost")
 SENSES: Final = ("<=", ">=", "==")
-
 _KINDS: Final[dict[type, str]] = {str: "a text", list: "a list", dict: "an object"}
 
 MOST_BYTES: Final = 1 << 30  # of a file, unpacked
@@ -238,11 +237,9 @@ def _pair(value: Any, where: str) -> tuple[int, int]:
 def _field(data: Any, name: str, kind: type, where: str) -> Any:
     if type(data) is not dict or name not in data:
         _malformed(f"{where}: expected an object with '{name}'")
-    if kind is int:
-        return _number(data[name], f"{where}: {name}")
-    if type(data[name]) is not kind:
+    if kind is not int and type(data[name]) is not kind:
         _malformed(f"{where}: {name}: expected {_KINDS[kind]}")
-    return data[name]
+    return _number(data[name], f"{where}: {name}") if kind is int else data[name]
 
 
 def _number(value: Any, where: str) -> int:
