@@ -77,8 +77,7 @@ def distances(
         far: stands for no way.
         limit: a node that is further is not looked at; None: each is that there is a way to.
     """
-    order, values = np.argsort(edges[0], kind="stable"), values.copy()
-    source, target, weight = (each[order] for each in edges)
+    values, (source, target, weight) = values.copy(), edges
     leaving, most = Rows.by(source, len(values)), far - 1 if limit is None else limit
     changed = np.flatnonzero(values < far)
     while len(changed):  # Bellman and Ford, from what has changed

@@ -22,8 +22,10 @@ def unnoticed(
 
     A plan that can't be executed is none of this rule's.
     """
-    found = replay(task, result.plan or (), deadline, strict=False)
-    if not result.options.noticed or plan is None or result.plan is None or found.fault is not None:
+    if not result.options.noticed or plan is None or result.plan is None:
+        return None
+    found = replay(task, result.plan, deadline, strict=False)
+    if found.fault is not None:
         return None
     begun = [task.actions[i].name for i in plan if i not in unchosen(task)]
     watch = _Watch(task, begun, surroundings(original))
