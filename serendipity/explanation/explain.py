@@ -15,6 +15,7 @@ from serendipity.model import Deadline, LimitReachedError, PlanError, Result, Ta
 from serendipity.model.arguments import FUNCTION, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.keywords import AnswerOptions, InterruptionOptions, listing
+from serendipity.model.options import OF_SCENARIOS
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.task.plans import PlanEntry, left_after
 from serendipity.model.task.plans_in_time import times_of
@@ -65,7 +66,7 @@ def explain(
     expect_or_none(FUNCTION, on_progress=on_progress)
     if result is not None and (options or human_plan is not None):
         raise UsageError("explain: expected a result or options, got both")
-    asked = result.options.but(policy="watching", risk="mean") if result else options_from(options)
+    asked = result.options.but(**OF_SCENARIOS) if result else options_from(options)
     chosen = asked.but(ties="fixed", time_limit=None, memory_limit=None)
     if chosen.mode not in _MODES:
         raise UsageError(f"explain: expected mode {', '.join(_MODES)}, got '{chosen.mode}'")

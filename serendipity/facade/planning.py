@@ -20,6 +20,7 @@ from serendipity.model.answers.answer import Answer
 from serendipity.model.arguments import FUNCTION, expect_or_none
 from serendipity.model.keywords import listing
 from serendipity.model.numbers import Number
+from serendipity.model.options import OF_SCENARIOS
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.task.gate import needs_time, require_metered
 from serendipity.model.task.plans import PlanEntry, checked_entries
@@ -33,8 +34,6 @@ _UNSURE: Final = ("goals", "observed", "beta", "plans", "noise")
 """Arguments of those who don't know what the human will do."""
 _OF_GOALS: Final = {"observed": (), "beta": 1, "noise": None}
 """Those that say something of goals only, and what they are by default."""
-_OF_SCENARIOS: Final = {"policy": "watching", "risk": "mean"}
-"""Options that say something of several scenarios only, and what they are by default."""
 
 
 class AnytimeOptions(PlanOptions, total=False):
@@ -252,7 +251,7 @@ def _unsure(options: Options, given: Given, said: Mapping[str, Any]) -> "Callabl
     astray = [name for name, usual in _OF_GOALS.items() if said.get(name, usual) not in (usual, [])]
     if astray and said.get("goals") is None:
         raise UsageError(f"{astray[0]}: goes with goals only")
-    idle = [name for name, usual in _OF_SCENARIOS.items() if getattr(options, name) != usual]
+    idle = [name for name, usual in OF_SCENARIOS.items() if getattr(options, name) != usual]
     if idle and named is None and options.ties != "watched":
         raise UsageError(f"{idle[0]}: goes with goals, plans or ties 'watched'")
     if named is None and (options.ties != "watched" or given is not None):

@@ -22,7 +22,7 @@ from serendipity.model.task.actions import NOOP, GroundAction, apply, conflictin
 from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.facts import Facts
 from serendipity.model.task.passing import epoch_later, going_on, taken_up
-from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries, left_after
+from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries, left_after, unknown_action
 from serendipity.model.task.plans_in_time import cost_alone, times_of
 from serendipity.model.task.task import canonical_name, several
 
@@ -176,7 +176,8 @@ class Session:
     def _known_plan(self, asked: Mapping[str, Any]) -> Given:
         if self._is_outdated:
             self._human_plan, self._given, self._is_outdated = None, None, False
-        others = asked.get("mode") == "assistance" or (asked.get("goals") or asked.get("plans")) is not None
+        unsure = any(asked.get(name) is not None for name in ("goals", "plans"))
+        others = unsure or asked.get("mode") == "assistance"
         unknown = self.human_plan is None or (self._predicted and others)  # which predict the human otherwise
         return None if unknown else self._replayed
 
@@ -369,5 +370,5 @@ def _entries(task: Task, names: Iterable[PlanEntry]) -> tuple[PlanEntry, ...]:
     for step, entry in enumerate(entries, start=1):
         name = canonical_name(entry if isinstance(entry, str) else entry[1])
         if name not in task.named and not task.waits(name):
-            raise PlanError(f"human plan, step {step}: there is no action '{name}' in the task", step=step)
+            raise unknown_action(step, name)
     return entries

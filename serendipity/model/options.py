@@ -48,11 +48,13 @@ _LATER: Final = (
 )
 """Options that results of the first versions do without."""
 
-_SELDOM: Final = {
+OF_SCENARIOS: "Final[PlanOptions]" = {"policy": "watching", "risk": "mean"}
+"""Options that say something of several scenarios only, and what they are by default."""
+
+_SELDOM: Final[dict[str, object]] = {
     "waiting_cost": 0,
     "head_start": 0,
-    "policy": "watching",
-    "risk": "mean",
+    **OF_SCENARIOS,
     "nobody_pays": None,
     "leave_free": None,
     "leave_price": None,

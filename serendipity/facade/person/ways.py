@@ -39,7 +39,7 @@ class Way(NamedTuple):
 def entries_of(task: Task, plan: HumanPlan) -> Entries:
     """A plan by names, with its epochs."""
     names = [task.actions[i].name for i in plan]
-    return (*times_of(task, plan).timed(names),)
+    return tuple(times_of(task, plan).timed(names))
 
 
 def begun_in(entries: Entries) -> Entries:

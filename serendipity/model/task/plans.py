@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from serendipity.model.errors import UsageError
+from serendipity.model.errors import PlanError, UsageError
 from serendipity.model.task.actions import NOOP
 
 
@@ -164,6 +164,11 @@ class TimedPlan(tuple[int, ...]):
 
 PlanEntry = str | tuple[int, str]
 """An action's name, or the epoch in which it begins, from 1, and its name."""
+
+
+def unknown_action(step: int, name: str) -> PlanError:
+    """The error of a human plan that has an action which the task has not."""
+    return PlanError(f"human plan, step {step}: there is no action '{name}' in the task", step=step)
 
 
 def left_after(entries: Iterable[PlanEntry], epochs: int) -> tuple[tuple[int, str], ...]:

@@ -9,7 +9,7 @@ from serendipity.model.options import MAX_EPOCH
 from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.names import canonical_name
-from serendipity.model.task.plans import PlanEntry, PlanTimes, TimedPlan
+from serendipity.model.task.plans import PlanEntry, PlanTimes, TimedPlan, unknown_action
 
 if TYPE_CHECKING:
     from serendipity.model.task.task import HumanPlan, Task
@@ -148,7 +148,7 @@ class _Human:
                 self.wait_until(epoch)
             return
         if not ids:
-            raise PlanError(f"human plan, step {step}: there is no action '{name}' in the task", step=step)
+            raise unknown_action(step, name)
         self.do(step, self.course.epoch + 1, ids[0] if chosen is None else chosen)
 
     def do(self, step: int, epoch: int, action_id: int) -> None:

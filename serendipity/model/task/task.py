@@ -14,7 +14,7 @@ from serendipity.model.task.actions import NOOP, Condition, Disjunction, GroundA
 from serendipity.model.task.course import first_unmet
 from serendipity.model.task.names import ActionNames
 from serendipity.model.task.names import canonical_name as canonical_name
-from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries
+from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries, unknown_action
 from serendipity.model.task.plans_in_time import plan_in_time, replayed, times_of
 from serendipity.model.task.script import UNDER_WAY, Script, Timeline, moments, resolved
 from serendipity.model.task.variables import Variable, find_variables
@@ -296,8 +296,7 @@ class Task(Told):
             if chosen is None and self.waits(name):
                 continue
             if not ids:
-                message = f"human plan, step {step}: there is no action '{name}' in the task"
-                raise PlanError(message, step=step)
+                raise unknown_action(step, name)
             chosen = ids[0] if chosen is None else chosen
             plan.append(chosen)
             action = self.step_of(state, chosen, len(plan))
