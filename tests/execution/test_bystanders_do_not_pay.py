@@ -54,3 +54,25 @@ def test_what_a_bystander_needs_is_left_to_them(wants: str, person: str) -> None
 @pytest.mark.parametrize("person", PERSONS)
 def test_what_nobody_needs_any_more_may_be_taken(person: str) -> None:
     assert done(kitchen("drunk", epoch=2), person) == ["wash bot"]
+
+
+@pytest.mark.parametrize("person", PERSONS)
+def test_what_robots_take_with_the_end_of_a_long_action_is_taken(person: str) -> None:
+    """The epoch in which it begins was looked at only, when Carol has the cup still."""
+    built = build(
+        agents="ann bot carol",
+        human="ann",
+        init="at0 cup",
+        goal="at1",
+        robot_goal="washed",
+        actions={
+            "walk ann": "at0 -> at1 !at0",
+            "wash bot": "seated -> washed / !cup [2]",
+            "sit carol": "-> seated",
+        },
+    )
+    wants = Condition((built.facts.index("cup"),))
+    built = replace(built, own_goals=((2, wants),), known_variables=built.variables)
+    assert (
+        done(built.with_script(Script(people={"carol": [(2, "sit carol"), (3, "sit carol")]})), person) == []
+    )

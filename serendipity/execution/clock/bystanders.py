@@ -23,10 +23,16 @@ def would_pay(now: Task, plan: Sequence[PlanStep], alone: Way | None, *, strict:
         return False
     human = (now.agents[now.human],)
     helped = _by_epoch((step.epoch, (step.action, step.agents)) for step in plan)
-    begun = () if alone is None else begun_in(alone.plan)
-    idle = _by_epoch((epoch, (name, human)) for epoch, name in begun)
-    last = max((*helped, *idle), default=0)
+    entries = () if alone is None else alone.plan
+    idle = _by_epoch((epoch, (name, human)) for epoch, name in begun_in(entries))
+    ends = (epoch + _epochs(now, name) - 1 for epoch, name in entries)
+    last = max((*ends, *(step.end for step in plan)), default=0)
     return not _served(now, idle, last, strict=strict) <= _served(now, helped, last, strict=strict)
+
+
+def _epochs(now: Task, name: str) -> int:
+    """How long an action goes on; a last ``noop`` is an epoch."""
+    return max((now.actions[i].duration for i in now.named.get(name, ())), default=1)
 
 
 def _by_epoch(steps: Iterable[tuple[int, tuple[str, Sequence[str]]]]) -> _Begun:
