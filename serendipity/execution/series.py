@@ -245,8 +245,11 @@ class _Series:
                     left = [robot for robot in left if robot not in gone]
                 spoilt += _spoils(run, person)
             arrived = run.done
-            while arrived and run.epoch <= self.epochs and _at_work(run):
-                run.step()  # robots may end what they have to do
+            while arrived and run.epoch <= self.epochs and (not run.done or _at_work(run)):
+                if run.done:
+                    run.step()  # robots may end what they have to do
+                else:
+                    spoilt += _spoils(run, person)  # and have undone what the person has
         decided = [passed.decided for passed in run.passed]
         verdicts = Counter(each.verdict for each in decided)
         row = Run(
@@ -272,9 +275,10 @@ class _Series:
 
 
 def _at_work(run: Execution) -> bool:
-    """Whether robots have something to do still: what they see to, or what they undid for it."""
-    owed = run.left or not run.done
-    return bool(owed and (run.decided.actions or run.decided.plan)) or bool(run.task.robot_goal and run.going)
+    """Whether robots have something to do still that they see to."""
+    return bool(run.left and (run.decided.actions or run.decided.plan)) or bool(
+        run.task.robot_goal and run.going
+    )
 
 
 def _spoils(run: Execution, person: Person) -> bool:

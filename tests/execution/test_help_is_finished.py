@@ -176,3 +176,23 @@ def test_who_has_arrived_has_their_goal_back_when_robots_have_theirs() -> None:
     )
     (row,) = serendipity.execute(task, "omniscient", discount="0").rows
     assert row.reached and row.human_cost == 0
+
+
+def test_who_has_arrived_does_themselves_what_robots_leave_undone() -> None:
+    """Robots meant to light it again; then the person could do so for less, who was gone: it stayed dark."""
+    task = build(
+        agents="hum rob bot",
+        human="hum",
+        init="lit shut",
+        goal="lit shut",
+        robot_goal="aired",
+        actions={
+            "air rob": "lit -> aired !lit @ 2.5",
+            "light rob": "ready -> lit !shut",
+            "shut bot": "!shut -> shut @ 0.1",
+            "prepare bot": "shut -> ready",
+            "light hum": "aired -> lit !ready",
+        },
+    )
+    (row,) = serendipity.execute(task, "omniscient", discount="0").rows
+    assert row.reached and row.epochs == 2
