@@ -6,10 +6,9 @@ whose integers have 64 bits, counts in.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import repeat
 from math import gcd
-from typing import Final
+from typing import Final, NamedTuple
 
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.operators import Operator
@@ -24,8 +23,7 @@ INFINITE_WEIGHT: Final = 2**63 - 1
 """``INFINITE_COST`` there."""
 
 
-@dataclass(frozen=True, slots=True)
-class ClassicalProblem:
+class ClassicalProblem(NamedTuple):
     """A classical problem with additive costs, as the kernel solves it.
 
     Attributes:

@@ -1,7 +1,7 @@
 """The question about windows of one epoch: plans with one that are better than the incumbent."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from search.call.context import SearchContext
 from search.engine.best_first import Incumbent
@@ -10,8 +10,7 @@ from search.spaces.from_composite import Suggestions
 from serendipity.model.task.task import HumanPlan
 
 
-@dataclass(frozen=True, slots=True)
-class ShortWindowQuestion:
+class ShortWindowQuestion(NamedTuple):
     """Plans with a window of one epoch, after which the human replans, that beat the incumbent."""
 
     context: SearchContext

@@ -4,7 +4,7 @@ Personas are people by name: ``observant``, ``local``, ``noisy:0.1``, ``omniscie
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 from typing import TYPE_CHECKING, Final, NamedTuple, Protocol
@@ -120,7 +120,7 @@ class Replanner:
         if self._dice is not None and look.replanned:
             graph = human.alone.plans(belief)
             assert graph is not None, "who replans has a plan"
-            look = replace(look, intention=human.intentions.of(graph.drawn(self._dice.choice)))
+            look = look._replace(intention=human.intentions.of(graph.drawn(self._dice.choice)))
         self._expected, self._intention = belief, look.intention
         for step in moment.offers:
             for joint in map(human.packed.op, actions_named(task, step.action, step.agents)):

@@ -2,9 +2,9 @@
 
 import threading
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from fractions import Fraction
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from search import PreparedTask, WarmStart
 from serendipity.facade.memory import RememberedQuestion
@@ -16,8 +16,7 @@ _ANSWER_SHARE: Final = 0.05
 """The share of the time limit that is kept for the end: dropping what the search has made takes time, too."""
 
 
-@dataclass(frozen=True, slots=True)
-class Request:
+class Request(NamedTuple):
     """One planning call, its options checked.
 
     Attributes:

@@ -7,7 +7,6 @@ What it says is checked as far as a plan can be: that nothing is cheaper rests o
 import threading
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from fractions import Fraction
 from typing import Final, NamedTuple
 
@@ -90,7 +89,7 @@ def answers(call: Request, solver: Solver, name: str) -> Iterator[Answer]:
     with ThreadPoolExecutor(1) as pool:
         asked = pool.submit(ask)
         try:
-            for last in solver(replace(call, deadline=call.deadline.within(cancelled=proved))):
+            for last in solver(call._replace(deadline=call.deadline.within(cancelled=proved))):
                 yield last
             if last.status in ("optimal", "infeasible"):
                 return
@@ -123,7 +122,7 @@ def _answer(
             start = WarmStart(schedule(call.task, sets), None, True, cost, True, INFINITE)
             rest = call.deadline if call.deadline.reached() is None else call.limits
             options = call.options.but(strategies=_REPLAYED)
-            *_, answer = solver(replace(call, options=options, start=start, deadline=rest))
+            *_, answer = solver(call._replace(options=options, start=start, deadline=rest))
             if answer.cost is None or (last.cost is not None and last.cost < answer.cost):
                 answer = last
     if answer.status == "feasible" and answer.objective is not None and bound is not None:

@@ -111,7 +111,7 @@ class ScenariosInTime:
             aimed = task.with_goal(one.goal)
             if broken := outlasts(aimed, one.plan, horizon, strict=options.strict):
                 raise UsageError(f"plan '{one.name}' does not last until epoch {horizon}: {broken}")
-        asked = replace(self._call, prepared=PreparedTask(units.task), original=task)
+        asked = self._call._replace(prepared=PreparedTask(units.task), original=task)
         for answer in over_scenarios(asked, inner):
             goals = tuple(_served(units, one, options.discount) for one in answer.goals or ())
             yield _told(units, answer)._replace(goals=goals)
@@ -133,7 +133,7 @@ def _alone(call: Request, solver: Solver, whole: Task) -> Iterator[Answer]:
     """Answers about the human alone, by a task in which each action is one step."""
     task, epochs = call.task, call.options.head_start
     options = call.options.but(head_start=0, horizon=None)
-    for answer in solver(replace(call, prepared=PreparedTask(whole), options=options)):
+    for answer in solver(call._replace(prepared=PreparedTask(whole), options=options)):
         plan = answer.human_plan
         if plan is None:
             yield answer
@@ -163,21 +163,21 @@ def in_units(call: Request, units: UnitSteps) -> Request:
     options = call.options.but(head_start=asleep, ties="fixed")
     if given is not None:  # it may come too late, or be in a bystander's way
         call.task.replay_alone(units.begun(given), strict=options.strict)
-    inner = replace(call, prepared=prepared, given=given, options=options, question=None, original=call.task)
+    inner = call._replace(prepared=prepared, given=given, options=options, question=None, original=call.task)
     if not epochs:
         return inner
     state = units.waited(epochs, strict=options.strict)
     if state is None:
-        return replace(inner, predicts=False)
+        return inner._replace(predicts=False)
     later = PreparedTask(units.task.at(state))
     if options.mode == "individual":
-        return replace(inner, prepared=later, given=None if given is None else given[epochs:])
+        return inner._replace(prepared=later, given=None if given is None else given[epochs:])
     found = canonical_human_plan(later, call.deadline, options)
     best = None if found is None else units.after_waiting(found, epochs)
     plan = best if given is None else given
     if plan is None:
-        return replace(inner, predicts=False)
-    return replace(inner, given=plan, optimum=None if best is None else units.task.cost_of(best))
+        return inner._replace(predicts=False)
+    return inner._replace(given=plan, optimum=None if best is None else units.task.cost_of(best))
 
 
 def _tied(call: Request, units: UnitSteps) -> list[HumanPlan]:

@@ -8,7 +8,7 @@ that follows from the semantics (serendipity/DECISIONS.md says where, and why).
 
 from collections import OrderedDict
 from collections.abc import Hashable, Iterable, Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from fractions import Fraction
 from operator import attrgetter
 from typing import Any, Final, NamedTuple
@@ -36,8 +36,7 @@ _MOST: Final = 8
 """Questions at once: modes and discounts that a caller goes back and forth between."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Known:
+class _Known(NamedTuple):
     """Knowledge of one question.
 
     Attributes:
@@ -85,7 +84,7 @@ class SessionMemory:
             warm = known.warm
             if options.windowed and not _is_open(options, warm.window):  # its bound is beside that plan
                 warm = replace(warm, bound=None, is_best=False)
-            known = replace(known, answer=None, warm=warm)
+            known = known._replace(answer=None, warm=warm)
         return RememberedQuestion(self, options, visible, about, human_plan, known)
 
     def keep(self, about: Hashable, known: _Known) -> None:
@@ -136,8 +135,7 @@ class SessionMemory:
             self.keep(about, _moved(before, known, now, epochs))
 
 
-@dataclass(frozen=True, slots=True)
-class RememberedQuestion:
+class RememberedQuestion(NamedTuple):
     """A question of a call, and the answers to it that are known.
 
     Attributes:

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from typing import Any, Final
 
 from search import solve
-from search.modes.simulation import solve_for_human
 from serendipity.facade.call import Request
 from serendipity.facade.simulation import realised
 from serendipity.model import HumanPlan
@@ -61,6 +60,8 @@ def _without_rule(call: Request, human_plan: HumanPlan | None) -> Iterator[Answe
     asked: dict[str, Any] = {"human_plan": human_plan, "deadline": call.deadline, "warm": call.warm}
     if call.options.human_model == "omniscient":
         return solve(call.prepared, call.options, predicts=call.predicts, optimum=call.optimum, **asked)
+    from search.modes.simulation.planner import solve_for_human
+
     return solve_for_human(call.prepared, call.options, visible=call.visible, **asked)
 
 

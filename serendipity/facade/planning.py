@@ -2,7 +2,6 @@
 
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
 from functools import partial
 from importlib import import_module
 from types import MappingProxyType
@@ -225,7 +224,7 @@ def _begun(
     if memory is not None:
         about = unsure if unsure is not None and any(unsure[:2]) else None
         plan = None if call.given is None else named_plan(call.task, call.given)
-        call = replace(call, question=memory.question(chosen, visible, about, plan))
+        call = call._replace(question=memory.question(chosen, visible, about, plan))
     if call.known is not None:
         return call, iter(((call, call.known),))
     if unsure is not None:

@@ -138,7 +138,7 @@ def _solved(call: Request, candidates: Sequence[Candidate]) -> Iterator[Answer]:
 
 
 def _soon(call: Request) -> Request:
-    return replace(call, deadline=call.deadline.part(_SHARE))
+    return call._replace(deadline=call.deadline.part(_SHARE))
 
 
 def _answers(
@@ -216,16 +216,16 @@ def _keeping(
     """
     plan, task = free.human_plan, with_goals(call.task, rule.facts, literals)
     optimum = call.optimum if call.given is not None or plan is None else call.task.cost_of(plan)
-    asked = replace(_plain(call), optimum=optimum, predicts=plan is not None, question=None)
+    asked = _plain(call)._replace(optimum=optimum, predicts=plan is not None, question=None)
     layers = _Layers(call, task, plan, rule.most if call.task.robot_goal else None)
     given = None if plan is None else layers.plan(plan)
-    found = solve(replace(asked, prepared=PreparedTask(layers.task)), given)
+    found = solve(asked._replace(prepared=PreparedTask(layers.task)), given)
     return (_told(layers, answer) for answer in found)
 
 
 def _plain(call: Request) -> Request:
     """The call for tasks with layers on them."""
-    return replace(call, options=interfering_plainly(call.options))
+    return call._replace(options=interfering_plainly(call.options))
 
 
 class _Layers:

@@ -309,10 +309,10 @@ def _about(call: Request, candidate: Candidate, recognition: Recognition | None)
     prepared = call.prepared.with_goal(candidate.goal)
     if recognition is not None and not (recognition.observed and recognition.explained):
         fixed = call.options.but(ties="fixed") if call.options.ties == "watched" else call.options
-        return replace(call, prepared=prepared, options=fixed)
+        return call._replace(prepared=prepared, options=fixed)
     task = prepared.task
     given = task.plan_from_names(named_plan(task, candidate.plan))
-    return replace(call, prepared=prepared, given=given, options=call.options.but(ties="fixed"))
+    return call._replace(prepared=prepared, given=given, options=call.options.but(ties="fixed"))
 
 
 def _certain(

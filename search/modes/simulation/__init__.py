@@ -1,6 +1,5 @@
 """The human who replans: what they do with a plan that nobody told them of (semantics 6)."""
 
-from search.modes.simulation.planner import solve_for_human
 from search.modes.simulation.simulator import SimulatedEpoch, Simulation, Skipped, simulate
 
-__all__ = ["SimulatedEpoch", "Simulation", "Skipped", "simulate", "solve_for_human"]
+__all__ = ["SimulatedEpoch", "Simulation", "Skipped", "simulate"]

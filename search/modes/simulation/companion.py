@@ -12,9 +12,9 @@ from fractions import Fraction
 from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, solve_space
 from search.engine.paths import path_steps, plan_steps
-from search.modes.simulation.human import Human
+from search.modes.simulation.human import Human, Start
 from search.modes.simulation.simulator import Simulation, simulate_from, way_on
-from search.modes.simulation.space import Reactive, Start
+from search.modes.simulation.space import Reactive
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.successor_generator import Successors
 from serendipity.model.errors import LIMITS, LimitReachedError

@@ -1,7 +1,6 @@
 """The human's state machine: what they decide when they look up (semantics 6, steps 1 and 2)."""
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from search.call.context import SearchContext
@@ -19,8 +18,7 @@ from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.visibility import Visible
 
 
-@dataclass(frozen=True, slots=True)
-class Glance:
+class Glance(NamedTuple):
     """The human's decision after a look; costs are scaled, None is infinite.
 
     Attributes:
@@ -37,6 +35,20 @@ class Glance:
     def replanned(self) -> bool:
         """Whether the human has changed their mind."""
         return self.best is not None and self.kept != self.best
+
+
+class Start(NamedTuple):
+    """The state in which robots and the human begin, and what the human has in mind.
+
+    Attributes:
+        state: packed, as it truly is.
+        belief: packed, what the human expects to see.
+        intention: what they mean to do.
+    """
+
+    state: int
+    belief: int
+    intention: Intention
 
 
 class HumanStep(NamedTuple):

@@ -9,10 +9,10 @@ from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, Node, Progress, best_first, solve_space
 from search.engine.paths import path_steps, plan_steps
 from search.human.individual_planner import FoundPlan
-from search.modes.simulation.human import Human
+from search.modes.simulation.human import Human, Start
 from search.modes.simulation.in_time import HumanInTime
 from search.modes.simulation.simulator import way_on
-from search.modes.simulation.space import Reactive, Start
+from search.modes.simulation.space import Reactive
 from search.packed.cost_vector import INFINITE_KEY
 from search.spaces.fixed_human_plan import follow_plan
 from search.strategies.first_answer import FirstAnswer, plan_alone

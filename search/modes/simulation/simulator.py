@@ -1,12 +1,11 @@
 """Plays a composite plan against a human who replans, epoch by epoch (semantics 6)."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
 from search.call.prepared_task import PreparedTask
-from search.modes.simulation.human import Glance, Human
-from search.modes.simulation.space import Start
+from search.modes.simulation.human import Glance, Human, Start
 from search.packed.operators import Operator, applicable, changed
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
@@ -18,16 +17,14 @@ from serendipity.model.task.visibility import Visible
 INAPPLICABLE, CONFLICT, REFUSED = "inapplicable", "conflict", "refused"
 
 
-@dataclass(frozen=True, slots=True)
-class Skipped:
+class Skipped(NamedTuple):
     """An action of the plan that did not happen: its id, and why."""
 
     action: int
     why: str
 
 
-@dataclass(frozen=True, slots=True)
-class SimulatedEpoch:
+class SimulatedEpoch(NamedTuple):
     """The events of one epoch.
 
     Attributes:
@@ -63,8 +60,7 @@ class SimulatedEpoch:
         return (*his, *(() if self.accepted is None else (self.accepted,)), *self.robots)
 
 
-@dataclass(frozen=True, slots=True)
-class Simulation:
+class Simulation(NamedTuple):
     """A plan as it turned out.
 
     Attributes:

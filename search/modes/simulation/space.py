@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
-from search.modes.simulation.human import Glance, Human, HumanStep
+from search.modes.simulation.human import Glance, Human, HumanStep, Start
 from search.modes.simulation.intention import Intention
 from search.packed.successor_generator import Successors
 
@@ -31,20 +31,6 @@ class Mind(NamedTuple):
     intention: Intention
     guarded: bool
     waited: int = 0
-
-
-class Start(NamedTuple):
-    """The state in which robots and the human begin, and what the human has in mind.
-
-    Attributes:
-        state: packed, as it truly is.
-        belief: packed, what the human expects to see.
-        intention: what they mean to do.
-    """
-
-    state: int
-    belief: int
-    intention: Intention
 
 
 @dataclass(eq=False)

@@ -201,10 +201,15 @@ def _alike(
     """Classes of fields that are alike to all agents, and to what follows."""
 
     def allows(exchange: Exchange) -> bool:
-        moved = sum(1 << number for number, _ in exchange)
+        partners = {1 << number: 1 << other for number, other in exchange}
+        moved = sum(partners)
 
         def exchanged(row: int) -> int:
-            return row & ~moved | sum(1 << other for number, other in exchange if row >> number & 1)
+            found, left = row & ~moved, row & moved
+            while left:
+                bit = left & -left
+                found, left = found | partners[bit], left ^ bit
+            return found
 
         return all(exchanged(apart[number]) == apart[other] for number, other in exchange)
 

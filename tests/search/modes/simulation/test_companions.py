@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from search import PreparedTask, optimal_human_plans
 from search.modes.simulation.companion import Companion
-from search.modes.simulation.space import Start
+from search.modes.simulation.human import Start
 from serendipity.model import Deadline, Options, Task
 from serendipity.testing.builders import usar
 from serendipity.testing.strategies import tasks, usar_tasks

@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 
 from search import PreparedTask
-from search.modes.simulation import simulate, solve_for_human
+from search.modes.simulation import simulate
+from search.modes.simulation.planner import solve_for_human
 from serendipity.model.answers.answer import Answer
 from serendipity.testing.oracle.reactions import best_reaction
 from tests.search.modes.simulation.strategies import Reaction, reactions
