@@ -139,5 +139,5 @@ API void epochs_left(const Epochs *e, int32_t number, Word *row) {
     memcpy(row, state_of(&e->ends, e->leavings[number].end), (size_t)e->ends.words * sizeof *row);
 }
 API int epochs_back(Epochs *e, const int32_t *given, Cost limit, double seconds) { return epochs_go_back(e, given, limit, seconds); }
-API Cost epochs_rest(Epochs *e, int32_t layer, const Word *state) { return rest_from(e, layer, state); }
+API Cost epochs_rest(Epochs *e, int32_t layer, const Word *state, int at_once) { return rest_from(e, layer, state, at_once); }
 API int32_t epochs_sets(Epochs *e, int32_t number, const int32_t *given, int32_t *ops) { return epochs_way(e, number, given, ops); }

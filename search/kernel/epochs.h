@@ -65,7 +65,7 @@ typedef struct {
     uint64_t last;       /* the agent to whom what follows is left: the last one, as a bit */
     int is_back;         /* whether all epochs are over and are gone through backwards, */
     int32_t layer;       /* from which layer, */
-    Cost least;          /* and the least from the state under the cursor */
+    Cost least;          /* and the least from the state under the cursor, what was paid for it included going forward */
 } Epochs;
 
 static void epochs_free(Epochs *e) {
@@ -220,6 +220,10 @@ static void keep_what_matters(Epochs *e, const Word *state) {
     represent(e->after->problem, &e->after->alike, e->row);
 }
 
+static void note_least(Epochs *e, Cost paid, Cost rest) {
+    if (rest != INFINITE_COST && paid + rest < e->least) e->least = paid + rest;
+}
+
 /* A state that can be left behind: nothing new, if it was there in an earlier epoch at less.  `hopeless`: whether it costs
    too much, so that nothing does any good that could as well be done after it. */
 static int take_end(Epochs *e, const Word *state, Cost paid) {
@@ -233,6 +237,7 @@ static int take_end(Epochs *e, const Word *state, Cost paid) {
     uint32_t epoch = (uint32_t)e->n_layers;
     if (!is_new && (node->stamp == epoch ? node->spent <= paid : node->spent >> COST_SHIFT < paid >> COST_SHIFT)) {
         e->hopeless = too_dear(e, paid, node->rest);
+        note_least(e, paid, node->rest);
         return 1;
     }
     if (is_new) node->spent = INFINITE_COST;
@@ -243,6 +248,7 @@ static int take_end(Epochs *e, const Word *state, Cost paid) {
         node->rest = weighed(e, rest), node->evaluated = 1;
     }
     e->hopeless = too_dear(e, paid, node->rest);
+    note_least(e, paid, node->rest);
     if (!e->hopeless && !leave(e, paid, paid + node->rest, id)) return 0;
     node->spent = paid, node->stamp = epoch;
     return 1;
@@ -257,23 +263,22 @@ static int take_state(Epochs *e, const Word *state, Cost paid) {
     return 1;
 }
 
-/* Something that a set leads to, with what is left from there, if it was met. */
-static int look_back(Epochs *e, const Word *made, Cost paid) {
-    const Table *t = e->is_end ? &e->ends : &e->layers[e->layer + 1];
-    if (e->is_end) keep_what_matters(e, made);
+/* A state of the next layer that a set leads to, with what is left from there, if it was met. */
+static int look_back(Epochs *e, Cost paid) {
+    const Table *t = &e->layers[e->layer + 1];
     int32_t id = met(t, e->row);
-    Cost rest = id == NONE ? INFINITE_COST : node_of(t, id)->rest;
-    e->hopeless = e->is_end && too_dear(e, paid, rest);
-    if (rest != INFINITE_COST && paid + rest < e->least) e->least = paid + rest;
+    if (id != NONE) note_least(e, paid, node_of(t, id)->rest);
     return 1;
 }
 
-/* What is left from a state of a layer; NONE: it was not met. */
-static Cost rest_from(Epochs *e, int32_t layer, const Word *state) {
+/* What is left from a state of a layer, by all ways or by those that leave something behind at once; NONE: it was not met. */
+static Cost rest_from(Epochs *e, int32_t layer, const Word *state, int at_once) {
     memcpy(e->other, state, (size_t)e->problem.words * sizeof(Word));
     represent(&e->problem, &e->alike[layer], e->other);
     int32_t id = met(&e->layers[layer], e->other);
-    return id == NONE ? NONE : node_of(&e->layers[layer], id)->rest;
+    if (id == NONE) return NONE;
+    const Node *node = node_of(&e->layers[layer], id);
+    return at_once ? node->onward : node->rest;
 }
 
 /* What a set makes of the state under the cursor; 0: no need to go on. */
@@ -290,7 +295,7 @@ static int come_to(Epochs *e, const Word *state, int32_t depth, Cost paid) {
         e->found = depth;
         return 0;
     }
-    if (e->is_back) return look_back(e, made, paid);
+    if (e->is_back) return look_back(e, paid);
     if (++e->sets > MOST_WAYS) return e->outcome = HOPELESS, 0;
     if (e->is_end ? take_end(e, made, paid) : take_state(e, made, paid)) return 1;
     return e->outcome == RUNNING ? 0 : lacks(e, e->is_end ? &e->ends : &e->layers[e->n_layers - 1]);
@@ -398,26 +403,28 @@ static int epochs_run(Epochs *e, Cost limit, double seconds, size_t allowed) {
     grant(e->is_end ? &e->ends : &e->layers[e->n_layers - 1], allowed);
     for (; e->cursor < from->count; e->cursor++) {
         if (now() >= end) return RUNNING;
-        e->sets = 0, e->outcome = FOUND;
-        if (!from_state(e, state_of(from, e->cursor), node_of(from, e->cursor)->spent, e->given)) return e->outcome;
+        Node *node = node_of(from, e->cursor);
+        e->sets = 0, e->outcome = FOUND, e->least = INFINITE_COST;
+        if (!from_state(e, state_of(from, e->cursor), node->spent, e->given)) return e->outcome;
+        if (e->is_end) node->rest = e->least == INFINITE_COST ? INFINITE_COST : e->least - node->spent;
     }
     return FOUND;
 }
 
-/* A slice of going back, once all epochs are over: the least that is left from each state of each layer to what can be
-   left behind, and a bound on what follows; no more than what of the limit was left on the cheapest way to the state. */
+/* A slice of going back, once all epochs are over, under the lowest of their limits: the least that is left from each state of each
+   layer to what can be left behind then or later, and a bound on what follows; no more than what of the limit was left on
+   the cheapest way to the state. */
 static int epochs_go_back(Epochs *e, const int32_t *given, Cost limit, double seconds) {
     double end = now() + seconds;
-    if (!e->is_back) e->is_back = 1, e->layer = e->n_layers - 1, e->cursor = 0, e->target = NULL;
+    if (!e->is_back) e->is_back = 1, e->is_end = 0, e->layer = e->n_layers - 1, e->cursor = 0, e->target = NULL;
     for (; e->layer >= 0; e->layer--, e->cursor = 0) {
         const Table *t = &e->layers[e->layer];
         if (e->layer + 1 < e->n_layers) e->alike_now = &e->alike[e->layer + 1];
         for (; e->cursor < t->count; e->cursor++) {
             if (now() >= end) return RUNNING;
             Node *node = node_of(t, e->cursor);
-            e->limit = e->least = limit - node->spent;
-            e->is_end = 1, from_state(e, state_of(t, e->cursor), 0, NONE);
-            e->is_end = 0;
+            e->limit = limit > node->spent ? limit - node->spent : 0;
+            node->onward = e->least = e->limit < node->rest ? e->limit : node->rest;
             if (e->layer + 1 < e->n_layers) from_state(e, state_of(t, e->cursor), 0, given[e->layer]);
             node->rest = e->least;
         }

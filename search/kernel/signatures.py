@@ -33,7 +33,7 @@ SIGNATURES: Final = {
     "epochs_leavings": (c_int32, [c_void_p, c_void_p, c_void_p]),
     "epochs_left": (None, [c_void_p, c_int32, c_void_p]),
     "epochs_back": (c_int, [c_void_p, c_void_p, c_int64, c_double]),
-    "epochs_rest": (c_int64, [c_void_p, c_int32, c_char_p]),
+    "epochs_rest": (c_int64, [c_void_p, c_int32, c_char_p, c_int]),
     "epochs_sets": (c_int32, [c_void_p, c_int32, c_void_p, c_void_p]),
 }
 """By name the type of the result, and those of the arguments."""

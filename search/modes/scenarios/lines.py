@@ -17,13 +17,13 @@ from search.modes.scenarios.measure import (
     Tail,
     Worths,
 )
+from search.modes.scenarios.moves import Move, Moves
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
 from search.modes.scenarios.timetables import Timetable
 from search.modes.scenarios.variants import Variants
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option, together
 from search.packed.operators import Operator, applicable
-from search.packed.successor_generator import Successors
 from search.strategies.conditions import asks_for_nothing_else
 from serendipity.model.resources.deadline import Deadline
 
@@ -86,17 +86,16 @@ class Line:
     Args:
         scenario: the scenario.
         number: its number.
-        acting: what agents can do.
+        moves: what agents can do.
         worths: worths of keys.
     """
 
-    def __init__(self, scenario: Scenario, number: int, acting: Successors, worths: Worths) -> None:
+    def __init__(self, scenario: Scenario, number: int, moves: Moves, worths: Worths) -> None:
         context, options = scenario.context, scenario.context.options
         self.certain = Certain(scenario, worths)
         self.number = number
         self.variants = scenario.variants
-        self._acting = acting
-        self._fits = acting.due.fits
+        self._moves, self._acting = moves, moves.successors
         self._worths = worths
         self._context = context
         self._steps, self._suffix = self.certain.steps, self.certain.suffix
@@ -104,6 +103,7 @@ class Line:
         self._horizon = scenario.horizon
         self._max_window = self.certain.max_window
         self._timetable: Timetable | None = None
+        self._openings: dict[tuple[int, int], int] = {}
         self._tells_starts = options.preservation == "state" or self._max_window < scenario.horizon
 
     def first(self) -> Member:
@@ -139,17 +139,33 @@ class Line:
             return
         if at.phase == FOLLOWING:
             part = self._planned(at.state, epoch)
-            if part is not None and self._fits(part, beside):
-                paid, state = self._together(at, part, beside)
-                yield Way(part, paid, at._replace(state=state), False)
-            if epoch > len(self._steps):
+            move = None if part is None else self._moves.planned(at.state, part, beside)
+            if move is not None:
+                yield Way(move.part, move.worth, at._replace(state=move.state), False)
+            if epoch > len(self._steps) or self._opening(at.state, epoch) >= most:
                 return
         opens = at.phase == FOLLOWING
         start = epoch if opens and self._tells_starts else at.start
-        for part in self._acting.free(at.state):
-            if only in (None, part.actions) and self._fits(part, beside):
-                inside = at._replace(start=start, phase=INSIDE)
-                yield from self._within(inside, epoch, part, beside, opens, most)
+        inside = at._replace(start=start, phase=INSIDE)
+        for move in self._moves.free(at.state, beside):
+            if only in (None, move.part.actions):
+                yield from self._within(inside, epoch, move, opens, most)
+
+    def _opening(self, state: int, epoch: int) -> int:
+        """A bound on what is left if a window opens in an epoch."""
+        known = self._openings.get((state, epoch))
+        if known is None:
+            window, of_key = self._worths.epoch, self._worths.of_key
+            known = min(self._rest(state) + window, INFINITE_WORTH)
+            if self._timetable is not None:
+                at_once = of_key(self._timetable.least(epoch - 1, state, at_once=True)) + window
+                known = max(known, min(at_once, known + window))
+            self._openings[state, epoch] = known
+        return known
+
+    def _rest(self, state: int) -> int:
+        """A bound on what is left to pay, without windows."""
+        return self._worths.of_key(max(self._context.bound(state), self._context.team_bound(state)))
 
     def _planned(self, state: int, epoch: int) -> JointAction | None:
         """Rule 1; beyond the end of their plan they wait."""
@@ -165,29 +181,22 @@ class Line:
             op, part = rest[0]
             if not applicable(op, at.state):
                 return
-        paid, state = self._together(at, part, beside)
+        move = self._moves.together(at.state, part, beside)
         after = at.tail._replace(done=at.tail.done + 1)
-        yield Way(part, paid, at._replace(state=state, tail=after), False)
+        yield Way(part, move.worth, at._replace(state=move.state, tail=after), False)
 
-    def _within(
-        self, at: Member, epoch: int, part: JointAction, beside: JointAction, opens: bool, most: int
-    ) -> Iterator[Way]:
+    def _within(self, at: Member, epoch: int, move: Move, opens: bool, most: int) -> Iterator[Way]:
         """Rules 2 and 3: the window goes on after the epoch, or is over."""
-        paid, state = self._together(at, part, beside)
-        paid += self._worths.epoch
+        part, state, paid = move.part, move.state, move.worth + self._worths.epoch
         start, left = at.start or epoch, self._horizon - epoch
         limit = self._worths.key(most - paid) if most < INFINITE_WORTH else INFINITE_KEY
         if self._suffix.key(state, left, start, limit) < limit:
             tail = Tail(state, left, start, 0)
             yield Way(part, paid, Member(self.number, state, OVER, 0, tail, at.ahead), opens)
-        least = paid + self._worths.epoch + self._worths.of_key(self._context.bound(state))
-        may_last = left and (not at.start or epoch - at.start + 1 < self._max_window)
-        if may_last and least < most:
+        least = paid + self._worths.epoch
+        may_last = left and (not at.start or epoch - at.start + 1 < self._max_window) and least < most
+        if may_last and least + self._worths.of_key(self._context.bound(state)) < most:
             yield Way(part, paid, at._replace(state=state), opens)
-
-    def _together(self, at: Member, part: JointAction, beside: JointAction) -> tuple[int, int]:
-        done = together(part, beside)
-        return self._worths.of_key(done.weight), self._acting.due.outcome(at.state, done)
 
     def worth(self, robots: JointAction) -> int:
         """What a set of robots' actions is worth."""
@@ -218,10 +227,6 @@ class Line:
         found = found._replace(steps=tuple(sorted(found.steps)))
         return Guide(self.number, found, at.phase, self._context, self.variants)
 
-    def floor(self, at: Member, epoch: int) -> int:
-        """A bound on what is left to pay after an epoch, where it was asked for; else 0."""
-        return self.certain.floor(at, epoch) if at.phase != OVER else 0
-
     def raise_floor(self, way: Way, epoch: int, least: int) -> None:
         """Note that nothing less is left to pay before an epoch in which something is done."""
         if way.after.phase != OVER:
@@ -236,12 +241,11 @@ class Line:
         if epoch == self._horizon:  # exact, whatever bound was handed on
             done = at.phase == FOLLOWING and all(goal.holds(at.state) for goal in self._context.goals)
             return self._worths.epoch if done else INFINITE_WORTH
-        context, window, of_key = self._context, self._worths.epoch, self._worths.of_key
+        window, of_key = self._worths.epoch, self._worths.of_key
         known = self.certain.floor(at, epoch)
         if self.certain.known(at, epoch) is not None:
             return known
-        rest = of_key(max(context.bound(at.state), context.team_bound(at.state)))
-        least = min(rest + window, INFINITE_WORTH)
+        least = min(self._rest(at.state) + window, INFINITE_WORTH)
         if at.phase == FOLLOWING and self._timetable is not None:
             beside = of_key(self._timetable.least(epoch, at.state)) + window
             alone = of_key(sum(part.weight for _, part in self._steps[epoch:])) + window
@@ -252,6 +256,11 @@ class Line:
     def is_tabulated(self) -> bool:
         """Whether states beside the human's plan are bounded."""
         return self._timetable is not None and self._timetable.is_there
+
+    @property
+    def is_wholly_tabulated(self) -> bool:
+        """Whether all of them are that may be of interest."""
+        return self._timetable is not None and self._timetable.is_whole
 
     def tabulate(self, least: int, limit: int, deadline: Deadline) -> None:
         """Bound states beside the human's plan, where only a window of one epoch can be worth so little.
@@ -267,6 +276,7 @@ class Line:
         if limit <= 2 * epoch + self._worths.of_key(context.bound(context.packed.init)):
             steps = [op for op, _ in self._steps]
             self._timetable = Timetable(context, steps, key(least - epoch), key(limit - epoch), deadline)
+            self._openings.clear()
 
     def left_alone(self, at: Member, epoch: int) -> tuple[int, ...]:
         """What the human does after an epoch if nobody helps: their suffix, or the rest of their plan."""

@@ -10,6 +10,7 @@ from search.call.prepared_task import PreparedTask
 from search.engine.paths import plan_steps
 from search.modes.scenarios.lines import Line, Question
 from search.modes.scenarios.measure import INFINITE_WORTH, Worths, measure_of
+from search.modes.scenarios.moves import Moves
 from search.modes.scenarios.played import Played
 from search.modes.scenarios.policies import PolicySearch
 from search.modes.scenarios.remainder import Scenario
@@ -124,8 +125,9 @@ class _ScenarioCall:
         amounts = (amount * context.keys.scale for pair in given for amount in pair)
         measure = measure_of(self._options.risk, [c.weight for c in self._candidates], amounts)
         self._worths = Worths(context.keys, measure.parts)
-        acting = [one.context.successors() for one in (scenarios if self._differ else scenarios[:1])]
-        lines = [Line(s, i, acting[i % len(acting)], self._worths) for i, s in enumerate(scenarios)]
+        differing = scenarios if self._differ else scenarios[:1]
+        moves = [Moves(one.context.successors(), self._worths) for one in differing]
+        lines = [Line(s, i, moves[i % len(moves)], self._worths) for i, s in enumerate(scenarios)]
         known = (
             [line.certainly(line.first(), 0, deadline) for line in lines]
             if self._options.risk == "regret"

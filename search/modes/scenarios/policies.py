@@ -9,6 +9,7 @@ choice first (learning depth-first search, Bonet and Geffner 2006); scenarios on
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from heapq import heapify, heapreplace
+from operator import itemgetter
 from typing import Final, NamedTuple
 
 from search.modes.scenarios.lines import Guide, Question, Way, undominated
@@ -20,7 +21,7 @@ _SHARE: Final = 0.2
 """The share of the time that is left for a first look at each scenario of a group by itself."""
 
 
-_TABLES: Final = 0.4
+_TABLES: Final = 0.6
 """The same for tables of the states beside all plans."""
 
 
@@ -106,7 +107,8 @@ class PolicySearch:
         self._look(self.root)
         yield
         self._tabulate()
-        for scenario in (*(line.number for line in self._lines), None):
+        is_whole = self._is_tabulated(self.root, wholly=True)
+        for scenario in () if is_whole else (*(line.number for line in self._lines), None):
             if not self.root.is_settled:
                 self._probe(self.root, None if scenario is None else self._guide(self.root, scenario))
                 yield
@@ -116,9 +118,10 @@ class PolicySearch:
         """Bound the states beside each plan, as far as a better policy may come to them."""
         members = self.root.members
         least = [line.least(m, 0) for line, m in zip(self._lines, members, strict=True)]
+        deadline = self._deadline.part(_TABLES)
         for i, line in enumerate(self._lines):
             limit = self._measure.limit(members, least, i, self.root.upper)
-            line.tabulate(least[i], limit, self._deadline.part(_TABLES / len(members)))
+            line.tabulate(least[i], limit, deadline.part(1 / (len(members) - i)))
 
     # -- groups
 
@@ -144,7 +147,7 @@ class PolicySearch:
             return False
         first = group not in self._looked
         self._looked[group] = most
-        if not single and all(m.phase != INSIDE and self._lines[m.scenario].is_tabulated for m in members):
+        if self._is_tabulated(group, wholly=single):
             self._leave_alone(group)
             return False
         deadline = self._deadline.part(_SHARE if first else share)
@@ -161,6 +164,12 @@ class PolicySearch:
         else:
             self._leave_alone(group)
         return single
+
+    def _is_tabulated(self, group: Group, *, wholly: bool) -> bool:
+        """Whether all that a group may come to is bounded, without ordinary calls."""
+        lines = [self._lines[m.scenario] for m in group.members if m.phase != INSIDE]
+        found = (line.is_wholly_tabulated if wholly else line.is_tabulated for line in lines)
+        return len(lines) == len(group.members) and all(found)
 
     def _leave_alone(self, group: Group) -> None:
         """Offer that nobody in a group is helped any more."""
@@ -180,17 +189,22 @@ class PolicySearch:
     def _choices(self, group: Group) -> Iterator[Choice]:
         """All that a group may do in its next epoch, and may be worth less than its reach."""
         members, epoch = group.members, group.epoch + 1
-        floors = [self._lines[m.scenario].floor(m, group.epoch) for m in members]
-        limits = [self._measure.limit(members, floors, i, group.reach) for i in range(len(members))]
+        floors = [self._lines[m.scenario].least(m, group.epoch) for m in members]
         for robots in self._robots(group):
-            each = []
-            for m, floor, most in zip(members, floors, limits, strict=True):
+            each, least = list[list[tuple[int, Way]]](), [*floors]
+            for i, (m, floor) in enumerate(zip(members, floors, strict=True)):
+                most = self._measure.limit(members, least, i, group.reach)
                 line, bounded = self._lines[m.scenario], list[tuple[int, Way]]()
                 for way in line.ways(m, epoch, robots, most):
                     line.raise_floor(way, epoch, floor)
-                    bounded.append((max(floor, way.paid + line.least(way.after, epoch)), way))
+                    worth = max(floor, way.paid + line.least(way.after, epoch))
+                    if worth < most:
+                        bounded.append((worth, way))
+                if not bounded:
+                    break
+                least[i] = min(bounded, key=itemgetter(0))[0]
                 each.append(bounded)
-            if all(each):
+            else:
                 for ways in self._combined(group, undominated(self._lines, each)):
                     yield self._choice(group, robots, ways)
 

@@ -4,8 +4,9 @@ Where only windows of one epoch can pay (semantics 11), the kernel goes through 
 and back: one pass bounds what an ordinary call from each of them would tell.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import partial
 from typing import Final
 
 from search.call.context import SearchContext
@@ -16,11 +17,17 @@ from search.short_windows.joint.epochs import Epochs
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
-_MOST: Final = 200_000
-"""States."""
+_MOST: Final = 1_000_000
+"""States, and half as many again each time that what is of interest is halved."""
 
-_HALVES: Final = (4, 1, 0)
-"""How often what is of interest is halved: few states first, and more as long as there are not too many."""
+_HALVES: Final = (0, 1, 2, 3, 4)
+"""How often that is done where an epoch takes too long: fewer states are below a lower limit."""
+
+_THERE: Final = 0.7
+"""The share of the time for going there: going back takes less."""
+
+_HUMP: Final = 2
+"""An epoch may take so many times its share: those in the middle have the most states."""
 
 
 class Timetable:
@@ -32,6 +39,7 @@ class Timetable:
 
     Attributes:
         is_there: whether there is one: if there are too many states below the limit, below a lower one.
+        is_whole: whether it has all states below the limit.
     """
 
     def __init__(
@@ -39,32 +47,47 @@ class Timetable:
     ) -> None:
         self._context, self._steps = context, steps
         self._epochs: Epochs | None = None
+        limits = [context.amount_from(least + (limit - least >> n), MOST_WEIGHT) for n in _HALVES]
+        self._limits = [*dict.fromkeys(limits)]
         with suppress(LimitReachedError):
-            for halves in _HALVES if steps else ():
-                found = self._passed(least + (limit - least >> halves), deadline)
-                if found is None:
-                    break
-                self._epochs = found
+            if steps and limits[0] < MOST_WEIGHT:
+                self._epochs = self._passed(deadline)
         self.is_there = self._epochs is not None
+        self.is_whole = self.is_there and self._limits[0] == limits[0]
 
-    def _passed(self, limit: int, deadline: Deadline) -> Epochs | None:
-        """All states below a limit, gone through there and back; None where they are too many."""
-        amount = self._context.amount_from(limit, MOST_WEIGHT)
-        epochs = epochs_of(self._context, self._steps, deadline) if amount < MOST_WEIGHT else None
+    def _passed(self, deadline: Deadline) -> Epochs | None:
+        """All states below the limit, gone through there and back; None where they are too many."""
+        epochs, there = epochs_of(self._context, self._steps, deadline), deadline.part(_THERE)
         if epochs is None:
             return None
-        for epoch, step in enumerate((None, *self._steps[:-1])):
-            later = union(map(self._context.packed.mentioned, self._steps[epoch:-1]))
-            if step is not None and not epochs.advance(step, later, amount, _MOST, deadline):
+        mentioned, steps, runs = self._context.packed.mentioned, self._steps, [epochs.end_all]
+        for epoch, step in enumerate(steps[:-1], start=1):
+            runs += [partial(epochs.advance, step, union(map(mentioned, steps[epoch:-1]))), epochs.end_all]
+        for number, run in enumerate(runs):
+            if not self._over(run, there, min(1, _HUMP / (len(runs) - number))) or epochs.is_hopeless:
                 return None
-            if epochs.leave(amount, _MOST, deadline) is None:
-                return None
-        epochs.go_back(amount, deadline)
+        epochs.go_back(self._limits[0], deadline)
         return epochs
 
-    def least(self, epoch: int, state: int) -> int:
-        """Bound on the key of what is left after an epoch with a window of one to come, without that one."""
+    def _over(self, run: Callable[[int, int, Deadline], bool], there: Deadline, share: float) -> bool:
+        """Whether a part of an epoch is over in its share of the time, under a lower limit if it must be."""
+        most = _MOST * (len(_HALVES) - len(self._limits) + 2) // 2
+        while len(self._limits) > 1:
+            with suppress(LimitReachedError):
+                if run(self._limits[0], most, there.part(share)):
+                    return True
+            there.check()
+            del self._limits[0]
+            most += _MOST // 2
+        return run(self._limits[0], most, there)
+
+    def least(self, epoch: int, state: int, *, at_once: bool = False) -> int:
+        """Bound on the key of what is left after an epoch with a window of one to come, without that one.
+
+        Args:
+            at_once: if that is the next epoch.
+        """
         if self._epochs is None or epoch >= len(self._steps):
             return 0
-        amount = self._epochs.rest(epoch, state)
+        amount = self._epochs.rest(epoch, state, at_once=at_once)
         return 0 if amount is None else self._context.amount_key(amount)

@@ -121,7 +121,7 @@ class Epochs:
         None: there are more states; the same call goes on.  What an earlier epoch could leave behind
         for less is not told again.  Arguments as above.
         """
-        if not self._run(_NONE, limit, most, deadline):
+        if not self.end_all(limit, most, deadline):
             return None
         kernel, epochs = self._kernel, self._epochs
         count = kernel.epochs_leavings(epochs, None, None)
@@ -129,19 +129,26 @@ class Epochs:
         kernel.epochs_leavings(epochs, totals.buffer_info()[0], paid.buffer_info()[0])
         return sorted(map(Leaving, totals, paid, range(count)))
 
+    def end_all(self, limit: int, most: int, deadline: Deadline) -> bool:
+        """Go through such an epoch; arguments, and what is said, as for :meth:`advance`."""
+        return self._run(_NONE, limit, most, deadline)
+
     def go_back(self, limit: int, deadline: Deadline) -> None:
-        """Find out what is left from all states, once all epochs were gone through under a limit."""
+        """Find out what is left from all states, once all epochs were gone through, under no lower limits."""
         given, outcome = array("i", self._given or [0]), RUNNING
         while outcome == RUNNING:
             deadline.check()
             outcome = self._kernel.epochs_back(self._epochs, given.buffer_info()[0], limit, SLICE)
 
-    def rest(self, epochs: int, state: int) -> int | None:
+    def rest(self, epochs: int, state: int, *, at_once: bool = False) -> int | None:
         """Bound on what is left from a packed state after some epochs; None where it was not met.
 
         It is no more than what of the limit was left there.
+
+        Args:
+            at_once: if something is left behind by the next epoch.
         """
-        found = self._kernel.epochs_rest(self._epochs, epochs, self._told.row(state))
+        found = self._kernel.epochs_rest(self._epochs, epochs, self._told.row(state), at_once)
         return None if found == _NONE else int(found)
 
     def end(self, leaving: Leaving) -> int:

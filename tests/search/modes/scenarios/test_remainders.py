@@ -8,6 +8,7 @@ from search import PreparedTask
 from search.call.context import SearchContext
 from search.modes.scenarios.lines import Line
 from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, INSIDE, Member, Worths
+from search.modes.scenarios.moves import Moves
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
 from search.modes.scenarios.variants import Variants
 from search.spaces.windowed import Windowed
@@ -78,7 +79,8 @@ def test_at_the_horizon_no_bound_is_handed_on() -> None:
     """After a limit it was taken for what is left, and a policy for better than it was."""
     certain, start, worths = _certain()
     context = certain._scenario.context
-    line, task = Line(certain._scenario, 0, context.successors(), worths), context.task
+    moves = Moves(context.successors(), worths)
+    line, task = Line(certain._scenario, 0, moves, worths), context.task
     done = start._replace(state=context.packed.pack(task.init.union(task.goal.positive)))
     line.certain.learn(done, 3, Remainder(0, 2 * worths.epoch))
     assert line.least(done, 3) == worths.epoch

@@ -12,6 +12,7 @@ from search.kernel.library import library
 from search.modes.scenarios import Candidate
 from search.modes.scenarios.lines import Line
 from search.modes.scenarios.measure import FOLLOWING, Worths
+from search.modes.scenarios.moves import Moves
 from search.modes.scenarios.remainder import Scenario
 from search.modes.scenarios.variants import Variants
 from search.packed.joint_actions import NOTHING
@@ -25,7 +26,8 @@ def _line(task: Task, candidate: Candidate, horizon: int) -> Line:
     prepared = PreparedTask(task).with_goal(candidate.goal)
     context = SearchContext(prepared, options, Deadline()).for_plan(candidate.plan)
     scenario = Scenario(prepared, context, candidate.plan, horizon, Variants(context, (), None))
-    return Line(scenario, 0, context.successors(), Worths(context.keys, 1))
+    worths = Worths(context.keys, 1)
+    return Line(scenario, 0, Moves(context.successors(), worths), worths)
 
 
 @given(scenarios(), st.integers(0, 2), st.integers(0, 3))
@@ -48,6 +50,34 @@ def test_they_are_never_above_what_is_left(
         begun = [(at, robots) for at in reached for robots in line.begun(at.state)]
         ways = [way for at, robots in begun for way in line.ways(at, epoch + 1, robots)]
         reached = {way.after for way in ways if way.after.phase == FOLLOWING}
+
+
+@given(scenarios(), st.integers(0, 2), st.fractions(0, 1))
+@settings(max_examples=60)
+def test_what_they_leave_out_is_not_worth_less(
+    given_: tuple[Task, list[Candidate]], more: int, share: Fraction
+) -> None:
+    """Windows that open in an epoch are not looked at where none can be worth so little: a part of all."""
+    task, (candidate, *_) = given_
+    horizon = len(candidate.plan) + more
+    line, exact = _line(task, candidate, horizon), _line(task, candidate, horizon)
+    start, worth = line.first(), exact.certain.alone(line.first().state, 0)
+    least = exact.least(start, 0)
+    most = least + int((worth - least) * share)
+    line.tabulate(least, worth, Deadline())
+    reached = {start}
+    for epoch in range(1, horizon + 1):
+        following = set()
+        for at in sorted(reached)[:10]:
+            for robots in exact.begun(at.state):
+                ways = [*exact.ways(at, epoch, robots)]
+                few = {*line.ways(at, epoch, robots, most)}
+                assert few <= {*ways}
+                for way in ways:
+                    rest, _ = exact.certainly(way.after, epoch, Deadline())
+                    assert way in few or way.paid + rest >= most
+                following |= {way.after for way in ways if way.after.phase == FOLLOWING}
+        reached = following
 
 
 @pytest.mark.skipif(library() is None, reason="there is no kernel here")
