@@ -2,16 +2,17 @@
 
 A group holds the scenarios that are not told apart after an epoch; robots choose what they do by themselves
 (OR), and what the human then does splits the group (AND).  Where one scenario is left, the ordinary call
-answers.  Values of groups are kept between two bounds, which are brought together depth first, most promising
-choice first (learning depth-first search, Bonet and Geffner 2006); scenarios one by one are a lower bound.
+answers, unless all states beside its plan are tabulated.  Values of groups are kept between two bounds, which
+are brought together depth first, most promising choice first (learning depth-first search, Bonet and Geffner
+2006); scenarios one by one are a lower bound.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
 from heapq import heapify, heapreplace
 from operator import itemgetter
-from typing import Final, NamedTuple
+from typing import Final
 
+from search.modes.scenarios.groups import Choice, Group
 from search.modes.scenarios.lines import Guide, Question, Way, undominated
 from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, INSIDE, OVER, Member
 from search.modes.scenarios.played import Course, Played
@@ -20,56 +21,8 @@ from search.packed.joint_actions import NOTHING, JointAction
 _SHARE: Final = 0.2
 """The share of the time that is left for a first look at each scenario of a group by itself."""
 
-
-_TABLES: Final = 0.6
+_TABLES: Final = 0.7
 """The same for tables of the states beside all plans."""
-
-
-class Choice(NamedTuple):
-    """What is done in an epoch by a group, and what it leads to.
-
-    Attributes:
-        robots: what robots do by themselves.
-        ways: what each scenario does, in the order of the group.
-        branches: what is paid, and the group after it, for each that is told apart.
-    """
-
-    robots: JointAction
-    ways: tuple[Way, ...]
-    branches: tuple[tuple[int, "Group"], ...]
-
-
-@dataclass(eq=False, slots=True)
-class Group:
-    """Scenarios that are not told apart after an epoch, and the bounds on what they have left to pay.
-
-    Attributes:
-        epoch: the number of those that are over.
-        members: in the order of their numbers.
-        lower: no policy is worth less.
-        upper: of the best policy known; infinite without one.
-        choice: its first epoch; None where it leaves everybody alone, or one scenario goes on for certain.
-        choices: those that may be best by their bounds, as a heap; None before it was looked at.
-        reach: choices worth as much or more were left out of these.
-    """
-
-    epoch: int
-    members: tuple[Member, ...]
-    lower: int
-    upper: int = INFINITE_WORTH
-    choice: Choice | None = None
-    choices: list[tuple[int, int, Choice]] | None = field(default=None, repr=False)
-    reach: int = 0
-
-    @property
-    def is_settled(self) -> bool:
-        """Whether its best policy is known."""
-        return self.lower >= self.upper
-
-    def offer(self, value: int, choice: Choice | None) -> None:
-        """A policy that there is."""
-        if value < self.upper:
-            self.upper, self.choice = value, choice
 
 
 class PolicySearch:
@@ -149,6 +102,7 @@ class PolicySearch:
         self._looked[group] = most
         if self._is_tabulated(group, wholly=single):
             self._leave_alone(group)
+            group.offer(self._known(group), None)
             return False
         deadline = self._deadline.part(_SHARE if first else share)
         least = [self._lines[m.scenario].least(m, epoch) for m in members]
@@ -175,6 +129,14 @@ class PolicySearch:
         """Offer that nobody in a group is helped any more."""
         worths = [self._alone(m, group.epoch) for m in group.members]
         group.offer(self._measure.value(group.members, worths), None)
+
+    def _known(self, group: Group) -> int:
+        """What the best plan that an ordinary call has found is worth, where one scenario is left."""
+        at, *others = group.members
+        found = self._lines[at.scenario].certain.known(at, group.epoch)
+        if found is None or others or at.phase == OVER:
+            return INFINITE_WORTH
+        return self._measure.value(group.members, [found.worth])
 
     def _alone(self, at: Member, epoch: int) -> int:
         """What a scenario is worth from here with idle robots and no window to come."""
@@ -389,7 +351,8 @@ class PolicySearch:
             for number, at in enumerate(group.members):
                 course = courses[at.scenario]
                 if group.choice is None:
-                    course.finish(lines[at.scenario], at, group.epoch, certain=len(group.members) == 1)
+                    certain = self._known(group) == group.upper
+                    course.finish(lines[at.scenario], at, group.epoch, certain=certain)
                 else:
                     course.go_on(group.choice.ways[number], at, group.epoch + 1, group.choice.robots)
             if group.choice is not None:

@@ -17,8 +17,8 @@ from search.short_windows.joint.epochs import Epochs
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
-_MOST: Final = 1_000_000
-"""States, and half as many again each time that what is of interest is halved."""
+_MOST: Final = 600_000
+"""States, and a quarter as many again each time that what is of interest is halved."""
 
 _HALVES: Final = (0, 1, 2, 3, 4)
 """How often that is done where an epoch takes too long: fewer states are below a lower limit."""
@@ -64,21 +64,21 @@ class Timetable:
         for epoch, step in enumerate(steps[:-1], start=1):
             runs += [partial(epochs.advance, step, union(map(mentioned, steps[epoch:-1]))), epochs.end_all]
         for number, run in enumerate(runs):
-            if not self._over(run, there, min(1, _HUMP / (len(runs) - number))) or epochs.is_hopeless:
+            if not self._over(run, there, min(1, _HUMP / (len(runs) - number))):
                 return None
         epochs.go_back(self._limits[0], deadline)
         return epochs
 
     def _over(self, run: Callable[[int, int, Deadline], bool], there: Deadline, share: float) -> bool:
         """Whether a part of an epoch is over in its share of the time, under a lower limit if it must be."""
-        most = _MOST * (len(_HALVES) - len(self._limits) + 2) // 2
+        most = _MOST * (len(_HALVES) - len(self._limits) + 4) // 4
         while len(self._limits) > 1:
             with suppress(LimitReachedError):
                 if run(self._limits[0], most, there.part(share)):
                     return True
             there.check()
             del self._limits[0]
-            most += _MOST // 2
+            most += _MOST // 4
         return run(self._limits[0], most, there)
 
     def least(self, epoch: int, state: int, *, at_once: bool = False) -> int:
