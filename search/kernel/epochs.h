@@ -39,7 +39,7 @@ typedef struct {
     Word *mask;       /* the fields that matter to it */
     uint8_t *lost;    /* per fact whether nothing follows from it */
     Ints losing;      /* the fields that have such */
-    uint8_t *loses;   /* per operator whether it sets one */
+    uint8_t *loses;   /* per operator whether it sets one, or nothing that matters before an end */
     Word *unsettled;  /* the fields of the state under the cursor that have such values; */
     Word *settled;    /* a row per agent: those of them that operators of agents from this one on set */
     Cost unit;        /* what a unit of its costs weighs here */
@@ -88,15 +88,21 @@ static int is_lost(const Epochs *e, const Word *state, const Field *field) {
     return e->lost[field->offset + (int32_t)code(state, field)];
 }
 
-/* Which operators set a value that nothing follows from. */
+/* Which operators are of no use before an end: they set a value that nothing follows from, or nothing that matters to what
+   follows, or to whether anything does. */
 static void find_losers(Epochs *e) {
     const Problem *p = &e->problem;
-    for (int32_t op = 0; op < p->n_ops; op++)
+    for (int32_t op = 0; op < p->n_ops; op++) {
+        const size_t row = (size_t)op * p->words;
+        Word changes = 0;
+        for (int32_t w = 0; w < e->ends.words; w++) changes |= ~p->keep[row + w] & e->mask[w];
         for (size_t i = 0; i < e->losing.count && !e->loses[op]; i++) {
             const Field *field = &p->fields[e->losing.at[i]];
-            const size_t row = (size_t)op * p->words;
-            e->loses[op] = code(p->keep + row, field) == 0 && is_lost(e, p->put + row, field);
+            if (code(p->keep + row, field)) continue;
+            e->loses[op] = is_lost(e, p->put + row, field), changes = 1;
         }
+        e->loses[op] |= !changes;
+    }
 }
 
 /* The fields of a state that have to be set by the end, if this is it; who can. */
