@@ -37,7 +37,8 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
             deadline.check()
             op = operators[number]
             after, amount = state & op.keep | op.put, left - amounts[number]
-            if amount >= 0 and planner.cheapest(after, deadline, amount + 1, before=number) == amount:
+            may_be = amount >= 0 and planner.bound(after, deadline) <= amount
+            if may_be and planner.cheapest(after, deadline, amount + 1, before=number) == amount:
                 rest = [number, *in_order(operators, planner.known_plan(after, deadline) or (), deadline)]
                 break
             refuted.add(number)

@@ -4,13 +4,15 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields
 from fractions import Fraction
-from typing import Any, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from search import PreparedTask, WarmStart
-from serendipity.facade.memory import RememberedQuestion
 from serendipity.model import Deadline, HumanPlan, Options, Task, UsageError, Visible
 from serendipity.model.answers.answer import Answer
 from serendipity.model.resources.limits import limits_from
+
+if TYPE_CHECKING:  # only who asks again remembers
+    from serendipity.facade.memory import RememberedQuestion
 
 _ANSWER_SHARE: Final = 0.05
 """The share of the time limit that is kept for the end: dropping what the search has made takes time, too."""
@@ -39,7 +41,7 @@ class Request(NamedTuple):
     visible: Visible | None
     limits: Deadline
     deadline: Deadline
-    question: RememberedQuestion | None = None
+    question: "RememberedQuestion | None" = None
     predicts: bool = True
     optimum: Fraction | None = None
     original: Task | None = None

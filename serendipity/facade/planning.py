@@ -11,7 +11,6 @@ from search import PreparedTask
 from serendipity.facade import one_plan, ties
 from serendipity.facade.call import Given, Request, Solver, checked_call, options_from
 from serendipity.facade.logs import record, recorded
-from serendipity.facade.memory import SessionMemory
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_plan, to_result
 from serendipity.model import Deadline, Options, PlanOptions, Result, Task, UsageError, Visible
@@ -25,6 +24,7 @@ from serendipity.model.task.gate import needs_time, require_metered
 from serendipity.model.task.plans import PlanEntry, checked_entries
 
 if TYPE_CHECKING:
+    from serendipity.facade.memory import SessionMemory
     from serendipity.facade.scenarios import Unsure
     from serendipity.recognition import GoalsGiven, LibraryGiven, Noise, ObservedGiven
 
@@ -139,7 +139,7 @@ def planned(
     prepared: PreparedTask,
     given: Given,
     cancelled: threading.Event | None,
-    memory: SessionMemory | None = None,
+    memory: "SessionMemory | None" = None,
     **asked: Unpack[SessionOptions],
 ) -> Result:
     """:func:`plan` for those who hold a prepared task, and may remember answers."""
@@ -184,7 +184,7 @@ def planned_anytime(
     prepared: PreparedTask,
     given: Given,
     cancelled: threading.Event | None,
-    memory: SessionMemory | None = None,
+    memory: "SessionMemory | None" = None,
     **asked: Unpack[AnytimeOptions],
 ) -> Iterator[Result]:
     """:func:`plan_anytime` for those who hold a prepared task, and may remember answers."""
@@ -203,7 +203,7 @@ def _begun(
     prepared: PreparedTask,
     given: Given,
     cancelled: threading.Event | None,
-    memory: SessionMemory | None,
+    memory: "SessionMemory | None",
     asked: Mapping[str, Any],
     said: Mapping[str, Any] = MappingProxyType({}),
 ) -> tuple[Request, Iterator[tuple[Request, Answer]]]:

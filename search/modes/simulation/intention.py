@@ -1,7 +1,6 @@
 """Intentions: the rest of the human's current plan (``rho`` of semantics 6)."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cached_property
 
 from search.packed.cost_vector import CostLayout
@@ -10,7 +9,6 @@ from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedGoal, PackedTask
 
 
-@dataclass(frozen=True, eq=False)
 class Intention:
     """A sequence of the human's own actions; one object for each sequence.
 
@@ -23,12 +21,17 @@ class Intention:
         cost: their cost, scaled.
     """
 
-    number: int
-    op: Operator | None
-    option: JointAction
-    _rest: "Intention | None"
-    weight: int
-    cost: int
+    def __init__(
+        self,
+        number: int,
+        op: Operator | None,
+        option: JointAction,
+        rest: "Intention | None",
+        weight: int,
+        cost: int,
+    ) -> None:
+        self.number, self.op, self.option = number, op, option
+        self._rest, self.weight, self.cost = rest, weight, cost
 
     @property
     def rest(self) -> "Intention":
