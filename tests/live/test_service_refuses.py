@@ -2,6 +2,7 @@
 
 import functools
 import json
+import math
 import sys
 from typing import Any
 
@@ -131,10 +132,13 @@ def priced(cost: str) -> dict[str, object]:
         ({"task": {"example": "\ud800"}}, "body: expected text, got half of a surrogate pair"),
         ({"task": {**priced("1"), "domain": "\udfff"}}, "body: expected text"),
         ({"task": ROOM2, "options": {"mode": "\ud800"}}, "body: expected text"),
+        ({"task": ROOM2, "options": {"max_cost": math.nan}}, "body: expected finite numbers, got NaN"),
+        ({"task": ROOM2, "options": {"mode": "composite", "horizon": math.inf}}, "body: expected finite"),
+        ({"task": ROOM2, "goals": [{"goal": [], "prior": math.inf}]}, "body: expected finite numbers"),
         ({"task": {"agents": {"a" * 300: {"domain": "", "problem": ""}}}}, "agents: expected the name"),
         ({"task": priced(f"(* {'(c) ' * 1000})")}, "domain.pddl:1: action 'a h': expected a cost of at most"),
     ],
-    ids=["nested", "deeply", "example", "domain", "option", "name", "product"],
+    ids=["nested", "deeply", "example", "domain", "option", "nan", "horizon", "prior", "name", "product"],
 )
 def test_what_is_odd_is_one_line(server: Server, body: object, start: str) -> None:
     answer = sent(server, json.dumps(body))

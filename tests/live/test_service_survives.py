@@ -13,6 +13,7 @@ from serendipity.live.service.sessions import SessionStore
 from tests.live.server import Server, serving, until, workers_of
 
 ROOM2 = {"example": "room2"}
+KEY = {"Idempotency-Key": "once"}
 ASKED = {"task": ROOM2, "options": {"discount": 0.6}}
 
 
@@ -102,10 +103,13 @@ def test_one_call_of_a_session_at_a_time(server: Server, long_call: dict[str, ob
     session = server.post("/sessions", long_call).json()
     connection = begin(server, f"/sessions/{session['id']}/plan", {})
     until(lambda: server.busy == 1)
-    assert server.post(f"/sessions/{session['id']}/execute", {"actions": []}).status_code == 409
+    step = (f"/sessions/{session['id']}/execute", {"actions": []})
+    assert server.post(*step).status_code == 409
+    assert server.post(*step, headers=KEY).status_code == 409
     connection.close()
     until(lambda: server.busy == 0, seconds=5)
-    assert server.post(f"/sessions/{session['id']}/execute", {"actions": []}).status_code == 200
+    assert server.post(*step).status_code == 200
+    assert server.post(*step, headers=KEY).status_code == 200  # that another one is under way is not kept
 
 
 @pytest.mark.long

@@ -20,7 +20,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 _HEADER: Final = "idempotency-key"
 _LONGEST: Final = 200
 """Letters of a key."""
-_AGAIN: Final = (408, 429)
+_AGAIN: Final = (408, 409, 429)
 _STREAMED: Final = b"text/event-stream"
 
 

@@ -21,18 +21,20 @@ def _options_schema() -> dict[str, Any]:
 
 
 class RequestPart(BaseModel):
-    """A part of a request; what it does not know is an error, and so is what is no text."""
+    """A part of a request; what it does not know is an error, and so is what is no text or no number."""
 
     model_config = ConfigDict(extra="forbid")
 
     @model_validator(mode="before")
     @classmethod
-    def _only_text(cls, given: object) -> object:
+    def _only_json(cls, given: object) -> object:
         try:
             if isinstance(given, dict):
-                json.dumps(given, ensure_ascii=False).encode()
+                json.dumps(given, ensure_ascii=False, allow_nan=False).encode()
         except UnicodeEncodeError:
             raise ValueError("expected text, got half of a surrogate pair") from None
+        except ValueError:
+            raise ValueError("expected finite numbers, got NaN, Infinity or one that is too large") from None
         except RecursionError:
             raise ValueError("it is nested too deeply") from None
         return given
