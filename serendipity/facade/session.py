@@ -124,8 +124,9 @@ class Session:
         task, chosen = self.task, options_from(dict(self._options))
         asked, begun = chosen.to_dict(), self._begun
         time, passed = {}, self._memory.passed
-        if begun.needs_time or passed:
-            time = {"time": {"passed": passed, "going": going_on(begun, passed, task)}}
+        if begun.needs_time or passed or self._asleep:
+            going = going_on(begun, passed, task)
+            time = {"time": {"passed": passed, "going": going, "asleep": self._asleep}}
         return {
             "schema": SNAPSHOT,
             "task": begun.digest,
@@ -161,6 +162,7 @@ class Session:
             time, true = snapshot.get("time", {"passed": 0, "going": ()}), frozenset(snapshot["facts"])
             session = cls(taken_up(task, time["passed"], time["going"]) if task.needs_time else task, **asked)
             session._begun, session._memory.passed = task, time["passed"]
+            session._up = time["passed"] + time.get("asleep", session._asleep)
             session.set_goal(snapshot["goal"])
             session.change({fact: fact in true for fact in task.facts})
             session.follow(snapshot["human_plan"])

@@ -52,6 +52,19 @@ def test_a_goal_and_facts_that_were_seen_are_kept() -> None:
     assert restored.plan().cost == session.plan().cost
 
 
+def test_a_head_start_of_a_call_is_kept() -> None:
+    task = serendipity.example("office")
+    late = [(epoch + 4, name) for epoch, name in serendipity.plan(task).human_entries or ()]
+    session = Session(task, human_plan=late)
+    session.plan(head_start=3)
+    restored = Session.restore(task, written(session))
+    for _ in range(4):
+        session.execute([])
+        restored.execute([])
+        assert restored.human_plan == session.human_plan
+        assert written(restored) == written(session)
+
+
 def test_what_is_no_snapshot_of_the_task_is_refused() -> None:
     whole = written(begun())
     with pytest.raises(InputError, match=r"snapshot: it is of another task"):
