@@ -6,7 +6,8 @@ from random import Random
 from typing import Final
 
 from serendipity.model import Task, UsageError, exact
-from serendipity.model.arguments import Kind, expect_or_none, shown
+from serendipity.model.arguments import Kind, expect_or_none
+from serendipity.model.keywords import require_one_of
 from serendipity.model.rates import Rates
 from serendipity.robot import Adapter, Durations, Simulated
 
@@ -68,8 +69,8 @@ class AdapterChoice:
         given = Durations.parse(durations) if isinstance(durations, str) else durations
         expect_or_none(Kind("Faults, or a text", lambda value: isinstance(value, Faults)), faults=wrong)
         expect_or_none(Kind("Durations, or a text", lambda v: isinstance(v, Durations)), durations=given)
-        if not (maker is None or maker in ADAPTERS or callable(maker)):
-            raise UsageError(f"adapter: expected one of {', '.join(ADAPTERS)}, got {shown(maker)}")
+        if maker is not None and not callable(maker):
+            require_one_of("adapter", maker, ADAPTERS)
         seconds = None if epoch_seconds is None else float(exact(epoch_seconds, "epoch_seconds"))
         if seconds is not None and seconds <= 0:
             raise UsageError(f"epoch_seconds: expected more than 0, got {seconds:g}")

@@ -16,7 +16,7 @@ from serendipity.execution.why import Why
 from serendipity.execution.world import Unfinished, World
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, HumanModel, Options, PlanStep, Step, Table, Task, UsageError
-from serendipity.model.arguments import BY_NAME, TASK_IN_TIME, TEXT, expect, expect_or_none
+from serendipity.model.arguments import BY_NAME, FLAG, TASK_IN_TIME, TEXT, expect, expect_or_none
 from serendipity.model.errors import LIMITS
 from serendipity.model.keywords import Interference
 from serendipity.model.numbers import Number
@@ -105,6 +105,8 @@ class Execution(Tabular):
         robots: Robots | None = None,
     ) -> None:
         expect(TASK_IN_TIME, task=task)
+        expect(FLAG, told=told)
+        expect(TEXT, mode=mode)
         if mode != "serendipity" and not (told and mode == "communication"):
             expected = "serendipity or communication" if told else "serendipity, where nobody is told"
             raise UsageError(f"mode: expected {expected}, got '{mode}'")

@@ -22,7 +22,7 @@ from serendipity.execution.runs import Run, Runs
 from serendipity.facade.planning import plan
 from serendipity.model import HumanModel, HumanPlan, PlanError, Result, Task, UsageError
 from serendipity.model.arguments import FUNCTION, TASK_IN_TIME, WHOLE, expect, expect_or_none
-from serendipity.model.keywords import CHOICES, Interference, listing
+from serendipity.model.keywords import CHOICES, Interference, listing, require_one_of
 from serendipity.model.numbers import Number
 from serendipity.model.resources.processes import in_processes
 from serendipity.model.task.course import BrokenPlanError
@@ -116,8 +116,7 @@ def execute(
     for what, number in (("runs", runs), ("jobs", jobs), ("epochs", 1 if epochs is None else epochs)):
         if number < 1:
             raise UsageError(f"{what}: expected at least 1, got {number}")
-    if ties not in TIES:
-        raise UsageError(f"ties: expected one of {', '.join(TIES)}, got '{ties}'")
+    require_one_of("ties", ties, TIES)
     if isinstance(human, str):
         name, persona = human, persona_from(task, human)
     else:
@@ -125,10 +124,10 @@ def execute(
     if persona.told and goals is not None and (task.robot_goal or options.get("mode") == "communication"):
         why = "with robots' own goals, or communication, an omniscient person's goal is known"
         raise UsageError(f"goals: {why}")
-    model = human_model or (persona.human_model if plans is None else "omniscient")
-    if model not in CHOICES["human_model"]:
-        known = ", ".join(CHOICES["human_model"])
-        raise UsageError(f"human_model: expected one of {known}, got '{model}'")
+    model = (
+        human_model if human_model is not None else (persona.human_model if plans is None else "omniscient")
+    )
+    require_one_of("human_model", model, CHOICES["human_model"])
     if plans is not None and model != "omniscient":
         raise UsageError("human_model: with plans only 'omniscient' is possible")
     adapters = AdapterChoice(adapter, faults, durations, epoch_seconds)

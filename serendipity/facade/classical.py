@@ -25,6 +25,7 @@ from serendipity.facade.logs import record
 from serendipity.model import UsageError
 from serendipity.model.answers.answer import Answer, Improvement, Tried
 from serendipity.model.errors import LIMITS, SerendipityError
+from serendipity.model.keywords import require_one_of
 from serendipity.model.numbers import total
 from serendipity.model.options import INFINITE, Options
 from serendipity.model.task.actions import apply
@@ -53,8 +54,7 @@ def check_classical(name: str, options: Options) -> None:
     Raises:
         UsageError: there is none, it is not installed, or it knows nothing of such calls.
     """
-    if name not in PLANNERS:
-        raise UsageError(f"classical: expected one of {', '.join(PLANNERS)}, got {name!r:.50}")
+    require_one_of("classical", name, PLANNERS)
     if options.mode != "individual" and options.horizon != INFINITE:
         raise UsageError("classical: is for individual mode, and for composite mode without a horizon")
     missing = absent(PLANNERS[name], translates=False)

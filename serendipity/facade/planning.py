@@ -118,7 +118,7 @@ def plan(
         **options,
     }
     if human is not None:
-        if human != "any":
+        if not isinstance(human, str) or human != "any":
             raise UsageError(f"human: expected 'any', got {human!r:.50}; another one has Task.with_human")
         if human_plan is not None or goals is not None or plans is not None:
             raise UsageError("human: 'any' goes without human_plan, goals and plans")

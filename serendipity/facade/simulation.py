@@ -11,9 +11,9 @@ from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Result, Step, Task, Visible
 from serendipity.model.answers.trace import WHY, Trace, TraceEpoch, TraceSkip
-from serendipity.model.arguments import FUNCTION, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none, shown
+from serendipity.model.arguments import FUNCTION, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.errors import LIMITS, InputError, UsageError
-from serendipity.model.keywords import Horizon
+from serendipity.model.keywords import Horizon, require_one_of
 from serendipity.model.numbers import plain, rounded
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.task.execution import actions_named, participants
@@ -54,9 +54,7 @@ def simulate(
     expect(TASK_IN_TIME, task=task)
     expect(RESULT_IN_TIME, result=result)
     expect_or_none(FUNCTION, visible=visible)
-    if human_model not in HUMAN_MODELS:
-        got = shown(human_model)
-        raise UsageError(f"human_model: expected one of {', '.join(HUMAN_MODELS)}, got {got}")
+    require_one_of("human_model", human_model, HUMAN_MODELS)
     if result.plan is None or result.cost is None:
         raise InputError("result: has no plan to simulate")
     if result.human != task.agents[task.human]:

@@ -1,7 +1,7 @@
 """Type checks of arguments of public calls: one sentence for a value of another type."""
 
 from collections.abc import Callable, Iterable, Mapping
-from os import PathLike, fspath
+from os import PathLike, fsencode, fspath
 from typing import Final, NamedTuple
 
 from serendipity.model.answers.result import Result
@@ -21,7 +21,10 @@ class Kind(NamedTuple):
 
 def _is_path(value: object) -> bool:
     text = fspath(value) if isinstance(value, PathLike) else value
-    return isinstance(text, str) and "\0" not in text
+    try:
+        return isinstance(text, str) and b"\0" not in fsencode(text)
+    except UnicodeEncodeError:
+        return False
 
 
 def _is_pair(value: object) -> bool:
@@ -48,6 +51,7 @@ PATH: Final = Kind("a path", _is_path)
 TEXT: Final = Kind("a text", lambda value: isinstance(value, str))
 PAIR: Final = Kind("the paths of a domain and of a problem", _is_pair)
 WHOLE: Final = Kind("a whole number", _is_whole)
+FLAG: Final = Kind("true or false", lambda value: isinstance(value, bool))
 FUNCTION: Final = Kind("a function", callable)
 LIST: Final = Kind("a list", _is_list)
 BY_NAME: Final = Kind("a mapping from names", _has_names)

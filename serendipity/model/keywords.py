@@ -1,9 +1,10 @@
 """Options as typed keyword arguments: a checker sees names that no option has, and values that can't be."""
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, Final, Literal, TypedDict, TypeVar, get_args
 
+from serendipity.model.errors import UsageError
 from serendipity.model.numbers import Number
 
 Horizon = int | Literal["inf"]
@@ -73,6 +74,12 @@ class PlanOptions(AnswerOptions, total=False):
     time_limit: float | None
     memory_limit: float | None
     strategies: str | None
+
+
+def require_one_of(name: str, value: object, known: Iterable[str]) -> None:
+    """Return if the value of an argument, of whatever type, is one of some words; a UsageError says which."""
+    if not (isinstance(value, str) and value in known):
+        raise UsageError(f"{name}: expected one of {', '.join(known)}, got {value!r:.50}")
 
 
 F = TypeVar("F", bound=Callable[..., Any])

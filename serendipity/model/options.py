@@ -17,6 +17,7 @@ from serendipity.model.keywords import (
     Risk,
     Suffix,
     Ties,
+    require_one_of,
 )
 from serendipity.model.numbers import exact, unrounded
 
@@ -142,14 +143,12 @@ class Options:
 
     def __post_init__(self) -> None:
         for name, legal in CHOICES.items():
-            if getattr(self, name) not in legal:
-                given = f"{getattr(self, name)!r:.50}"
-                raise UsageError(f"{name}: expected one of {', '.join(legal)}, got {given}")
+            require_one_of(name, getattr(self, name), legal)
         for name in ("discount", "window_weight", "communication_weight", "waiting_cost"):
             self._set(name, _not_negative(exact(getattr(self, name), name), name))
         if self.discount > 1:
             raise UsageError(f"discount: expected a number in [0, 1], got {float(self.discount):g}")
-        if self.max_cost is not None and self.max_cost != "human":
+        if self.max_cost is not None and not _is(self.max_cost, "human"):
             self._set("max_cost", _not_negative(exact(self.max_cost, "max_cost"), "max_cost"))
         for name, legal_flags in _FLAGS.items():
             if not any(getattr(self, name) is flag for flag in legal_flags):
@@ -166,7 +165,8 @@ class Options:
         self._set("max_ties", _whole(self.max_ties, "max_ties", least=1, most=MAX_TIES))
         for name, unit in _LIMITS.items():
             if getattr(self, name) is not None:
-                self._set(name, limit_of(name, getattr(self, name), unit))
+                limit = limit_of(name, getattr(self, name), unit)
+                self._set(name, None if math.isinf(limit) else limit)
         names = self.strategies
         if names is not None and not (isinstance(names, str) and self.strategy_names):
             raise UsageError(f"strategies: expected names apart by commas, got {names!r:.50}")
@@ -280,6 +280,10 @@ def _comes_back(value: object, option: object) -> bool:
     return value is option or (value == option and not isinstance(value, bool))
 
 
+def _is(value: object, word: str) -> bool:
+    return isinstance(value, str) and value == word
+
+
 def _not_negative(value: Fraction, name: str) -> Fraction:
     if value < 0:
         raise UsageError(f"{name}: expected a number of at least 0, got {float(value):g}")
@@ -292,16 +296,16 @@ def _whole(value: object, name: str, *, least: int, most: int | None = None) -> 
     except ValueError:
         raise UsageError(f"{name}: expected a whole number, got {value!r:.50}") from None
     if number < least:
-        raise UsageError(f"{name}: expected at least {least}, got {number}")
+        raise UsageError(f"{name}: expected at least {least}, got {number!r:.50}")
     if most is not None and number > most:
-        raise UsageError(f"{name}: expected at most {most}, got {number}")
+        raise UsageError(f"{name}: expected at most {most}, got {number!r:.50}")
     return number
 
 
 def _horizon(value: object) -> Horizon | None:
-    if value is None or value == INFINITE:
-        return value
-    if isinstance(value, float) and math.isinf(value) and value > 0:
+    if value is None:
+        return None
+    if _is(value, INFINITE) or (isinstance(value, float) and value == math.inf):
         return INFINITE
     return _whole(value, "horizon", least=0, most=MAX_EPOCH)
 

@@ -6,6 +6,7 @@ draws it.
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
+from numbers import Integral
 
 from serendipity.model import UsageError
 from serendipity.pictures.formats.page import page
@@ -43,8 +44,8 @@ def draw(
 def check_epoch(scene: Scene, epoch: int | None) -> None:
     """Whether there is such an epoch."""
     last = scene.frames[-1].epoch
-    if epoch is not None and not 0 <= epoch <= last:
-        raise UsageError(f"epoch: expected one from 0 to {last}, got {epoch}")
+    if epoch is not None and not (isinstance(epoch, Integral) and 0 <= epoch <= last):
+        raise UsageError(f"epoch: expected one from 0 to {last}, got {epoch!r:.50}")
 
 
 def draw_windows(maps: Mapping[str, Savings], starts: int, horizon: int, suffix: str) -> str | bytes:

@@ -5,8 +5,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from serendipity.model import Deadline, Script, Task, UsageError
-from serendipity.model.arguments import DEADLINE, expect_or_none, shown
+from serendipity.model import Deadline, Script, Task
+from serendipity.model.arguments import DEADLINE, expect_or_none
+from serendipity.model.keywords import require_one_of
 from serendipity.model.numbers import Number
 from serendipity.pddl import read_pddl
 
@@ -90,6 +91,5 @@ def example(name: str, *, epoch: Number | None = None, deadline: Deadline | None
         LimitReachedError: the deadline came first.
     """
     expect_or_none(DEADLINE, deadline=deadline)
-    if not isinstance(name, str) or name not in EXAMPLES:
-        raise UsageError(f"example: expected one of {', '.join(EXAMPLES)}, got {shown(name)}")
+    require_one_of("example", name, EXAMPLES)
     return EXAMPLES[name].load(deadline, epoch)

@@ -6,6 +6,7 @@ from typing import Final, Literal
 
 from serendipity.model import UsageError
 from serendipity.model.arguments import PATH, TEXT, WHOLE, expect, expect_or_none
+from serendipity.model.keywords import require_one_of
 from serendipity.scenarios.usar import Building, Usar, figure2, pddl_files, random_building
 from serendipity.writing.together import write_together
 
@@ -78,16 +79,15 @@ def make_usar(
     expect_or_none(TEXT, preset=preset)
     size = (max(rooms, 1) + max(medkits, 1) + max(extra_edges, 0)) * max(robots, 1)
     if size > _MOST:
-        raise UsageError(
-            f"rooms, medkits, extra_edges: expected at most {_MOST:,} together, once a robot, got {size:,}"
-        )
+        most = f"at most {_MOST:,} together, once a robot"
+        raise UsageError(f"rooms, medkits, extra_edges: expected {most}, got {f'{size:,}':.50}")
     if preset in _WORKED_EXAMPLES:
         return worked_example(preset)
     if preset == "figure2":
         name = f"usar-figure2-m{medkits}-k{robots}-s{seed}"
         return random_usar(figure2(), name=name, medkits=medkits, robots=robots, seed=seed)
     if preset is not None:
-        raise UsageError(f"preset: expected one of {', '.join(PRESETS)}, got '{preset}'")
+        require_one_of("preset", preset, PRESETS)
     shape = f"e{extra_edges}" if corridors is None else f"e{extra_edges}-c{corridors}"
     name = f"usar-r{rooms}-m{medkits}-k{robots}-{shape}-s{seed}"
     building = random_building(rooms, seed=seed, extra_edges=extra_edges, corridors=corridors)

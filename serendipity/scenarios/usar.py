@@ -13,6 +13,7 @@ from random import Random
 from typing import Final
 
 from serendipity.model import UsageError
+from serendipity.model.keywords import require_one_of
 
 _HALLS_PER_LOCATION = 8 / 21  # as in Figure 2
 _NEW_CORRIDOR = 0.2  # chance that a hall starts a corridor instead of prolonging the last one
@@ -87,7 +88,9 @@ def random_building(
         raise UsageError(f"extra_edges: expected from 0 to {free} for {locations} rooms, got {extra_edges}")
     halls = [f"hall{i}" for i in range(1, max(1, round(locations * _HALLS_PER_LOCATION)) + 1)]
     if corridors is not None and not 1 <= corridors <= len(halls):
-        raise UsageError(f"corridors: expected from 1 to {len(halls)} for {locations} rooms, got {corridors}")
+        raise UsageError(
+            f"corridors: expected from 1 to {len(halls)} for {locations} rooms, got {corridors!r:.50}"
+        )
     random = Random(f"building {seed}")
     rooms = [f"room{i}" for i in range(1, locations - len(halls) + 1)]
     tree = _corridors(halls, corridors, random) + _doors(halls, rooms, random)
@@ -178,8 +181,7 @@ _DOMAIN: Final = Path(__file__).parent / "data" / "usar" / "domain.pddl"
 
 def pddl_files(task: Usar, layout: str = "agents") -> dict[str, str]:
     """The PDDL texts of a task by path in its folder; a UsageError where there is no such layout."""
-    if layout not in LAYOUTS:
-        raise UsageError(f"layout: expected one of {', '.join(LAYOUTS)}, got '{layout}'")
+    require_one_of("layout", layout, LAYOUTS)
     return LAYOUTS[layout](task)
 
 

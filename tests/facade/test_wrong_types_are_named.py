@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import serendipity
@@ -41,7 +42,17 @@ def test_wrong_types(what: str) -> None:
 
 
 Asked = tuple[Callable[..., Any], dict[str, Any]]
-_TRIED = {"discount", "mode", "human_model", "interference", "ties", "time_limit", "memory_limit"}
+_TRIED = {
+    "discount",
+    "mode",
+    "horizon",
+    "max_cost",
+    "human_model",
+    "interference",
+    "ties",
+    "time_limit",
+    "memory_limit",
+}
 MORE_OPTIONS = set(Options().to_dict()) - _TRIED
 """They are read as those are."""
 
@@ -80,6 +91,7 @@ CALLS: dict[str, Asked] = {
     "load_pddl": _of(serendipity.load_pddl, domain="d", problem="p", human="h", robots=["r"]),
     "recognise": _of(serendipity.recognise, task=TASK, goals=GOALS),
     "reproduce": _of(serendipity.reproduce, folder="none", modes=("individual",), discounts=(0,)),
+    "show": _of(serendipity.show, task=TASK, answer=RESULT),
     "simulate": _of(serendipity.simulate, task=TASK, result=RESULT),
     "Session": _of(Session, task=TASK),
     "Session.execute": (lambda actions: Session(TASK).execute(actions), {"actions": []}),
@@ -99,7 +111,11 @@ CALLS: dict[str, Asked] = {
     "Task.plan_from_names": (TASK.plan_from_names, {"names": ["do h"]}),
 }
 
-ANYTHING = (None, 5, 2.5, "nonsense", "a\0b", b"x", [], ["x"], [["x"]], [None], {"a": 1}, {1: 2}, object())
+ARRAY = np.array([1, 2])  # whose == is no truth value
+ANYTHING = (
+    *(None, 5, 2.5, "nonsense", "a\0b", "\ud800", b"x", object(), ARRAY, 10**300),
+    *([], ["x"], [["x"]], [None], {"a": 1}, {1: 2}),
+)
 
 
 @pytest.mark.parametrize(
@@ -116,3 +132,4 @@ def test_anything_for_any_argument(
             asked(**good | {argument: value})
         except SerendipityError as error:
             assert "\n" not in str(error)
+            assert len(str(error)) < 400

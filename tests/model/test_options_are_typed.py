@@ -75,3 +75,9 @@ def test_what_executions_hand_on_is_what_they_take() -> None:
     taken = inspect.signature(serendipity.Execution).parameters
     for name in ("discount", "deadline", "setup", "beta", "mode", "interference"):
         assert handed_on[name].annotation == taken[name].annotation
+
+
+@pytest.mark.parametrize("name", ["time_limit", "memory_limit"])
+def test_a_limit_without_an_end_is_none(name: str) -> None:
+    for endless in (float("inf"), "inf"):
+        assert Options(**{name: endless}) == Options()  # JSON has no infinity

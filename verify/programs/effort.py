@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Final, NamedTuple, Protocol
 
 from serendipity.model import Deadline, Step, UsageError, Window
+from serendipity.model.keywords import require_one_of
 from verify.base.execution import State
 from verify.base.subproblem import PricedPlan, Subproblem
 from verify.base.undecided import UndecidedError
@@ -120,8 +121,7 @@ class Effort:
 
     def __post_init__(self) -> None:
         for name, known in (("method", METHODS), ("encoding", tuple(ENCODINGS)), ("solver", SOLVERS)):
-            if getattr(self, name) not in known:
-                raise UsageError(f"{name}: expected one of {', '.join(known)}, got {getattr(self, name)!r}")
+            require_one_of(name, getattr(self, name), known)
 
     @property
     def size(self) -> dict[str, int]:

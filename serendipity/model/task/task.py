@@ -8,6 +8,7 @@ from functools import cached_property
 from itertools import accumulate
 
 from serendipity.model.errors import PlanError, UsageError
+from serendipity.model.keywords import require_one_of
 from serendipity.model.numbers import plain, total
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import NOOP, Condition, Disjunction, GroundAction, apply, fitted
@@ -383,6 +384,5 @@ class Task(Told):
             UsageError: there is no such agent.
         """
         name = canonical_name(human) if isinstance(human, str) else human
-        if name not in self.agents:
-            raise UsageError(f"human: expected one of {', '.join(self.agents)}, got '{human!s:.50}'")
+        require_one_of("human", name, self.agents)
         return replace(self, human=self.agents.index(name), known_variables=self.variables)

@@ -15,7 +15,7 @@ def find_scenario(result: Result, name: str | None) -> int | None:
     if name is not None and not found:
         known = ", ".join(entry.name or str(i) for i, entry in enumerate(entries, start=1))
         expected = f"one of {known}" if known else "none, for the result is about no scenarios"
-        raise UsageError(f"scenario: expected {expected}; got '{name}'")
+        raise UsageError(f"scenario: expected {expected}; got '{name!s:.50}'")
     return max(found, key=lambda i: (entries[i].name == name, entries[i].probability), default=None)
 
 
