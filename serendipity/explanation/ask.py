@@ -15,6 +15,7 @@ from typing import Any, Final, NamedTuple
 from serendipity.facade.interruptibility import InterruptionReport
 from serendipity.facade.planning import plan
 from serendipity.model import Deadline, LimitReachedError, Options, Result, Task
+from serendipity.model.numbers import as_written
 from serendipity.model.task.plans import PlanEntry
 from serendipity.model.task.plans_in_time import waited
 from serendipity.model.task.task import canonical_name
@@ -70,12 +71,14 @@ class Parts:
         robots: undiscounted cost of everything else.
         announced: communication cost.
         length: epochs of the window, 0 without one.
+        left: price of what is left changed.
     """
 
     human: Fraction
     robots: Fraction
     announced: Fraction
     length: int
+    left: Fraction
 
     def discounted(self, options: Options) -> Fraction:
         """What the robots' part costs."""
@@ -83,7 +86,8 @@ class Parts:
 
     def objective(self, options: Options) -> Fraction:
         """Cost, communication and window (semantics 3.1, 3.4)."""
-        return self.human + self.discounted(options) + self.announced + options.window_weight * self.length
+        paid = self.human + self.discounted(options) + self.left
+        return paid + self.announced + options.window_weight * self.length
 
 
 def parts_of(task: Task, result: Result) -> Parts:
@@ -100,7 +104,10 @@ def parts_of(task: Task, result: Result) -> Parts:
         human += cost
         if step.action not in former and result.options.mode == "communication":
             announced += cost * result.options.communication_weight
-    return Parts(human, robots, announced, 0 if result.window is None else len(result.window))
+    left = Fraction(0)
+    if result.options.leave_price is not None and result.cost is not None:
+        left = as_written(result.cost) - human - (1 - result.options.discount) * robots
+    return Parts(human, robots, announced, 0 if result.window is None else len(result.window), left)
 
 
 def _alone(task: Task, result: Result) -> Fraction:

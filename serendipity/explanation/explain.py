@@ -125,7 +125,8 @@ def _explained(ask: Ask, answer: Result, on_progress: OnProgress) -> Explanation
     """Everything about an answer; the windows, of which there are many, come last."""
     options, has_plan = ask.options, answer.human_plan is not None
     untold, replans = has_plan and options.mode == "serendipity", options.human_model != "omniscient"
-    windows = untold and not replans
+    binds = bool(answer.statistics.get("rule_binds"))  # what windows could save knows of no rule
+    windows = untold and not replans and not binds
     priced = has_plan and _has_thresholds(ask, answer)
     helpless = has_plan and not answer.opportunity
     early = answer.opportunity and bool(options.head_start)

@@ -13,6 +13,7 @@ from serendipity.facade.interruptibility import Interruption, InterruptionReport
 from serendipity.model import Result, Window
 from serendipity.model.answers.fields import Written, written
 from serendipity.model.numbers import as_written
+from serendipity.model.task.gate import nobody_pays
 from serendipity.model.telling import Grid, Line, Output
 
 WHY: Final = {
@@ -96,6 +97,11 @@ RULES: Final = {
     "preservation": "keeping only what the human needs (preservation kernel)",
     "interference": "the paper's interference rule",
     "max_cost": "dearer plans (no max_cost)",
+    "leave_free": "leaving anything changed (no leave_free)",
+    "leave_price": "leaving anything changed for nothing (no leave_price)",
+    "max_disturbance": "disturbing the human more (no max_disturbance)",
+    "noticed": "help that the human has not noticed (without noticed)",
+    "nobody_pays": "help for which somebody pays (somebody-pays)",
     "local": "planning for people who see everything (human model observant)",
     "sight": "planning for people who do what the plan says, told or not (human model omniscient)",
     "no_block": "leaving them without a plan of their own meanwhile (allow-block)",
@@ -108,6 +114,10 @@ _LOOSEST: Final = {
     "preservation": "kernel",
     "interference": "paper",
     "max_cost": None,
+    "leave_free": None,
+    "leave_price": None,
+    "max_disturbance": None,
+    "noticed": False,
 }
 """The loosest value of each option that restricts plans."""
 
@@ -120,6 +130,7 @@ TOLD: Final = {
     "keep_prefix": False,
     "human_model": "omniscient",
     "no_block": None,
+    "noticed": False,
 }
 """The changes with which the human is told."""
 
@@ -184,6 +195,8 @@ def _relaxations(ask: Ask) -> list[tuple[str, dict[str, Any]]]:
     if replans:
         wanted.append(("sight", {"human_model": "omniscient", "no_block": None}))
         wanted += [("no_block", {"no_block": False})] if options.no_block is not False else []
+    if nobody_pays(ask.task, options):
+        wanted.append(("nobody_pays", {"nobody_pays": False}))
     for name, loosest in _LOOSEST.items():
         if getattr(options, name) != loosest and not (replans and name in _OF_WINDOWS):
             wanted.append((name, {name: loosest}))
@@ -273,6 +286,7 @@ class Explanation(Output):
             "replacement": None if gone is None else list(gone.replacement),
             "human_part": None if self.parts is None else float(self.parts.human),
             "robot_part": None if self.parts is None else float(self.parts.discounted(answer.options)),
+            **({"left_part": float(self.parts.left)} if self.parts is not None and self.parts.left else {}),
             **written(self, ("moments",)),
             "break_even_discount": None if self.discount is None else self.discount.to_dict(),
             "break_even_window_weight": None if self.window_weight is None else self.window_weight.to_dict(),

@@ -81,6 +81,7 @@ def _help(found: Explanation) -> Iterator[str]:
     yield (
         f"{answer.human} pays {plain(parts.human)} instead of {plain(answer.human_cost or 0)}; "
         f"the robots' work costs {plain(parts.discounted(answer.options))}; "
+        f"{f'what is left changed costs {plain(parts.left)}; ' if parts.left else ''}"
         f"together {plain(answer.cost or 0)}, {plain(answer.saving or 0)} less."
     )
     if answer.status == "feasible":
