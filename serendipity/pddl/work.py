@@ -51,7 +51,7 @@ def within_limits(
         reason = limit_reason(error)
         doing = error.doing if isinstance(error, LimitReachedError) else None
     # Raised out here, where nothing refers to what was made so far, and all of it can go.
-    raise LimitReachedError(reason, doing or f"reading the task ({work.doing})")
+    raise LimitReachedError(reason, doing or "reading the task" + (f" ({work.doing})" if work.doing else ""))
 
 
 def about(number: int) -> str:

@@ -1,6 +1,6 @@
 """Who is the human, who are the robots, and whose goals are whose."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,6 +9,7 @@ from unified_planning.model import Type as UPType
 from unified_planning.model.multi_agent import Agent, MultiAgentProblem
 
 from serendipity.model import UsageError
+from serendipity.model.arguments import shown
 from serendipity.up.vocabulary import ALONE, Owner, Vocabulary
 
 Goals = tuple[tuple[Owner, FNode], ...]
@@ -86,8 +87,7 @@ def _of_objects(vocabulary: Vocabulary, human: Any, robots: Any, goals: Goals) -
         if not found:
             raise UsageError(f"robots: there is no other object of type '{kin}': say which are robots")
     else:
-        given = [robots] if isinstance(robots, str | Object | UPType) else list(robots)
-        found = [thing for one in given for thing in _objects(vocabulary, one) if thing != chosen]
+        found = [thing for one in _several(robots) for thing in _objects(vocabulary, one) if thing != chosen]
     names = tuple(vocabulary.object(thing) for thing in (chosen, *found))
     if len(names) != len(set(names)):
         raise UsageError("robots: an agent is named twice")
@@ -108,8 +108,18 @@ def _objects(vocabulary: Vocabulary, one: Any) -> list[Object]:
 
 
 def _texts(some: Any) -> list[str]:
-    return [_text(some)] if isinstance(some, str | Agent) else [_text(one) for one in some]
+    return [_text(one) for one in _several(some)]
+
+
+def _several(some: Any) -> list[Any]:
+    if isinstance(some, str | Agent | Object | UPType):
+        return [some]
+    if not isinstance(some, Iterable):
+        raise UsageError(f"robots: expected names, or what has one, got {shown(some)}")
+    return list(some)
 
 
 def _text(one: Any) -> str:
+    if not isinstance(one, str) and not isinstance(getattr(one, "name", None), str):
+        raise UsageError(f"agent: expected a name, or what has one, got {shown(one)}")
     return one if isinstance(one, str) else str(one.name)

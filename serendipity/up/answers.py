@@ -89,6 +89,9 @@ def call_of(parameters: dict[str, Any]) -> EngineCall:
         if message.startswith("unknown option"):
             message = f"{message}, {', '.join(_OWN)}"
         raise UsageError(message) from None
+    if options.mode == "assistance" or options.ties in ("watched", "expected"):
+        what = "mode 'assistance'" if options.mode == "assistance" else f"ties '{options.ties}'"
+        raise UsageError(f"{what}: the answer is no single plan, which is all that unified-planning has")
     return replace(EngineCall(options, **own), given=tuple(parameters.items()))
 
 
@@ -113,7 +116,10 @@ class Answers:
     ) -> None:
         self._problem = problem
         self._call = call
-        self._limits = limits_from(timeout, None)
+        try:
+            self._limits = limits_from(timeout, None)
+        except UsageError as error:
+            raise UPUsageError(f"{ENGINE}: {error}") from None
         self._messages = [LogMessage(LogLevel.WARNING, f"{name}: not used") for name in ignored]
 
     def all(self, *, any_plan: bool = False) -> Iterator[PlanGenerationResult]:

@@ -25,7 +25,7 @@ from unified_planning.plans import (
 
 from serendipity.model import GroundAction, PlanError, PlanStep, Result, Task, UsageError
 from serendipity.model.task.actions import apply, in_turn
-from serendipity.model.task.plans import PlanEntry
+from serendipity.model.task.plans import PlanEntry, checked_entries
 from serendipity.up.reading import Reading, read
 from serendipity.up.schedule import start_times, variant_in
 from serendipity.up.vocabulary import ALONE, UPProblem, Vocabulary
@@ -165,7 +165,7 @@ def _in_time(steps: Sequence[PlanStep], reading: Reading) -> TimeTriggeredPlan:
 def human_plan_of(plan: Plan | Iterable[str], reading: Reading) -> tuple[PlanEntry, ...]:
     """What the human does in a plan, others apart, by names; with epochs where the plan has times."""
     if not isinstance(plan, Plan):
-        return tuple(plan)
+        return checked_entries(plan, "human plan")
     timed = plan.kind == PlanKind.TIME_TRIGGERED_PLAN
     done = [one for _, one, _ in _by_time(plan)] if timed else in_order(plan)
     names = [reading.vocabulary.name_of(instance) for instance in done]

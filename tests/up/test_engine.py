@@ -171,6 +171,9 @@ def test_answers_get_better() -> None:
     [
         ({"mode": "clairvoyant"}, "mode: expected one of"),
         ({"speed": 3}, "unknown option 'speed': .*robots"),
+        ({"mode": "assistance"}, "mode 'assistance': the answer is no single plan"),
+        ({"mode": "serendipity", "ties": "watched"}, "ties 'watched': the answer is no single plan"),
+        ({"mode": "serendipity", "ties": "expected"}, "ties 'expected': the answer is no single plan"),
         ({"human_plan": (), "predict_with": "serendipity"}, "predict_with: the human's plan is given"),
     ],
 )
@@ -189,6 +192,9 @@ def test_wrong_parameters_are_told(parameters: dict[str, object], message: str) 
         ({"human": "Ann", "robots": ["Robot", "Robot"]}, "named twice"),
         ({"human": "Ann", "robots": "Person"}, "at least one besides"),
         ({"robots": "Helper"}, "expected a human"),
+        ({**HELP, "human": 3}, "agent: expected a name, or what has one, got 3"),
+        ({**HELP, "robots": 3}, "robots: expected names, or what has one, got 3"),
+        ({**HELP, "human_plan": 3}, "human plan: expected a list of names, got 3"),
         ({**HELP, "human_plan": ["brew ann"]}, "step 1: 'brew ann' is not applicable"),
         ({**HELP, "predict_with": "oracle"}, "engine 'oracle': expected one of"),
     ],

@@ -21,6 +21,7 @@ from unified_planning.shortcuts import (
     Equals,
     Fluent,
     GlobalStartTiming,
+    Int,
     Not,
     StartTiming,
     UserType,
@@ -187,6 +188,13 @@ def lasting(action: GroundAction) -> GroundAction:
         (
             lambda p: (p.clear_quality_metrics(), p.add_quality_metric(MinimizeMakespan())),
             "MAKESPAN: not supported",
+        ),
+        (
+            lambda p: (
+                p.clear_quality_metrics(),
+                p.add_quality_metric(MinimizeActionCosts({p.action("eat"): Int(-4)})),
+            ),
+            "action 'eat .*cost",
         ),
     ],
 )

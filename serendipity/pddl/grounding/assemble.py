@@ -192,14 +192,14 @@ def _timeline(numbering: Numbering, blueprint: Blueprint, clock: Clock) -> Timel
 
 
 def _actions(numbering: Numbering, blueprint: Blueprint, clock: Clock) -> list[GroundAction]:
+    units = (source.unit for source in blueprint.sources for s in source.schemas if s.name == NOOP)
+    unit = next(units, None)
     try:
         return numbering.actions(clock.epochs)
     except InputError as error:
-        if error.file is not None:
+        if error.file is not None or unit is None:
             raise
-        message = error.message  # of the one that is called as waiting is: nothing else can be wrong by now
-    units = (source.unit for source in blueprint.sources for s in source.schemas if s.name == NOOP)
-    unit = next(units)
+        message = error.message  # of the one that is called as waiting is: nothing else in files has none
     raise unit.domain_error(message, next(s.line for s in unit.domain.schemas if s.name == NOOP))
 
 
