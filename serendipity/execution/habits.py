@@ -261,6 +261,8 @@ def _rows(task: Task, text: str, file: object) -> Iterator[_Row]:
     missing = [name for name in ("time", "actor", "action") if name not in reader.fieldnames]
     if missing:
         raise InputError(f"expected columns day, time, actor and action, got no '{missing[0]}'", file, 1)
+    if len(set(reader.fieldnames)) < len(reader.fieldnames):
+        raise InputError(f"expected each column once, got {', '.join(reader.fieldnames):.80}", file, 1)
     try:
         rows = [(reader.line_num, row) for row in reader]
     except csv.Error as error:

@@ -115,6 +115,7 @@ def test_wilson_at_its_ends() -> None:
     [
         ("day,time,action\n", "days.csv:1: expected columns day, time, actor and action, got no 'actor'"),
         ("", "days.csv:1: expected columns"),
+        ("day,action,time,actor,action\n", "days.csv:1: expected each column once, got day, action"),
         ("day,time,actor,action\n1,7:00,h\n", "days.csv:2: expected 4 columns"),
         ("day,time,actor,action\n1,7:00,h,make h,5\n", "days.csv:2: expected 4 columns"),
         (
