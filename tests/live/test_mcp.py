@@ -10,10 +10,14 @@ import anyio
 import pytest
 
 import serendipity
+from serendipity.live.workers.pool import Pool, PoolLimits
+from serendipity.scenarios.examples import EXAMPLES
 from tests.live.server import serving
 
 mcp = pytest.importorskip("mcp", reason="no mcp: install serendipity-planner[mcp]")
 from mcp.client.stdio import StdioServerParameters  # noqa: E402  # where it is installed
+
+from serendipity.live.mcp.tools import agent_server  # noqa: E402  # likewise
 
 ROOM2: dict[str, Any] = {"example": "room2"}
 LIMITS = ("--workers", "1", "--time-limit", "20", "--body-limit", "0.1")
@@ -89,6 +93,11 @@ def test_tools_say_what_the_library_says(talking: Callable[[Talk], None]) -> Non
 
 
 @pytest.mark.long
+def test_instructions_name_every_example() -> None:
+    told = agent_server(Pool(PoolLimits(1, 0, 1, 100)), 1).instructions or ""
+    assert all(name in told for name in EXAMPLES)
+
+
 def test_what_is_wrong_is_one_line_and_the_session_goes_on(talking: Callable[[Talk], None]) -> None:
     pddl = {"problem": "", "human": "h", "robots": ["r"]}
 

@@ -51,6 +51,14 @@ def test_an_answer_that_breaks_a_rule_is_not_explained(server: Server) -> None:
     assert (answer.status_code, answer.json()) == (422, {"error": said})
 
 
+def test_a_policy_is_explained_without_a_plan_beside_it(server: Server) -> None:
+    goals = [{"name": room, "goal": [f"conducted_triage commx {room}"]} for room in ("room1", "room3")]
+    result = server.post("/plan", {"task": ROOM2, "goals": goals}).json()
+    answer = server.post("/explain", {"task": ROOM2, "result": result, "human_plan": ["fly"]})
+    said = "explain: expected a result or options, got both"
+    assert (answer.status_code, answer.json()) == (422, {"error": said})
+
+
 @pytest.mark.parametrize(
     ("path", "body", "status", "start"),
     [

@@ -13,7 +13,7 @@ from serendipity.live.service.sessions import SessionStore
 from tests.live.server import Server, serving, until, workers_of
 
 ROOM2 = {"example": "room2"}
-KEY = {"Idempotency-Key": "once"}
+KEY = {"Idempotency-Key": "busy"}
 ASKED = {"task": ROOM2, "options": {"discount": 0.6}}
 
 

@@ -17,10 +17,11 @@ from serendipity import __version__
 from serendipity.live.service import answering
 from serendipity.live.service.requests import CALLS
 from serendipity.live.workers.pool import Pool
+from serendipity.scenarios.examples import EXAMPLES
 
 _INSTRUCTIONS: Final = (
     "Plans help for a person who did not ask for it, and proves that none is better. A task is an example's "
-    "name (room2, flights, parcels, taxis), or PDDL texts. Check a task of your own with check_task first."
+    f"name ({', '.join(EXAMPLES)}), or PDDL texts. Check a task of your own with check_task first."
 )
 
 

@@ -203,7 +203,7 @@ def explain(worker: WorkerState, asked: Given, deadline: Deadline) -> Answers:
     result = None if asked["result"] is None else Result.from_dict(asked["result"])
     if result is not None:
         require_answer(task, result, "result", deadline)
-    if result is not None and len(result.goals or ()) > 1 and not asked["options"]:
+    if result is not None and len(result.goals or ()) > 1 and not _call(asked):
         yield serendipity.explain_policy(task, result, deadline=deadline).to_dict()
         return
     yield serendipity.explain(task, result, deadline=deadline, **_call(asked)).to_dict()
