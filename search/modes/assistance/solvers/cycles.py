@@ -7,11 +7,8 @@ some moves are free: in a set of states that is never left, strict improvement
 somewhere would make the mean of the values fall below itself.
 """
 
-from collections.abc import Mapping
-
-from search.engine.and_or import AndOrGraph, Rule
 from search.modes.assistance.game.rules import Mean, Value
-from search.modes.assistance.solvers.evaluate import Option, evaluate, option_value
+from search.modes.assistance.solvers.evaluate import Option, evaluate, forced, option_value
 from search.modes.assistance.solvers.graph import Graph
 from serendipity.model.resources.deadline import Deadline
 
@@ -24,8 +21,10 @@ def solve_all(graph: Graph, deadline: Deadline) -> None:
     for state, moves in graph.choices.items():
         deadline.tick()
         model[state] = [option for move in moves for option in graph.options(state, move)]
-    solve = _mean if isinstance(graph.rule, Mean) else _worst
-    values, policy = solve(graph, model, deadline)
+    if isinstance(graph.rule, Mean):
+        values, policy = _mean(graph, model, deadline)
+    else:
+        values, policy = forced(model, graph.rule, graph.choice_value, deadline)
     for state in model:
         value = values.get(state, graph.rule.infinite)
         if value > graph.low[state]:
@@ -37,30 +36,8 @@ def solve_all(graph: Graph, deadline: Deadline) -> None:
         graph.back_up_reply(reply)
 
 
-Solved = tuple[dict[int, Value], dict[int, Option]]
-
-
-def _worst(graph: Graph, model: Model, deadline: Deadline) -> Solved:
-    """Values and options of all states from which the end can be forced."""
-    options: list[Option] = []
-    rules: list[Rule[int]] = []
-    for state, listed in model.items():
-        deadline.tick()
-        for option in listed:
-            options.append(option)
-            rules.append(Rule({move.after for move in option.outcomes if move.after in model}, (state,)))
-
-    def value(k: int, values: Mapping[int, int]) -> int:
-        def value_of(state: int) -> Value:
-            return values[state] if state in model else graph.choice_value(state)
-
-        return int(option_value(options[k], graph.rule, value_of))
-
-    found, chosen = AndOrGraph(rules, deadline).settle((), value, graph.rule.infinite)
-    return found, {state: options[chosen[state]] for state in found}
-
-
-def _mean(graph: Graph, model: Model, deadline: Deadline) -> Solved:
+def _mean(graph: Graph, model: Model, deadline: Deadline) -> tuple[dict[int, Value], dict[int, Option]]:
+    """Values and options of all states from which some policy ends with certainty."""
     rule = graph.rule
     model = _certain(graph, model, deadline)
     policy = _attracted(model, deadline)

@@ -1,94 +1,13 @@
-"""The exact value of a policy: along the graph where it does not return, by elimination where it does."""
+"""The exact value of a policy: along the ways to its ends, by elimination where runs may return."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
+from search.engine.and_or import AndOrGraph, Rule
 from search.modes.assistance.game.game import Move
 from search.modes.assistance.game.rules import ChoiceRule, Mean, Value
 from serendipity.model.resources.deadline import Deadline
-
-
-def components(nodes: Iterable[int], onward: Mapping[int, Collection[int]]) -> Iterator[list[int]]:
-    """Strongly connected components of a graph (Tarjan 1972), those without a way out first."""
-    order: dict[int, int] = {}
-    lowest: dict[int, int] = {}
-    open_nodes: list[int] = []
-    inside: set[int] = set()
-    for root in nodes:
-        if root in order:
-            continue
-        stack: list[tuple[int, Iterator[int]]] = [(root, iter(onward[root]))]
-        order[root] = lowest[root] = len(order)
-        open_nodes.append(root)
-        inside.add(root)
-        while stack:
-            node, left = stack[-1]
-            successor = next(left, None)
-            if successor is None:
-                stack.pop()
-                if stack:
-                    parent = stack[-1][0]
-                    lowest[parent] = min(lowest[parent], lowest[node])
-                if lowest[node] == order[node]:
-                    yield _take(node, open_nodes, inside)
-            elif successor not in order:
-                order[successor] = lowest[successor] = len(order)
-                open_nodes.append(successor)
-                inside.add(successor)
-                stack.append((successor, iter(onward[successor])))
-            elif successor in inside:
-                lowest[node] = min(lowest[node], order[successor])
-
-
-def _take(root: int, open_nodes: list[int], inside: set[int]) -> list[int]:
-    component = []
-    while True:
-        node = open_nodes.pop()
-        inside.discard(node)
-        component.append(node)
-        if node == root:
-            return component
-
-
-Number = int | Fraction
-Row = tuple[int, dict[int, int], tuple[Number, Number]]
-"""``n_i``, the coefficients ``m_ij`` by ``j``, the pair ``c_i``."""
-
-
-def solve_linear(rows: Sequence[Row], deadline: Deadline) -> list[tuple[Fraction, Fraction]] | None:
-    """The pairs of ``n_i x_i = sum_j m_ij x_j + c_i``, by elimination; None if these do not determine them.
-
-    They do where every ``i`` leads out of the system in the end: its rows then sum to less
-    than ``n_i`` somewhere on the way.
-    """
-    system: list[tuple[dict[int, Fraction], Fraction, Fraction]] = []
-    for n, coefficients, (first, second) in rows:
-        scaled = {j: Fraction(m, n) for j, m in coefficients.items()}
-        system.append((scaled, Fraction(first) / n, Fraction(second) / n))
-    for i in range(len(system)):
-        own = 1 - system[i][0].pop(i, Fraction(0))
-        if own == 0:
-            return None
-        row, first, second = system[i]
-        system[i] = ({j: m / own for j, m in row.items()}, first / own, second / own)
-        for k in range(len(system)):
-            factor = system[k][0].pop(i, None) if k != i else None
-            if factor is not None:
-                deadline.tick()
-                system[k] = _substitute(system[k], system[i], factor)
-    return [(first, second) for _, first, second in system]
-
-
-def _substitute(
-    row: tuple[dict[int, Fraction], Fraction, Fraction],
-    solved: tuple[dict[int, Fraction], Fraction, Fraction],
-    factor: Fraction,
-) -> tuple[dict[int, Fraction], Fraction, Fraction]:
-    coefficients = row[0]
-    for j, m in solved[0].items():
-        coefficients[j] = coefficients.get(j, Fraction(0)) + factor * m
-    return coefficients, row[1] + factor * solved[1], row[2] + factor * solved[2]
 
 
 class Option(NamedTuple):
@@ -124,53 +43,116 @@ def evaluate(
         outside: values of states that are not in the policy.
         deadline: polled while they are worked out.
     """
+    if isinstance(rule, Mean):
+        return _mean(policy, rule, outside, deadline)
+    found, _ = forced({state: [option] for state, option in policy.items()}, rule, outside, deadline)
+    return {state: found.get(state, rule.infinite) for state in policy}
+
+
+def forced(
+    model: Mapping[int, Sequence[Option]], rule: ChoiceRule, outside: Outside, deadline: Deadline
+) -> tuple[dict[int, Value], dict[int, Option]]:
+    """Least values and options of all states from which the end can be forced; not for means."""
+    options: list[Option] = []
+    rules: list[Rule[int]] = []
+    for state, listed in model.items():
+        deadline.tick()
+        for option in listed:
+            options.append(option)
+            rules.append(Rule({move.after for move in option.outcomes if move.after in model}, (state,)))
+
+    def value(k: int, values: Mapping[int, int]) -> int:
+        def value_of(state: int) -> Value:
+            return values[state] if state in model else outside(state)
+
+        return int(option_value(options[k], rule, value_of))
+
+    found, chosen = AndOrGraph(rules, deadline).settle((), value, rule.infinite)
+    return found, {state: options[chosen[state]] for state in found}
+
+
+Number = int | Fraction
+
+
+class _Row(NamedTuple):
+    """A state's mean costs: multiples of those of other states, and the rest, of prime and supporter."""
+
+    others: dict[int, Number]
+    rest: tuple[Number, Number]
+
+    def plus(self, factor: Number, row: "_Row") -> "_Row":
+        """The sum with a multiple of another one."""
+        others = dict(self.others)
+        for state, m in row.others.items():
+            others[state] = others.get(state, 0) + factor * m
+        return _Row(others, (self.rest[0] + factor * row.rest[0], self.rest[1] + factor * row.rest[1]))
+
+
+def _mean(policy: Mapping[int, Option], rule: Mean, outside: Outside, deadline: Deadline) -> dict[int, Value]:
+    """Mean values, by Gaussian elimination: each state by those that come after it, then from the last one.
+
+    A state whose run may not end, or not without an infinite value, is None among the rows.
+    """
+    order = {state: i for i, state in enumerate(_ends_first(policy))}
+    rows: dict[int, _Row | None] = {}
+    for state in order:
+        row = _first_row(policy, state, rule, outside)
+        while row is not None and row.others:
+            deadline.tick()
+            earlier = min(row.others, key=order.__getitem__)
+            if order[earlier] > order[state]:
+                break
+            factor = row.others.pop(earlier)
+            if earlier != state:
+                known = rows[earlier]
+                row = None if known is None else row.plus(factor, known)
+            elif factor == 1:
+                row = None
+            else:
+                row = _Row({}, (0, 0)).plus(1 / Fraction(1 - factor), row)
+        rows[state] = row
     values: dict[int, Value] = {}
-
-    def value_of(state: int) -> Value:
-        return values[state] if state in policy else outside(state)
-
-    onward = {
-        state: [move.after for move in option.outcomes if move.after in policy]
-        for state, option in policy.items()
-    }
-    for component in components(policy, onward):
-        deadline.check()
-        first = component[0]
-        if len(component) == 1 and first not in onward[first]:
-            values[first] = option_value(policy[first], rule, value_of)
-        elif isinstance(rule, Mean):
-            values.update(_returning(policy, component, rule, value_of, deadline))
-        else:
-            values.update(dict.fromkeys(component, rule.infinite))
+    for state, row in reversed(rows.items()):
+        deadline.tick()
+        if row is None or any(values[other] == rule.infinite for other in row.others):
+            values[state] = rule.infinite
+            continue
+        for other, factor in row.others.items():
+            row = row.plus(factor, _Row({}, values[other]))
+        values[state] = row.rest
     return values
 
 
-def _returning(
-    policy: Mapping[int, Option],
-    component: list[int],
-    rule: ChoiceRule,
-    value_of: Outside,
-    deadline: Deadline,
-) -> dict[int, Value]:
-    """Mean values of states that a run may visit again."""
-    index = {state: i for i, state in enumerate(component)}
-    rows: list[Row] = []
-    for state in component:
-        move, _, outcomes = policy[state]
-        coefficients: dict[int, int] = {}
-        total = rule.lift(len(outcomes) * move.value)
-        for outcome in outcomes:
-            if outcome.after in index:
-                inside = index[outcome.after]
-                coefficients[inside] = coefficients.get(inside, 0) + 1
-                part = rule.lift(outcome.value)
+def _first_row(policy: Mapping[int, Option], state: int, rule: Mean, outside: Outside) -> _Row | None:
+    """What a state's option says of its mean costs; None where these are infinite."""
+    move, end, outcomes = policy[state]
+    if end is not None:
+        value = rule.add(move.value, end)
+        return None if value == rule.infinite else _Row({}, value)
+    row, share = _Row({}, rule.lift(move.value)), Fraction(1, len(outcomes)) if len(outcomes) > 1 else 1
+    for outcome in outcomes:
+        inside = outcome.after in policy
+        value = rule.lift(outcome.value) if inside else rule.add(outcome.value, outside(outcome.after))
+        if value == rule.infinite:
+            return None
+        row = row.plus(share, _Row({outcome.after: 1} if inside else {}, value))
+    return row
+
+
+def _ends_first(policy: Mapping[int, Option]) -> Iterator[int]:
+    """The states of a policy, each after those that it leads to, as far as runs do not return."""
+    seen: set[int] = set()
+    for root in policy:
+        stack = [] if root in seen else [(root, iter(policy[root].outcomes))]
+        seen.add(root)
+        while stack:
+            state, left = stack[-1]
+            after = next(
+                (move.after for move in left if move.after in policy and move.after not in seen), None
+            )
+            if after is None:
+                stack.pop()
+                yield state
             else:
-                part = rule.add(outcome.value, value_of(outcome.after))
-            total = (total[0] + part[0], total[1] + part[1])
-        if total[0] >= rule.infinite[0]:
-            return dict.fromkeys(component, rule.infinite)
-        rows.append((len(outcomes), coefficients, total))
-    solved = solve_linear(rows, deadline)
-    if solved is None:
-        return dict.fromkeys(component, rule.infinite)
-    return {state: solved[i] for state, i in index.items()}
+                seen.add(after)
+                stack.append((after, iter(policy[after].outcomes)))
