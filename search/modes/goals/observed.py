@@ -6,7 +6,7 @@ matched) is exact; a plan that does not embed them never matches the last one.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
@@ -120,13 +120,7 @@ class Explainer:
         for prepared in self._prepared:
             task = prepared.task
             spent = sum((task.actions[task.named[name][0]].cost for name in observed), Fraction(0))
-            best, rest = (
-                None if plan is None else task.cost_of(plan.actions)
-                for plan in (
-                    SearchContext(one, Options(), deadline).canonical_plan()
-                    for one in (prepared, prepared.at(state))
-                )
-            )
+            best, rest = (_optimum(one, deadline).with_observed for one in (prepared, prepared.at(state)))
             found.append(Likelihood(None if rest is None else spent + rest, best, None))
         return found
 
@@ -145,16 +139,6 @@ class Explainer:
         return moved
 
 
-def explanations(
-    prepared: PreparedTask,
-    goals: Sequence[Condition],
-    observed: Sequence[str],
-    deadline: Deadline | None = None,
-) -> list[Likelihood]:
-    """One explanation for each goal; see :class:`Explainer`."""
-    return Explainer(prepared, goals).explain(observed, deadline)
-
-
 def _explanation(
     prepared: PreparedTask,
     observed: tuple[str, ...],
@@ -169,26 +153,28 @@ def _explanation(
     one goes on as observed.  Plans that don't embed all of them cost no more than those that don't embed
     those before, and as much where these are as cheap as any.
     """
-    if not observed:  # their optimum, which the human's own searches know best
-        found = SearchContext(prepared, Options(), deadline).canonical_plan()
-        if found is None:
-            return Likelihood(None, None, None)
-        return Likelihood(prepared.task.cost_of(found.actions), None, found.actions)
-    if earlier is None:
-        search = _ObservedSearch(prepared, observed, deadline)
-        known, plan = search.embedding(canonical=canonical)
-        return Likelihood(known, search.other(), plan)
-    known, other = earlier.with_observed, earlier.without_observed
-    goes_on = known is None or _embeds(prepared.task, earlier.plan or (), observed)
-    as_cheap = other is not None and (known is None or other <= known)
-    if goes_on and as_cheap:
-        return earlier
+    if not observed:
+        return _optimum(prepared, deadline)
+    goes_on = as_cheap = False
+    known, other, plan = None, None, None
+    if earlier is not None:
+        known, other, plan = earlier.with_observed, earlier.without_observed, earlier.plan
+        goes_on = known is None or _embeds(prepared.task, plan or (), observed)
+        as_cheap = other is not None and (known is None or other <= known)
+        if goes_on and as_cheap:
+            return earlier
     search = _ObservedSearch(prepared, observed, deadline)
     if not goes_on:
         known, plan = search.embedding(canonical=canonical)
-    else:
-        plan = earlier.plan
     return Likelihood(known, other if as_cheap else search.other(other), plan)
+
+
+def _optimum(prepared: PreparedTask, deadline: Deadline) -> Likelihood:
+    """Where nothing was observed the human's optimum, which their own searches know best."""
+    found = SearchContext(prepared, Options(), deadline).canonical_plan()
+    if found is None:
+        return Likelihood(None, None, None)
+    return Likelihood(prepared.task.cost_of(found.actions), None, found.actions)
 
 
 def _embeds(task: Task, plan: HumanPlan, observed: Sequence[str]) -> bool:
@@ -222,88 +208,102 @@ class _ObservedSearch:
 
     def embedding(self, *, canonical: bool) -> tuple[Fraction | None, HumanPlan | None]:
         """``cost(G, O)``, and a plan that embeds the observations, the canonical one if that is asked for."""
-        key, plan = self._best_of_all() if canonical else self._first(embed=True, limit=INFINITE_KEY)
-        return None if plan is None else self._keys.cost(key), plan
+        plan = self._canonical() if canonical else self._plan(self._first())
+        return None if plan is None else self._task.cost_of(plan), plan
 
     def other(self, most: Fraction | None = None) -> Fraction | None:
         """``cost(G, not O)``, known to be at most so much; None: it may be anything."""
         limit = INFINITE_KEY if most is None else self._keys.of_cost(most)
-        key, plan = self._first(embed=False, limit=limit)
-        return most if plan is None else self._keys.cost(key)
-
-    def _first(self, *, embed: bool, limit: int) -> tuple[int, HumanPlan | None]:
-        """The least key, below ``limit``, of a plan that embeds the observations (or not), and the plan."""
-        all_seen = len(self._observed)
-        if not embed and not all_seen:
-            return INFINITE_KEY, None
-        search = AStar(self._start, self._missing, self._deadline, limit=limit, deep_first=True)
-        for at, key in search:
-            if (at[1] == all_seen) == embed and self._goal.holds(at[0]):
-                return key, tuple(action for _, action in search.way_back(at))[::-1]
-            for option in self._lookup.options(at[0]):
-                after = (at[0] & option.keep | option.put, self._matched(at[1], option.actions[0]))
-                if embed or after[1] < all_seen:
-                    search.reach(after, key + option.weight, at, option.actions[0])
-        return INFINITE_KEY, None
-
-    def _best_of_all(self) -> tuple[int, HumanPlan | None]:
-        """The least key of a plan that embeds the observations, and the canonical one (semantics 1).
-
-        Every place whose bound does not exceed the optimum is expanded, so that all optimal
-        plans are among the steps recorded.
-        """
-        all_seen = len(self._observed)
-        search = AStar(self._start, self._missing, self._deadline, limit=INFINITE_KEY)
-        expanded: dict[_At, list[tuple[int, _At, int]]] = {}
-        ends = []
-        for at, key in search:
-            steps = expanded[at] = []
-            if at[1] == all_seen and self._goal.holds(at[0]):
-                search.limit = key + 1  # the first one is a cheapest one, others are no dearer
-                ends.append(at)
-                continue
-            for option in self._lookup.options(at[0]):
-                after = (at[0] & option.keep | option.put, self._matched(at[1], option.actions[0]))
-                steps.append((option.actions[0], after, key + option.weight))
-                search.reach(after, key + option.weight, at)
-        if not ends:
-            return INFINITE_KEY, None
-        edges = edges_into(ends, expanded, search.spent, self._deadline)
-        plan, at = [], self._start
-        while at in edges:
-            action, at = edges[at][0]
-            plan.append(action)
-        return search.spent[ends[0]], tuple(plan)
+        plan = self._plan(self._first(embed=False, limit=limit))
+        return most if plan is None else self._task.cost_of(plan)
 
     def reading(self, prices: Prices) -> Reading | None:
-        """The likeliest reading of the observations, where some may be wrong and actions may be missed.
+        """The likeliest reading of the observations, where some may be wrong and actions may be missed."""
+        unit = self._keys.of_cost(Fraction(1))
+        wrong = None if math.isinf(prices.wrong) else round(prices.wrong * _EXACT) * unit
+        missed = round(prices.missed * _EXACT) * unit
+        found = self._first(rate=round(prices.cost * _EXACT), wrong=wrong, missed=missed)
+        return None if found is None else self._read(*found)
+
+    def _first(
+        self,
+        *,
+        embed: bool = True,
+        limit: int = INFINITE_KEY,
+        rate: int = 1,
+        wrong: int | None = None,
+        missed: int = 0,
+    ) -> tuple[_At, AStar[_At]] | None:
+        """The end of a cheapest plan that embeds the observations (or not), and the search that found it.
 
         A step without action takes the next observation for wrong, or all that are left.  It is no use to
         leave one unread that an action fits: what fits it later is as good as missed.
+
+        Args:
+            limit: what it costs less than.
+            rate: times the weights of the actions.
+            wrong: price of an observation that is taken for wrong; None: none is.
+            missed: price of an action before the last observation that was not observed.
         """
-        rate, unit = round(prices.cost * _EXACT), self._keys.of_cost(Fraction(1))
-        all_seen, skips = len(self._observed), not math.isinf(prices.wrong)
-        wrong, missed = (
-            round(price * _EXACT) * unit for price in (prices.wrong if skips else 0, prices.missed)
-        )
+        all_seen = len(self._observed)
 
         def estimate(at: _At) -> int:
             bound = self._bound(at[0])
             return bound if bound >= INFINITE_KEY else bound * rate
 
-        search = AStar(self._start, estimate, self._deadline, limit=INFINITE_KEY, deep_first=True)
+        search = AStar(self._start, estimate, self._deadline, limit=limit, deep_first=True)
         for at, spent in search:
             state, seen = at
-            if seen == all_seen and self._goal.holds(state):
-                return self._read(at, search)
-            if skips and seen < all_seen:
+            if (seen == all_seen) == embed and self._goal.holds(state):
+                return at, search
+            if wrong is not None and seen < all_seen:
                 search.reach((state, seen + 1), spent + wrong, at)
                 search.reach((state, all_seen), spent + wrong * (all_seen - seen), at)
-            for option in self._lookup.options(state):
-                after = (state & option.keep | option.put, self._matched(seen, option.actions[0]))
-                price = missed if after[1] == seen < all_seen else 0
-                search.reach(after, spent + option.weight * rate + price, at, option.actions[0])
+            for action, after, weight in self._steps(at):
+                if embed or after[1] < all_seen:
+                    price = missed if after[1] == seen < all_seen else 0
+                    search.reach(after, spent + weight * rate + price, at, action)
         return None
+
+    def _canonical(self) -> HumanPlan | None:
+        """The canonical one of the cheapest plans that embed the observations (semantics 1).
+
+        Every place whose bound does not exceed the optimum is expanded, so that all optimal
+        plans are among the steps recorded.
+        """
+        search = AStar(self._start, lambda at: self._bound(at[0]), self._deadline, limit=INFINITE_KEY)
+        expanded: dict[_At, list[tuple[int, _At, int]]] = {}
+        ends = []
+        for at, key in search:
+            steps = expanded[at] = []
+            if at[1] == len(self._observed) and self._goal.holds(at[0]):
+                search.limit = key + 1  # the first one is a cheapest one, others are no dearer
+                ends.append(at)
+                continue
+            for action, after, weight in self._steps(at):
+                steps.append((action, after, key + weight))
+                search.reach(after, key + weight, at)
+        if not ends:
+            return None
+        edges = edges_into(ends, expanded, search.spent, self._deadline)
+        plan, at = [], self._start
+        while at in edges:
+            action, at = edges[at][0]
+            plan.append(action)
+        return tuple(plan)
+
+    def _steps(self, at: _At) -> Iterator[tuple[int, _At, int]]:
+        """What the human may do: the action, the place after it, its weight."""
+        state, seen = at
+        expected = self._observed[seen] if seen < len(self._observed) else None
+        for option in self._lookup.options(state):
+            action = option.actions[0]
+            fits = self._names[action] == expected
+            yield action, (state & option.keep | option.put, seen + fits), option.weight
+
+    def _plan(self, found: tuple[_At, AStar[_At]] | None) -> HumanPlan | None:
+        """The plan that a search has ended with."""
+        return None if found is None else self._read(*found).plan
 
     def _read(self, at: _At, search: AStar[_At]) -> Reading:
         """The reading with which a search has come to a place."""
@@ -315,13 +315,5 @@ class _ObservedSearch:
                 plan.append(action)
                 missed, later = missed + (later and before[1] == seen), later or before[1] < seen
             seen = before[1]
-        cost = self._task.cost_of(tuple(plan))
-        return Reading(cost, wrong, missed, tuple(reversed(plan)))
-
-    def _missing(self, at: _At) -> int:
-        """Lower bound of the key that is missing, whatever has been observed."""
-        return self._bound(at[0])
-
-    def _matched(self, count: int, action: int) -> int:
-        expected = self._observed[count] if count < len(self._observed) else None
-        return count + (self._names[action] == expected)
+        plan.reverse()
+        return Reading(self._task.cost_of(tuple(plan)), wrong, missed, tuple(plan))

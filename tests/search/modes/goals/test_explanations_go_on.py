@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from search import PreparedTask
-from search.modes.goals import Explainer, explanations
+from search.modes.goals import Explainer
 from serendipity.model import Condition, Task
 from serendipity.model.task.actions import apply
 from serendipity.testing.strategies import tasks, usar_tasks
@@ -33,7 +33,7 @@ def test_action_by_action(task: Task, seed: int) -> None:
     asked, quick = (Explainer(PreparedTask(task), goals) for _ in range(2))
     for epoch, (observed, _) in enumerate(_walk(task, dice, 5)):
         if epoch != 2:
-            fresh = explanations(PreparedTask(task), goals, observed)
+            fresh = Explainer(PreparedTask(task), goals).explain(observed)
             assert asked.explain(observed) == fresh
             told = [
                 (one.with_observed, one.without_observed) for one in quick.explain(observed, canonical=False)
