@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from typing import Final, TypeVar
@@ -11,7 +12,7 @@ from search.call.prepared_task import PreparedTask
 from search.modes.assistance.bounds.bound import ValueBound
 from search.modes.assistance.bounds.relaxed import joint_lower_bound
 from search.modes.assistance.game.game import Game
-from search.modes.assistance.game.rules import Best, ChoiceRule, First, Mean, Worst
+from search.modes.assistance.game.rules import RULES
 from search.modes.assistance.game.solution import ZERO, Costs, GameSolution
 from search.modes.assistance.solvers.lao_star import LaoStar
 from search.modes.assistance.writing import Writer
@@ -22,8 +23,7 @@ from serendipity.model.answers.policy import Policy
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
-from serendipity.model.task.plans import Step
-from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.task import Task
 
 _T = TypeVar("_T")
 
@@ -48,7 +48,7 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
     try:
         game = Game(prepared, deadline, own_deadline)
     except LIMITS as limit:
-        yield _said(prepared.task, "unknown", PolicyBounds(ZERO, None), reason=limit_reason(limit))
+        yield _unknown(prepared.task, ZERO, limit_reason(limit))
         return
     most = _most_alone(game)
     if most < INFINITE_KEY:
@@ -59,7 +59,7 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
     except LIMITS as limit:
         late = limit_reason(limit)
     if late is not None:  # what the work held is free by now
-        yield from _without_his_optimum(game, most, late)
+        yield _without_his_optimum(game, most, late)
         return
     own_deadline.renew(deadline)
     yield from _searched(game, options)
@@ -76,7 +76,8 @@ def _most_alone(game: Game) -> int:
 
 def _left_alone(game: Game, lower: Costs, upper: int) -> Answer:
     """Doing nothing, where all that is known of the prime's optimum is what it is worth at most."""
-    return _said(game.task, "feasible", PolicyBounds(lower, game.pair(upper)), policy=Policy((), None))
+    bounds = PolicyBounds(lower, game.pair(upper))
+    return _with_figures(game.task, Answer("feasible", bounds=bounds, policy=Policy((), None)))
 
 
 def _searched(game: Game, options: Options) -> Iterator[Answer]:
@@ -84,61 +85,51 @@ def _searched(game: Game, options: Options) -> Iterator[Answer]:
     writer = Writer(game, options.ties)
     search: LaoStar | None = None
     try:
-        search = _search(game, options)
+        rule = RULES[options.ties](game)
+        search = LaoStar(game, ValueBound(game), rule, no_block=bool(options.no_block))
         for _ in search.run():
-            yield _answer(writer, search, "feasible")
-        solved = search.solution(floors=False).upper is not None
-        yield _answer(writer, search, "optimal" if solved else "infeasible")
+            yield _answer(writer, search.solution(floors=False), "feasible", search.expanded)
+        solution = search.solution()
+        status: Status = "infeasible" if solution.upper is None else "optimal"
+        yield _answer(writer, solution, status, search.expanded)
         return
     except LIMITS as limit:
         late = limit_reason(limit)
     yield _unfinished(game, writer, search, late)
 
 
-def _without_his_optimum(game: Game, upper: int, limit: str) -> Iterator[Answer]:
+def _without_his_optimum(game: Game, upper: int, limit: str) -> Answer:
     """Bounds where the prime's optimal cost could not be worked out in half of the time, or in memory."""
     if limit == "memory-limit":
         game.forget_own()
     lower = _bound_without_search(game, game.deadline)
     if lower is None:
-        yield _no_plan(game)
-        return
+        return _no_plan(game.task)
     if upper >= INFINITE_KEY:
         with suppress(*LIMITS):
             plan = SearchContext(game.prepared, Options(), game.deadline).alone.first_plan(game.init)
             upper = INFINITE_KEY if plan is None else game.value_alone(plan)
-    if upper >= INFINITE_KEY:
-        yield _said(game.task, "unknown", PolicyBounds(lower, None), reason=limit)
-    else:
-        yield _left_alone(game, lower, upper)
+    return _unknown(game.task, lower, limit) if upper >= INFINITE_KEY else _left_alone(game, lower, upper)
 
 
 def _unfinished(game: Game, writer: Writer, search: LaoStar | None, limit: str) -> Answer:
     """The answer when the time is up: doing nothing is always one, if the prime has a plan."""
-    known = GameSolution(None, None) if search is None else search.solution(floors=False)
-    if search is not None and known.upper is not None and known.lower == known.upper:
-        return _answer(writer, search, "optimal")
+    known, expanded = GameSolution(None, None), 0
+    if search is not None:
+        known, expanded = search.solution(floors=False), search.expanded
+        if known.upper is not None and known.lower == known.upper:
+            return _answer(writer, search.solution(), "optimal", expanded)
     least = _bound_without_search(game, game.deadline.sooner(-_BOUND_SHARE))
     if least is None:
-        return _no_plan(game)
+        return _no_plan(game.task)
     lower = max(least, known.lower or ZERO)
-    if search is not None and known.upper is not None:
-        bounds = PolicyBounds(lower, known.upper)
-        status: Status = "optimal" if lower == known.upper else "feasible"
-        answer = _answer(writer, search, "feasible")
-        return answer._replace(status=status, bounds=bounds, lower_bound=_least_sum(bounds))
-    alone = game.alone(game.init)  # known since the first phase
-    if alone >= INFINITE_KEY:
-        return _said(game.task, "unknown", PolicyBounds(lower, None), reason=limit)
-    idle = GameSolution(lower, game.pair(alone))
-    return _said(
-        game.task,
-        "feasible",
-        PolicyBounds(lower, idle.upper),
-        human_plan=_in_time(writer.human_plan),
-        policy=Policy((), None),
-        steps=_in_time(partial(writer.plan, idle)),
-    )
+    status: Status = "optimal" if lower == known.upper else "feasible"
+    if known.upper is None:
+        alone = game.alone(game.init)  # known since the first phase
+        if alone >= INFINITE_KEY:
+            return _unknown(game.task, lower, limit)
+        known = GameSolution(None, game.pair(alone))
+    return _answer(writer, replace(known, lower=lower), status, expanded)
 
 
 def _bound_without_search(game: Game, deadline: Deadline) -> Costs | None:
@@ -150,69 +141,47 @@ def _bound_without_search(game: Game, deadline: Deadline) -> Costs | None:
     return None if value >= INFINITE_KEY else game.pair(value)
 
 
-def _no_plan(game: Game) -> Answer:
+def _no_plan(task: Task) -> Answer:
     """Not even both together reach the goal."""
-    return _said(game.task, "infeasible", PolicyBounds(ZERO, None), reason="no-plan")
+    return _with_figures(task, Answer("infeasible", reason="no-plan", bounds=PolicyBounds(ZERO, None)))
 
 
-def _search(game: Game, options: Options) -> LaoStar:
-    rules: dict[str, ChoiceRule] = {
-        "fixed": First(),
-        "optimistic": Best(),
-        "robust": Worst(),
-        "expected": Mean(game),
-    }
-    return LaoStar(game, ValueBound(game), rules[options.ties], no_block=bool(options.no_block))
+def _unknown(task: Task, lower: Costs, limit: str) -> Answer:
+    """A lower bound is all that was found in time."""
+    return _with_figures(task, Answer("unknown", reason=limit, bounds=PolicyBounds(lower, None)))
 
 
-def _answer(writer: Writer, search: LaoStar, status: Status) -> Answer:
-    solution = search.solution(floors=status == "optimal")
-    has_policy = status in ("optimal", "feasible")
-    return _said(
-        writer.task,
+def _answer(writer: Writer, solution: GameSolution, status: Status, expanded: int) -> Answer:
+    has_policy = status != "infeasible"
+    answer = Answer(
         status,
-        PolicyBounds(solution.lower or ZERO, solution.upper),
         human_plan=_in_time(writer.human_plan),
         policy=writer.policy(solution) if has_policy else None,
         steps=_in_time(partial(writer.plan, solution)) if has_policy else None,
-        reason="no-plan" if status == "infeasible" else None,
-        expanded=search.expanded,
+        reason=None if has_policy else "no-plan",
+        expanded=expanded,
+        bounds=PolicyBounds(solution.lower or ZERO, solution.upper),
     )
+    return _with_figures(writer.task, answer)
 
 
-def _said(
-    task: Task,
-    status: Status,
-    bounds: PolicyBounds,
-    *,
-    human_plan: HumanPlan | None = None,
-    policy: Policy | None = None,
-    steps: tuple[Step, ...] | None = None,
-    reason: str | None = None,
-    expanded: int = 0,
-) -> Answer:
+def _with_figures(task: Task, answer: Answer) -> Answer:
     """An answer with the figures that follow from its bounds and from the human's plan alone."""
-    baseline = None if human_plan is None else task.cost_of(human_plan)
-    upper = bounds.upper
-    total = None if upper is None else sum(upper, Fraction(0))
-    saving = None if baseline is None or upper is None else baseline - upper[0]
-    return Answer(
-        status,
-        human_plan=human_plan,
-        reason=reason,
-        steps=steps,
+    bounds, plan = answer.bounds, answer.human_plan
+    assert bounds is not None, "a policy has them"
+    baseline = None if plan is None else task.cost_of(plan)
+    total = None if bounds.upper is None else sum(bounds.upper, Fraction(0))
+    saving = None if baseline is None or bounds.upper is None else baseline - bounds.upper[0]
+    return answer._replace(
         cost=total,
         objective=total,
-        lower_bound=None if status == "infeasible" else _least_sum(bounds),
+        lower_bound=None if answer.status == "infeasible" else _least_sum(bounds),
         baseline=baseline,
         saving=saving,
         saving_alone=None if baseline is None else Fraction(0),
         opportunity=saving is not None and saving > 0,
-        expanded=expanded,
         generated=None,
         realised={},
-        bounds=bounds,
-        policy=policy,
     )
 
 

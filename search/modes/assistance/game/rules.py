@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from typing import Any, Final
 
 from search.modes.assistance.game.game import Game, Move
 from search.modes.assistance.game.solution import Costs
@@ -12,10 +12,13 @@ Value = Any
 """An ``int`` of the game (robust), or a pair of exact costs (expected); ordered by ``<``."""
 
 
-class Worst:
-    """Robust: the lexicographically greatest."""
+class ChoiceRule:
+    """How the prime's optimal actions count; by itself robust: the lexicographically greatest."""
 
     infinite: Value = INFINITE_KEY
+
+    def __init__(self, game: Game) -> None:
+        self._game = game
 
     def lift(self, value: int) -> Value:
         """A value of the game in the rule's form."""
@@ -29,71 +32,61 @@ class Worst:
         """The value of a state in which the prime chooses."""
         return max(values)
 
-    def costs(self, game: Game, value: Value) -> Costs | None:
+    def costs(self, value: Value) -> Costs | None:
         """The costs in a value; None if infinite."""
-        return None if value >= INFINITE_KEY else game.pair(value)
+        return None if value >= INFINITE_KEY else self._game.pair(value)
 
     def counted(self, moves: tuple[Move, ...]) -> tuple[Move, ...]:
         """Those of the prime's optimal actions that count."""
         return moves
 
 
-class Best(Worst):
+class Best(ChoiceRule):
     """Optimistic: the lexicographically least, as if we chose for the prime."""
 
     def combine(self, values: Sequence[Value]) -> Value:
-        """See :class:`Worst`."""
+        """See :class:`ChoiceRule`."""
         return min(values)
 
 
-class First(Worst):
+class First(ChoiceRule):
     """Fixed: the one of the smallest name."""
 
     def counted(self, moves: tuple[Move, ...]) -> tuple[Move, ...]:
-        """See :class:`Worst`."""
+        """See :class:`ChoiceRule`."""
         return moves[:1]
 
 
-class Mean:
+class Mean(ChoiceRule):
     """Expected: the mean of each cost, all actions alike likely."""
 
     infinite: Value = (INFINITE_KEY, INFINITE_KEY)
 
-    def __init__(self, game: Game) -> None:
-        self._unit = 1 << game.unit_bits
-
     def lift(self, value: int) -> Value:
-        """See :class:`Worst`."""
-        return self.infinite if value >= INFINITE_KEY else divmod(value, self._unit)
+        """See :class:`ChoiceRule`."""
+        return self.infinite if value >= INFINITE_KEY else divmod(value, 1 << self._game.unit_bits)
 
     def add(self, value: int, rest: Value) -> Value:
-        """See :class:`Worst`."""
+        """See :class:`ChoiceRule`."""
         if rest == self.infinite:
             return rest
-        prime, supporter = divmod(value, self._unit)
+        prime, supporter = divmod(value, 1 << self._game.unit_bits)
         return (prime + rest[0], supporter + rest[1])
 
     def combine(self, values: Sequence[Value]) -> Value:
-        """See :class:`Worst`."""
+        """See :class:`ChoiceRule`."""
         if len(values) == 1:
             return values[0]
         if any(value == self.infinite for value in values):
             return self.infinite
-        return (
-            Fraction(sum(value[0] for value in values), len(values)),
-            Fraction(sum(value[1] for value in values), len(values)),
-        )
+        return tuple(Fraction(sum(costs), len(values)) for costs in zip(*values, strict=True))
 
-    def costs(self, game: Game, value: Value) -> Costs | None:
-        """See :class:`Worst`."""
+    def costs(self, value: Value) -> Costs | None:
+        """See :class:`ChoiceRule`."""
         if value == self.infinite:
             return None
-        return Fraction(value[0]) / game.scale, Fraction(value[1]) / game.scale
-
-    def counted(self, moves: tuple[Move, ...]) -> tuple[Move, ...]:
-        """See :class:`Worst`."""
-        return moves
+        return Fraction(value[0]) / self._game.scale, Fraction(value[1]) / self._game.scale
 
 
-ChoiceRule = Worst | Mean
-"""How the prime's optimal actions count."""
+RULES: Final = {"fixed": First, "optimistic": Best, "robust": ChoiceRule, "expected": Mean}
+"""By the value of option ``ties``."""

@@ -21,6 +21,7 @@ class Graph:
         no_block: no move may take the prime's last plan away.
 
     Attributes:
+        final: whether the goal holds in a state.
         choices: per expanded choice the supporter's moves, the promising ones first.
         replies: per expanded reply the prime's moves; one wait where they have no plan.
         low: lower bounds of choices.
@@ -41,14 +42,7 @@ class Graph:
         self.idle: dict[int, Value] = {}
         self.pick: dict[int, Option] = {}
         self._inherited: dict[int, Value] = {}
-        self._final: dict[int, bool] = {}
-
-    def final(self, state: int) -> bool:
-        """Whether the goal holds."""
-        known = self._final.get(state)
-        if known is None:
-            known = self._final[state] = self.game.goal.holds(state)
-        return known
+        self.final = game.goal.holds
 
     def choice_value(self, state: int) -> Value:
         """Lower bound of a state after the prime's move."""

@@ -10,7 +10,7 @@ solved at once, see :mod:`search.modes.assistance.solvers.cycles`.
 from collections.abc import Iterator
 
 from search.modes.assistance.bounds.bound import ValueBound
-from search.modes.assistance.game.game import Game, Move
+from search.modes.assistance.game.game import Game
 from search.modes.assistance.game.rules import ChoiceRule, Value
 from search.modes.assistance.game.solution import MAX_FLOORS, Costs, GameSolution, PolicyEntry
 from search.modes.assistance.solvers.cycles import solve_all
@@ -48,7 +48,7 @@ class LaoStar:
         while graph.choice_value(game.init) < self._upper:
             self._raise_bounds()
             policy = self._best_policy()
-            values = evaluate(policy, self._rule, self._outside, game.deadline)
+            values = evaluate(policy, self._rule, self._without_move, game.deadline)
             value = values.get(game.init, self._rule.infinite)
             if value < self._upper:
                 self._upper, self._policy, self._values = value, policy, values
@@ -75,13 +75,13 @@ class LaoStar:
             state = stack[-1]
             self._game.deadline.tick()
             self.expanded += 1
-            step = self._step(state, seen)
-            rose |= step[0]
-            if step[1] is None:
+            higher, after = self._step(state, seen)
+            rose |= higher
+            if after is None:
                 stack.pop()
             else:
-                seen.add(step[1])
-                stack.append(step[1])
+                seen.add(after)
+                stack.append(after)
         return rose and graph.low[self._game.init] < self._upper
 
     def _step(self, state: int, seen: set[int]) -> tuple[bool, int | None]:
@@ -98,17 +98,12 @@ class LaoStar:
             if graph.settled(move.after):
                 return rose, None
             if not graph.back_up_reply(move.after):
-                return rose, self._next(state, move, seen)
+                onward = (outcome.after for outcome in graph.outcomes(state, move))
+                return rose, next((at for at in onward if at not in seen and not graph.final(at)), None)
         return rose, None
 
-    def _next(self, state: int, move: Move, seen: set[int]) -> int | None:
-        for outcome in self._graph.outcomes(state, move):
-            if outcome.after not in seen and not self._graph.final(outcome.after):
-                return outcome.after
-        return None
-
-    def _outside(self, state: int) -> Value:
-        """States without a move are final, or lost."""
+    def _without_move(self, state: int) -> Value:
+        """The value of a state that is final, or lost."""
         return self._rule.lift(0) if self._graph.final(state) else self._rule.infinite
 
     def _best_policy(self) -> dict[int, Option]:
@@ -133,13 +128,13 @@ class LaoStar:
         graph, rule, game = self._graph, self._rule, self._game
         policy = {}
         for state, (move, _, _) in self._policy.items():
-            value = rule.costs(game, self._values[state])
+            value = rule.costs(self._values[state])
             if value is not None:
                 policy[state] = PolicyEntry(value, move.action, move.after)
         proof: dict[int, Costs] | None = None
         if floors and len(graph.choices) <= MAX_FLOORS:
-            lows = ((state, rule.costs(game, graph.low[state])) for state in graph.choices)
+            lows = ((state, rule.costs(graph.low[state])) for state in graph.choices)
             proof = {state: low for state, low in lows if low is not None}
         # Bounding the initial state takes time, too: there may be no bound yet.
-        lower = graph.low.get(game.init, rule.lift(0)) if not graph.final(game.init) else rule.lift(0)
-        return GameSolution(rule.costs(game, lower), rule.costs(game, self._upper), policy, proof)
+        lower = rule.lift(0) if graph.final(game.init) else graph.low.get(game.init, rule.lift(0))
+        return GameSolution(rule.costs(lower), rule.costs(self._upper), policy, proof)
