@@ -48,6 +48,5 @@ def _joint_closure(game: Game, shift: int) -> Closure:
             game.deadline.tick()
             condition = PackedGoal(op.need_mask, op.need, op.forbidden)
             arcs.append(Arc(condition, op.keep, op.put, game.cost(op) << bit))
-    fields = game.packed.fields
-    values = [game.packed.values(field) for field in fields]
-    return Closure(arcs, game.goal, fields, values, SMALL, game.deadline)
+    fields = {field: game.packed.values(field) for field in game.packed.fields}
+    return Closure(arcs, game.goal, fields, SMALL, game.deadline)

@@ -19,6 +19,7 @@ from search.modes.assistance.game.game import Game
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import OperatorIndex, most_asked
 from search.packed.operators import Operator
+from search.packed.packed_task import PackedGoal
 
 Pair = tuple[int, int]
 """A field and a value of it."""
@@ -27,9 +28,7 @@ Pair = tuple[int, int]
 class ChargedStep(NamedTuple):
     """One of the prime's actions, projected; ``charges`` are due where their bit is unset."""
 
-    need_mask: int
-    need: int
-    forbidden: tuple[Pair, ...]
+    condition: PackedGoal
     keep: int
     put: int
     cost: int
@@ -131,10 +130,9 @@ class RelaxedProvision:
 
     def _context(self, state: int) -> _Context:
         provided = state & self._provided
-        context = self._contexts.get(provided)
-        if context is None:
-            context = self._contexts[provided] = self._make_context(provided)
-        return context
+        if provided not in self._contexts:
+            self._contexts[provided] = self._make_context(provided)
+        return self._contexts[provided]
 
     def _make_context(self, provided: int) -> _Context:
         steps: OperatorIndex[ChargedStep] = OperatorIndex(self._field)
@@ -166,26 +164,13 @@ class RelaxedProvision:
             if pair in self._charged:
                 price, bit = self._charged[pair]
                 charges.append((price, bit, pair))
-        forbidden = tuple((m, v) for m, v in op.forbidden if m & private)
-        return ChargedStep(
-            op.need_mask & private,
-            op.need & private,
-            forbidden,
-            op.keep,
-            op.put & private,
-            self._game.cost(op),
-            tuple(charges),
-        )
+        condition = PackedGoal(op.need_mask, op.need, op.forbidden).within(private)
+        return ChargedStep(condition, op.keep, op.put & private, self._game.cost(op), tuple(charges))
 
     def _least(self, context: _Context, at: int) -> int:
         """Every bit of the goal that is missing costs a step."""
-        missing = self._countable & ~at
-        total = 0
-        while missing:
-            bit = missing & -missing
-            total += context.per_goal.get(bit, INFINITE_KEY)
-            missing -= bit
-        return min(total, INFINITE_KEY)
+        missing = self._game.packed.split(self._countable & ~at)
+        return min(sum(context.per_goal.get(bit, INFINITE_KEY) for bit in missing), INFINITE_KEY)
 
     def _search(self, context: _Context, start: int) -> int:
         """A* over the private fields; it ends at goals and at states whose value is known."""
@@ -222,10 +207,8 @@ class RelaxedProvision:
     def _steps_from(self, context: _Context, at: int) -> Iterable[tuple[int, int, ChargedStep]]:
         """What the prime can do: its value with what is charged, the state after it, the step."""
         for step in context.steps.candidates(at):
-            if at & step.need_mask != step.need or any(at & m == v for m, v in step.forbidden):
-                continue
             after = at & step.keep | step.put
-            if after != at:
+            if after != at and step.condition.holds(at):
                 charge = sum(price for price, bit, _ in step.charges if not at & bit)
                 yield (step.cost << self._game.unit_bits) + charge, after, step
 

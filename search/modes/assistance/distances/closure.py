@@ -4,7 +4,7 @@ A query explores what is reachable from its state, then runs Dijkstra backward o
 a state costs work once.  Where that is much, only what is near the goal is looked at.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from search.engine.shortest_paths import backward
@@ -38,8 +38,7 @@ class Closure:
 
     Args:
         goal: where the distance is 0 (and nothing goes on).
-        fields: masks of the fields that a state consists of.
-        values: all values of each field.
+        fields: all values of each field that a state consists of, by its mask.
         limit: most states of one closure.
     """
 
@@ -47,20 +46,18 @@ class Closure:
         self,
         arcs: list[Arc],
         goal: PackedGoal,
-        fields: Sequence[int],
-        values: Sequence[Sequence[int]],
+        fields: Mapping[int, Sequence[int]],
         limit: int,
         deadline: Deadline,
     ) -> None:
         self._arcs = [arc for arc in arcs if arc.condition.need >= 0]
         self._goal = goal
         self._fields = fields
-        self._values = values
         self._limit = limit
         self._deadline = deadline
         self._known: dict[int, int] = {}
         self._index: OperatorIndex[Arc] = OperatorIndex(
-            most_asked(fields, ((arc.condition.need_mask, 1) for arc in self._arcs))
+            most_asked([*fields], ((arc.condition.need_mask, 1) for arc in self._arcs))
         )
         for arc in self._arcs:
             self._index.add(arc.condition.need_mask, arc.condition.need, arc)
@@ -139,5 +136,5 @@ class Closure:
 
         if self._ball is not None:
             return False
-        self._ball = ball_around(self._arcs, self._goal, self._fields, self._values, start, self._deadline)
+        self._ball = ball_around(self._arcs, self._goal, self._fields, start, self._deadline)
         return self._ball is not None

@@ -7,7 +7,7 @@ Fields that change together and have few combinations in reach (who is where) sh
 """
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import product
 from math import prod
 from typing import Any, Final, NamedTuple
@@ -75,27 +75,24 @@ class PackedPlaces:
     """Places of states in the array.
 
     Args:
-        fields: masks of the fields that a state consists of.
-        values: all values of each field.
+        fields: all values of each field that a state consists of, by its mask.
         start: a state; only combinations that may come up from there have a place.
     """
 
     def __init__(
         self,
         arcs: Sequence[Arc],
-        fields: Sequence[int],
-        values: Sequence[Sequence[int]],
+        fields: Mapping[int, Sequence[int]],
         start: int,
         deadline: Deadline,
     ) -> None:
         self._arcs = arcs
         self._start = start
-        alone = dict(zip(fields, values, strict=True))
         parts: list[tuple[int, list[int]]] = []
         for group in _changed_together(arcs, fields, deadline):
-            found = None if group in alone else self._in_reach(group)
+            found = None if group in fields else self._in_reach(group)
             if found is None:
-                parts += [(field, list(alone[field])) for field in fields if field & group]
+                parts += [(field, [*values]) for field, values in fields.items() if field & group]
             else:
                 parts.append((group, found))
         # The busiest come last, in the highest bits: neighbours in the order share their actions.
@@ -192,7 +189,7 @@ def _pairs(axis: _PerimeterAxis, condition: PackedGoal, keep: int, put: int) -> 
                 yield axis.at[value], after
 
 
-def _changed_together(arcs: Sequence[Arc], fields: Sequence[int], deadline: Deadline) -> list[int]:
+def _changed_together(arcs: Sequence[Arc], fields: Collection[int], deadline: Deadline) -> list[int]:
     """Masks of fields, those together that are linked by arcs that change two of them."""
     groups = list(fields)
     kept = deadline.each({arc.keep for arc in arcs})
@@ -346,8 +343,7 @@ def _distinct(values: Places) -> Places:
 def ball_around(
     arcs: Sequence[Arc],
     goal: PackedGoal,
-    fields: Sequence[int],
-    values: Sequence[Sequence[int]],
+    fields: Mapping[int, Sequence[int]],
     start: int,
     deadline: Deadline,
 ) -> Perimeter | None:
@@ -357,7 +353,7 @@ def ball_around(
     """
     if not fields or not all(arc.weight for arc in arcs):
         return None  # a step that costs nothing at all may go round for ever
-    places = PackedPlaces(arcs, fields, values, start, deadline)
+    places = PackedPlaces(arcs, fields, start, deadline)
     deadline.check()
     if places.bits > MAX_BITS or places.steps(arcs) > _MOST_STEPS:
         return None

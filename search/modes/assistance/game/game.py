@@ -12,9 +12,9 @@ from math import lcm
 from typing import Final, NamedTuple
 
 from search.call.prepared_task import PreparedTask
-from search.modes.assistance.game.own import BY_ACTION, OwnCosts, by_rarest
+from search.modes.assistance.game.own import OwnCosts, applicable_ops, by_rarest
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY, require_room
-from search.packed.operators import Operator, applicable, asked_by, union
+from search.packed.operators import Operator, asked_by, union
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
@@ -91,13 +91,10 @@ class Game:
     def supporter(self, state: int) -> list[Move]:
         """What the supporter may do, waiting first; of moves to one state the cheapest."""
         found = {state: Move(0, state, NOOP)}
-        for op in sorted(self._supporter_index.candidates(state), key=BY_ACTION):
-            if applicable(op, state):
-                after = (state & op.keep | op.put) & self._relevant
-                cost = self._scaled[op.cost]
-                known = found.get(after)
-                if known is None or cost < known.value:
-                    found[after] = Move(cost, after, op.action)
+        for op in applicable_ops(self._supporter_index, state):
+            after, cost = (state & op.keep | op.put) & self._relevant, self._scaled[op.cost]
+            if after not in found or cost < found[after].value:
+                found[after] = Move(cost, after, op.action)
         return list(found.values())
 
     def prime(self, state: int) -> tuple[Move, ...]:

@@ -21,9 +21,6 @@ from serendipity.model.resources.deadline import Deadline
 MAX_STATES: Final = 100_000
 """The largest table of one context, unless it has a ball; beyond it each state is searched by itself."""
 
-BY_ACTION: Final = attrgetter("action")
-"""The order of ops."""
-
 
 class OwnCosts:
     """The prime's optimal keys ``cost << ACTIONS_BITS | length``, with the supporter idle.
@@ -46,10 +43,9 @@ class OwnCosts:
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """The prime's optimal key; ``INFINITE_KEY`` without a plan; at or above ``limit`` any such value."""
         context = state & self._mask & ~self._changed
-        if context in self._context:
-            table = self._context[context]
-        else:
-            table = self._context[context] = self._table(context)
+        if context not in self._context:
+            self._context[context] = self._table(context)
+        table = self._context[context]
         if table is None:
             return INFINITE_KEY
         if not self._too_large:
@@ -65,12 +61,10 @@ class OwnCosts:
         if key >= INFINITE_KEY:
             return []
         found = []
-        for op in sorted(self._index.candidates(state), key=BY_ACTION):
-            if applicable(op, state):
-                after = state & op.keep | op.put
-                rest = key - self._weights[op.cost]
-                if after != state and self.key(after, rest + 1) == rest:
-                    found.append((op, after))
+        for op in applicable_ops(self._index, state):
+            after, rest = state & op.keep | op.put, key - self._weights[op.cost]
+            if after != state and self.key(after, rest + 1) == rest:
+                found.append((op, after))
         return found
 
     def _table(self, context: int) -> Closure | None:
@@ -85,9 +79,8 @@ class OwnCosts:
             condition = _within(PackedGoal(op.need_mask, op.need, op.forbidden), changed, context)
             if condition is not None:
                 arcs.append(Arc(condition, op.keep, op.put, self._weights[op.cost]))
-        fields = [field for field in self._packed.fields if field & changed]
-        values = [self._packed.values(field) for field in fields]
-        return Closure(arcs, goal, fields, values, MAX_STATES, self._deadline)
+        fields = {field: self._packed.values(field) for field in self._packed.fields if field & changed}
+        return Closure(arcs, goal, fields, MAX_STATES, self._deadline)
 
     def _search(self, state: int, limit: int) -> int:
         if self._single is None:
@@ -118,3 +111,8 @@ def by_rarest(packed: PackedTask, ops: Sequence[Operator], deadline: Deadline) -
     for op, pairs in zip(ops, asked, strict=True):
         index.add(*min(pairs, key=count.__getitem__, default=(0, 0)), op)
     return index
+
+
+def applicable_ops(index: LiteralIndex[Operator], state: int) -> list[Operator]:
+    """What is possible in a packed state, in the order of the actions."""
+    return sorted((op for op in index.candidates(state) if applicable(op, state)), key=attrgetter("action"))

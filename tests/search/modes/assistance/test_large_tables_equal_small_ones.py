@@ -39,8 +39,8 @@ def test_ball_knows_the_distance_of_every_state_in_reach(
     system: tuple[list[Arc], PackedGoal], start: int, limit: int
 ) -> None:
     arcs, goal = system
-    known = Closure(arcs, goal, FIELDS, VALUES, 1000, Deadline())
-    ball = ball_around(arcs, goal, FIELDS, VALUES, start, Deadline())
+    known = Closure(arcs, goal, dict(zip(FIELDS, VALUES, strict=True)), 1000, Deadline())
+    ball = ball_around(arcs, goal, dict(zip(FIELDS, VALUES, strict=True)), start, Deadline())
     pending, seen = [start], {start}
     while pending:
         state = pending.pop()

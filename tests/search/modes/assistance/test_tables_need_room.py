@@ -31,19 +31,19 @@ def line(length: int) -> tuple[list[Arc], PackedGoal, int]:
 def test_without_room_for_a_ball_all_states_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(closure, "SMALL", 1)
     arcs, goal, mask = line(40)
-    values = [list(range(40))]
+    fields = {mask: list(range(40))}
     for deadline in (Deadline(), Full()):
-        assert Closure(arcs, goal, [mask], values, 1000, deadline).key(0) == 39 * ((1 << ACTIONS_BITS) + 1)
+        assert Closure(arcs, goal, fields, 1000, deadline).key(0) == 39 * ((1 << ACTIONS_BITS) + 1)
     with pytest.raises(ClosureTooLargeError):
-        Closure(arcs, goal, [mask], values, 39, Full()).key(0)
+        Closure(arcs, goal, fields, 39, Full()).key(0)
 
 
 def test_a_ball_asks_for_all_it_may_touch() -> None:
     arcs, goal, mask = line(40)
-    values = [list(range(40))]
-    assert ball_around(arcs, goal, [mask], values, 0, Deadline()) is not None
-    assert ball_around(arcs, goal, [mask], values, 0, Full()) is None
-    assert PackedPlaces(arcs, [mask], values, 0, Deadline()).item == np.dtype(np.uint32).itemsize
+    fields = {mask: list(range(40))}
+    assert ball_around(arcs, goal, fields, 0, Deadline()) is not None
+    assert ball_around(arcs, goal, fields, 0, Full()) is None
+    assert PackedPlaces(arcs, fields, 0, Deadline()).item == np.dtype(np.uint32).itemsize
 
 
 @pytest.mark.parametrize("ties", ["optimistic", "robust", "expected"])
