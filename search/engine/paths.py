@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from search.engine.best_first import Node
+from search.engine.best_first import Incumbent, Node
 from serendipity.model.task.plans import Step
 from serendipity.model.task.task import HumanPlan
 
@@ -15,6 +15,12 @@ def plan_steps(plan: HumanPlan, first_epoch: int = 1) -> tuple[Step, ...]:
 def path_steps(node: Node) -> tuple[Step, ...]:
     """The steps that lead to a node, in order of epoch and action."""
     return tuple(sorted(Step(at.epoch, action) for at in _back_from(node) for action in at.actions))
+
+
+def steps_of(found: Incumbent) -> tuple[Step, ...]:
+    """The steps of a plan that has a last node, in order of epoch and action."""
+    assert found.node is not None, "an incumbent of a search has one"
+    return tuple(sorted(path_steps(found.node) + plan_steps(found.tail, found.end)))
 
 
 def path_sets(node: Node) -> list[tuple[int, ...]]:

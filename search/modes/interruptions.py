@@ -13,7 +13,7 @@ from itertools import count
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, Progress, best_first
-from search.engine.paths import path_steps, plan_steps
+from search.engine.paths import plan_steps, steps_of
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 from search.spaces.fixed_window import FixedWindow, Weighed
@@ -143,11 +143,7 @@ def _outcome(
 ) -> WindowOutcome:
     if human.key >= INFINITE_KEY:
         return WindowOutcome(window, None, None, None)
-    if human.node is None:
-        steps = plan_steps(plan)
-    else:
-        steps = path_steps(human.node) + plan_steps(human.tail, human.end)
-    keys = context.keys
+    keys, steps = context.keys, plan_steps(plan) if human.node is None else steps_of(human)
     return WindowOutcome(window, keys.objective(human.key), keys.objective(team.key), steps)
 
 

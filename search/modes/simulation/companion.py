@@ -8,15 +8,15 @@ time, then all together.
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cache
 
 from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, solve_space
-from search.engine.paths import path_steps, plan_steps
+from search.engine.paths import steps_of
 from search.modes.simulation.human import Human, Start
-from search.modes.simulation.simulator import Simulation, simulate_from, way_on
+from search.modes.simulation.simulator import Run, Simulation, way_on
 from search.modes.simulation.space import Reactive
 from search.packed.cost_vector import INFINITE_KEY
-from search.packed.successor_generator import Successors
 from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.options import MAX_EPOCH, Options
 from serendipity.model.resources.deadline import Deadline
@@ -63,8 +63,9 @@ class Companion:
         self._options = options
         model = options.human_model
         self.human = Human(prepared, options, self._clock, human_model=model, actions=actions)
-        self._idle = self.human.context.successors(idle=True)
-        self._successors: dict[frozenset[int], Successors] = {}
+        context = self.human.context
+        self._idle = context.successors(idle=True)
+        self._without = cache(lambda barred: context.successors(barred=barred))
 
     def under(self, deadline: Deadline) -> Human:
         """The human, whose thinking polls a deadline from now on."""
@@ -98,17 +99,19 @@ class Companion:
         """
         self._clock.renew(deadline)
         horizon = len(start.intention.actions) or MAX_EPOCH
-        idle = self._search(start, Incumbent(INFINITE_KEY), horizon, self._idle)
+        space = Reactive(self.human, self._idle, start, horizon, keeps=True)
+        idle = solve_space(space, Incumbent(INFINITE_KEY), self._clock)
         best = replace(idle)
-        replayed = self._replayed(start, known, begins)
-        if replayed is not None and replayed[0] < best.key:
-            best = Incumbent(replayed[0])
-        steps = None if replayed is None else replayed[1]
+        if begins is None or begins(tuple(step.action for step in known if step.epoch == 1)):
+            replayed = way_on(start, self.human, self._options, known, self._clock)
+            if replayed is not None and replayed.key < best.key:
+                best = replayed
         proved = False
         for number, out in enumerate(barred):
             self._clock.renew(deadline.part(1 / (len(barred) - number)))
+            space = Reactive(self.human, self._without(out), start, horizon, keeps=keeps, begins=begins)
             try:
-                self._search(start, best, horizon, self._without(out), begins, keeps=keeps)
+                solve_space(space, best, self._clock)
                 proved = number == len(barred) - 1
             except LIMITS:
                 pass
@@ -117,54 +120,11 @@ class Companion:
             if not proved:
                 raise LimitReachedError("time-limit")
             return None
-        if best.node is not None:
-            steps = tuple(sorted(path_steps(best.node) + plan_steps(best.tail, best.end)))
         keys = self.human.keys
         alone = None if idle.key >= INFINITE_KEY else keys.cost(idle.key)
-        return Course(steps or (), keys.cost(best.key), alone, proved)
+        return Course(steps_of(best), keys.cost(best.key), alone, proved)
 
     def played(self, start: Start, steps: Sequence[Step], deadline: Deadline) -> Simulation:
         """What becomes of the robots' part of a plan; see :func:`.simulate`."""
         self._clock.renew(deadline)
-        return simulate_from(start, self.human, self._options, steps, horizon=None, deadline=deadline)
-
-    def _search(
-        self,
-        start: Start,
-        best: Incumbent,
-        horizon: int,
-        successors: Successors,
-        begins: Begins | None = None,
-        *,
-        keeps: bool = True,
-    ) -> Incumbent:
-        space = Reactive(
-            self.human,
-            successors,
-            start=start,
-            horizon=horizon,
-            no_block=True,
-            most_cost=None,
-            keeps=keeps,
-            begins=begins,
-        )
-        return solve_space(space, best, self._clock)
-
-    def _replayed(
-        self, start: Start, known: Sequence[Step], begins: Begins | None
-    ) -> tuple[int, tuple[Step, ...]] | None:
-        """The key and the steps of a known way from here; None where it does not lead to the goal."""
-        first = tuple(step.action for step in known if step.epoch == 1)
-        if begins is not None and not begins(first):
-            return None
-        played = way_on(start, self.human, self._options, known, self._clock)
-        if played is None:
-            return None
-        packed, weights = self.human.packed, self.human.weights
-        return sum(weights.team(packed.op(step.action)) for step in played.steps), played.steps
-
-    def _without(self, barred: frozenset[int]) -> Successors:
-        found = self._successors.get(barred)
-        if found is None:
-            found = self._successors[barred] = self.human.context.successors(barred=barred)
-        return found
+        return Run(start, self.human, self._options, steps, deadline).play(None)

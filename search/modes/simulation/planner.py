@@ -6,8 +6,8 @@ from fractions import Fraction
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
-from search.engine.best_first import Incumbent, Node, Progress, best_first, solve_space
-from search.engine.paths import path_steps, plan_steps
+from search.engine.best_first import Incumbent, Progress, best_first, solve_space
+from search.engine.paths import plan_steps, steps_of
 from search.human.individual_planner import FoundPlan
 from search.modes.simulation.human import Human, Start
 from search.modes.simulation.in_time import HumanInTime
@@ -143,17 +143,12 @@ class _Call:
         """The plan that was known before is the incumbent, where it works out and is better."""
         if self.task.due:
             return
-        played = way_on(self._start(), self.human, self.options, self.known, self.deadline)
-        if played is None or len(played.epochs) > self.epochs:
-            return
         human, guarded = self.human, self.options.no_block is not False
-        node = Node(0, 0, human.packed.init, 0, 0, None, ())
-        for epoch in played.epochs:
-            if guarded and human.stuck(node.state):
-                return
-            node = human.context.after(node, [human.packed.op(i) for i in epoch.executed])
-        if node.key < self.best.key and not human.keys.exceeds(node.key, self._most_cost()):
-            self.best = Incumbent(node.key, node)
+        found = way_on(self._start(), human, self.options, self.known, self.deadline, guarded=guarded)
+        if found is None or found.node is None or found.node.epoch > self.epochs:
+            return
+        if found.key < self.best.key and not human.keys.exceeds(found.key, self._most_cost()):
+            self.best = found
 
     def _start(self) -> Start:
         init = self.human.packed.init
@@ -191,6 +186,7 @@ class _Call:
     def _outcome(self, status: Status) -> Answer:
         helps, keys = self._helps(), self.human.keys
         answer = self.best if helps or self.task.robot_goal else self.baseline
+        steps = plan_steps(self.plan) if answer.node is None else steps_of(answer)
         known = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
         baseline = None if self.baseline.key == INFINITE_KEY else keys.cost(self.baseline.key)
         cost = keys.cost(answer.key) if known else None
@@ -199,7 +195,7 @@ class _Call:
             human_plan=self.plan,
             horizon=self.epochs,
             reason={"infeasible": "no-plan-within-horizon", "unknown": self.limit}.get(status),
-            steps=self._steps(answer) if known else None,
+            steps=steps if known else None,
             cost=cost,
             objective=cost,
             lower_bound=cost if status == "optimal" else self._lower_bound(status),
@@ -223,9 +219,3 @@ class _Call:
         if status == "infeasible":
             return None
         return self.human.keys.objective(min(self.progress.bound, self.best.key, self.baseline.key))
-
-    def _steps(self, answer: Incumbent) -> tuple[Step, ...]:
-        if answer is self.baseline and answer.node is None:
-            return plan_steps(self.plan)
-        assert answer.node is not None, "an incumbent of the search has a node"
-        return tuple(sorted(path_steps(answer.node) + plan_steps(answer.tail, answer.end)))

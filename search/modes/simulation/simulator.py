@@ -5,6 +5,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from search.call.prepared_task import PreparedTask
+from search.engine.best_first import Incumbent, Node
 from search.modes.simulation.human import Glance, Human, Start
 from search.packed.operators import Operator, applicable, changed
 from serendipity.model.errors import LIMITS, limit_reason
@@ -117,30 +118,34 @@ def simulate(
     human = Human(prepared, options, deadline, human_model=human_model, actions=asked, visible=visible)
     init = human.packed.init
     start = Start(init, init, human.intentions.of(human_plan))
-    return simulate_from(start, human, options, steps, horizon=horizon, deadline=deadline)
-
-
-def simulate_from(
-    start: Start,
-    human: Human,
-    options: Options,
-    steps: Iterable[Step],
-    *,
-    horizon: int | None,
-    deadline: Deadline,
-) -> Simulation:
-    """The same from any moment, with a human who is there already; every action of ``steps`` is packed."""
-    return _Run(options, human, steps, start, deadline).play(horizon)
+    return Run(start, human, options, steps, deadline).play(horizon)
 
 
 def way_on(
-    start: Start, human: Human, options: Options, steps: Sequence[Step], deadline: Deadline
-) -> Simulation | None:
-    """A plan that was made for another moment, played as before; None where it misses the goals."""
+    start: Start,
+    human: Human,
+    options: Options,
+    steps: Sequence[Step],
+    deadline: Deadline,
+    *,
+    guarded: bool = False,
+) -> Incumbent | None:
+    """A plan that was made for another moment, played as before; None where it misses the goals.
+
+    Args:
+        guarded: whether it is none, either, where it leaves the human without a plan on the way.
+    """
     if not steps or not all(human.packed.is_useful(step.action) for step in steps):
         return None
-    played = simulate_from(start, human, options, steps, horizon=None, deadline=deadline)
-    return played if played.goals_hold and not any(epoch.skipped for epoch in played.epochs) else None
+    played = Run(start, human, options, steps, deadline).play(None)
+    if not played.goals_hold or any(epoch.skipped for epoch in played.epochs):
+        return None
+    node = Node(0, 0, start.state, 0, 0, None, ())
+    for epoch in played.epochs:
+        if guarded and human.stuck(node.state):
+            return None
+        node = human.context.after(node, [human.packed.op(i) for i in epoch.executed])
+    return Incumbent(node.key, node)
 
 
 def _is_own(task: Task, step: Step) -> bool:
@@ -155,11 +160,11 @@ def variants(task: Task, action: int) -> tuple[int, ...]:
     return (action, *(i for i in others if i != action and task.actions[i].participants == same.participants))
 
 
-class _Run:
-    """One simulation: true state, the human's belief, what they expect to see next."""
+class Run:
+    """One simulation, from any moment on; every action of ``steps`` is packed."""
 
     def __init__(
-        self, options: Options, human: Human, steps: Iterable[Step], start: Start, deadline: Deadline
+        self, start: Start, human: Human, options: Options, steps: Iterable[Step], deadline: Deadline
     ) -> None:
         self.deadline = deadline
         self.strict = options.strict
@@ -174,6 +179,7 @@ class _Run:
         self.state, self.expected, self.intention = start
 
     def play(self, horizon: int | None) -> Simulation:
+        """What happens in so many epochs, or until the end; see :func:`simulate`."""
         last = max(self.planned, default=0)
         epochs: list[SimulatedEpoch] = []
         limit = None
@@ -190,7 +196,9 @@ class _Run:
             epochs.append(epoch)
             if epoch.epoch >= last and not epoch.executed and self.expected == before:
                 break  # nothing will ever change again
-        return Simulation(tuple(epochs), self._done(), self._cost(epochs), limit)
+        done = (self.packed.op(i) for epoch in epochs for i in epoch.executed)
+        cost = self.human.keys.cost(sum(map(self.human.weights.team, done)))
+        return Simulation(tuple(epochs), self._done(), cost, limit)
 
     def _epoch(self, number: int) -> SimulatedEpoch:
         human = self.human
@@ -274,8 +282,3 @@ class _Run:
 
     def _exact(self, scaled: int | None) -> Fraction | None:
         return None if scaled is None else Fraction(scaled, self.human.keys.scale)
-
-    def _cost(self, epochs: Iterable[SimulatedEpoch]) -> Fraction:
-        human = self.human
-        keys = sum(human.weights.team(self.packed.op(i)) for epoch in epochs for i in epoch.executed)
-        return human.keys.cost(keys)

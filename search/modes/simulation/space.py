@@ -52,8 +52,8 @@ class Reactive:
     successors: Successors
     start: Start
     horizon: int
-    no_block: bool
-    most_cost: int | None
+    no_block: bool = True
+    most_cost: int | None = None
     keeps: bool = False
     begins: Callable[[tuple[int, ...]], bool] | None = None
 
