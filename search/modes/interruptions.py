@@ -112,19 +112,24 @@ def _examined(
     if not plan:
         return
     windows = len(plan) * (horizon + 1) - len(plan) * (len(plan) + 1) // 2
-    done = count(1)
-
-    def tell() -> None:
-        if on_progress is not None:
-            on_progress(next(done), 2 * windows)
-
-    human, team = (
-        _Objective(context, Weighed(context, plan, horizon, weight, robots, idling), idling, tell)
+    objectives = [
+        _Objective(context, Weighed(context, plan, horizon, weight, robots, idling), idling)
         for weight, robots in (_human_first(context), (context.weights.team, context.weights.robots))
-    )
+    ]
+    done, keys = count(1), context.keys
     for window in _ordered(len(plan), horizon):
         context.deadline.check()  # where neither objective has anything left to search
-        yield _outcome(context, plan, window, human.best(window), team.best(window))
+        best = []
+        for objective in objectives:
+            best.append(objective.best(window))
+            if on_progress is not None:
+                on_progress(next(done), 2 * windows)
+        human, team = best
+        if human.key >= INFINITE_KEY:
+            yield WindowOutcome(window, None, None, None)
+            continue
+        steps = plan_steps(plan) if human.node is None else steps_of(human)
+        yield WindowOutcome(window, keys.objective(human.key), keys.objective(team.key), steps)
 
 
 def _human_first(context: SearchContext) -> tuple[Callable[[Operator], int], list[int]]:
@@ -136,15 +141,6 @@ def _human_first(context: SearchContext) -> tuple[Callable[[Operator], int], lis
         return context.weights.team(op) if op.agents & human_bit else robots[op.cost]
 
     return weight, robots
-
-
-def _outcome(
-    context: SearchContext, plan: HumanPlan, window: Window, human: Incumbent, team: Incumbent
-) -> WindowOutcome:
-    if human.key >= INFINITE_KEY:
-        return WindowOutcome(window, None, None, None)
-    keys, steps = context.keys, plan_steps(plan) if human.node is None else steps_of(human)
-    return WindowOutcome(window, keys.objective(human.key), keys.objective(team.key), steps)
 
 
 def _ordered(starts: int, horizon: int) -> Iterator[Window]:
@@ -170,9 +166,8 @@ class _Objective:
     those around it; where the two meet there is nothing to search.
     """
 
-    def __init__(self, context: SearchContext, weighed: Weighed, idle: int, tell: Callable[[], None]) -> None:
+    def __init__(self, context: SearchContext, weighed: Weighed, idle: int) -> None:
         self._deadline = context.deadline
-        self._tell = tell
         self._weighed = weighed
         self._idle = idle
         self._nested = context.options.preservation == "kernel"
@@ -180,19 +175,13 @@ class _Objective:
 
     def best(self, window: Window) -> Incumbent:
         """The best plan of a window; an infinite key where none fits."""
-        found = self._found[window] = self._best(window)
-        self._tell()
-        return found
-
-    def _best(self, window: Window) -> Incumbent:
-        known, least = self._inside(window), self._around(window)
-        if known.key <= least:
-            return known
-        best = replace(known)
-        space = FixedWindow(self._weighed, window)
-        for _ in best_first(space, best, Progress(), self._deadline):
-            if best.key <= least:
-                break
+        least, best = self._around(window), replace(self._inside(window))
+        if best.key > least:
+            space = FixedWindow(self._weighed, window)
+            for _ in best_first(space, best, Progress(), self._deadline):
+                if best.key <= least:
+                    break
+        self._found[window] = best
         return best
 
     def _inside(self, window: Window) -> Incumbent:

@@ -19,11 +19,8 @@ class Writer:
         self.task = game.task
         self._game = game
         self._ties = ties
-        packed = game.packed
-        self._named: dict[tuple[int, int], str] = {}
-        for fact, bits in enumerate(packed.fact_bits):
-            if bits is not None:
-                self._named[bits] = game.task.facts[fact]
+        packed = zip(game.task.facts, game.packed.fact_bits, strict=True)
+        self._named = {bits: name for name, bits in packed if bits is not None}
 
     def human_plan(self) -> HumanPlan | None:
         """The prime's canonical optimal plan alone, or None where they have none."""
@@ -61,12 +58,10 @@ class Writer:
             helping = entry is not None
             rest: Costs | None = None
             if entry is not None:
+                state, rest = entry.after, entry.value
                 if entry.action != NOOP:
                     steps.append(Step(epoch, entry.action))
-                    rest = entry.value[0], entry.value[1] - self.task.actions[entry.action].cost
-                else:
-                    rest = entry.value
-                state = entry.after
+                    rest = rest[0], rest[1] - self.task.actions[entry.action].cost
                 if game.goal.holds(state):
                     break
             move = self._reply(state, solution, rest)

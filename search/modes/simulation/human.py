@@ -6,7 +6,7 @@ from typing import NamedTuple
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask, TaskTables
 from search.human.individual_planner import canonical
-from search.modes.simulation.eyes import Eyes, as_told, everywhere, nearby
+from search.modes.simulation.eyes import as_told, everywhere, nearby
 from search.modes.simulation.intention import Intention, Intentions
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option
@@ -105,7 +105,12 @@ class Human:
         self.intentions = Intentions(self.packed, self.keys, self.weights.human)
         self.sees_all = not local
         self.asleep = options.head_start
-        self.eyes = _eyes(prepared, self.packed, visible, deadline) if local else everywhere()
+        if not local:
+            self.eyes = everywhere()
+        elif visible is None:
+            self.eyes = nearby(self.packed, prepared.surroundings(deadline))
+        else:
+            self.eyes = as_told(self.packed, visible)
         task = prepared.task
         asked = (i for i in actions if task.actions[i].participants == (task.human,))
         self.concern = self.packed.own_mask | self.packed.goal.mask
@@ -130,12 +135,10 @@ class Human:
         """Step 3, without a joint action: they do the first step of their plan, fail in it, or wait."""
         intention = look.intention
         own = None if look.best is None else intention.op
-        if own is None:
-            return HumanStep(NOTHING, self.expects(belief, NOTHING), intention, False)
-        if not applicable(own, state):
-            learnt = self.learn(belief, state, own)
-            return HumanStep(NOTHING, self.expects(learnt, NOTHING), intention, False)
-        return HumanStep(intention.option, self.expects(belief, intention.option), intention.rest, True)
+        if own is not None and applicable(own, state):
+            return HumanStep(intention.option, self.expects(belief, intention.option), intention.rest, True)
+        learnt = belief if own is None else self.learn(belief, state, own)
+        return HumanStep(NOTHING, self.expects(learnt, NOTHING), intention, False)
 
     def joins(self, joint: Operator, belief: int, look: Glance) -> HumanStep:
         """Step 2: a joint action that they have accepted."""
@@ -149,10 +152,9 @@ class Human:
     def decide(self, belief: int, intention: Intention) -> Glance:
         """Step 1: whether they keep their plan, make another, or wait."""
         key = (belief & self.concern, intention.number)
-        look = self._looks.get(key)
-        if look is None:
-            look = self._looks[key] = self._decide(belief, intention)
-        return look
+        if key not in self._looks:
+            self._looks[key] = self._decide(belief, intention)
+        return self._looks[key]
 
     def _decide(self, belief: int, intention: Intention) -> Glance:
         kept = intention.cost if self.works(belief, intention) else None
@@ -237,7 +239,3 @@ def _missing(packed: PackedTask, actions: Collection[int]) -> frozenset[int]:
         if action.participants == (task.human,) and not packed.is_useful(i):
             missing |= {*action.pre, *action.neg, *action.add, *action.delete}
     return frozenset(missing)
-
-
-def _eyes(prepared: PreparedTask, packed: PackedTask, visible: Visible | None, deadline: Deadline) -> Eyes:
-    return nearby(packed, prepared.surroundings(deadline)) if visible is None else as_told(packed, visible)

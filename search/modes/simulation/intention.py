@@ -73,14 +73,12 @@ class Intentions:
         """The intention to do these actions, one after another."""
         found = self._end
         for action in reversed(tuple(actions)):
-            longer = self._known.get((action, found.number))
-            if longer is None:
-                longer = self._known[action, found.number] = self._before(action, found)
-            found = longer
+            key = action, found.number
+            if key not in self._known:
+                op, number = self._packed.op(action), len(self._known) + 1
+                weight = self._weights[op.cost]
+                cost = found.cost + self._keys.scaled_cost(weight)
+                option, total = as_option(op, weight), found.weight + weight
+                self._known[key] = Intention(number, op, option, found, total, cost)
+            found = self._known[key]
         return found
-
-    def _before(self, action: int, rest: Intention) -> Intention:
-        op = self._packed.op(action)
-        weight = self._weights[op.cost]
-        cost = rest.cost + self._keys.scaled_cost(weight)
-        return Intention(len(self._known) + 1, op, as_option(op, weight), rest, rest.weight + weight, cost)

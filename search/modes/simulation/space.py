@@ -65,7 +65,7 @@ class Reactive:
         self._width = packed.all_ones.bit_length()
         self._labels = ParetoFront()
         self._minds: list[Mind] = []
-        self._numbers: dict[tuple[int, int, bool, int], int] = {}
+        self._numbers: dict[Mind, int] = {}
 
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state, and what the human has in mind."""
@@ -142,9 +142,7 @@ class Reactive:
 
     def _offer(self, node: Node, best: Incumbent) -> bool:
         """Whether the goals hold, and the human is up: the plan ends there."""
-        if node.epoch < self.human.asleep:
-            return False
-        if not all(goal.holds(node.state) for goal in self._goals):
+        if node.epoch < self.human.asleep or not all(goal.holds(node.state) for goal in self._goals):
             return False
         if node.key < best.key and not self.human.keys.exceeds(node.key, self.most_cost):
             best.key, best.node, best.end, best.tail = node.key, node, 0, ()
@@ -186,10 +184,8 @@ class Reactive:
 
     def _number(self, mind: Mind) -> int:
         """A number for a mind, the same for equal ones."""
-        key = (mind.belief, mind.intention.number, mind.guarded, mind.waited)
-        number = self._numbers.get(key)
-        if number is None:
-            number = self._numbers[key] = len(self._minds)
+        number = self._numbers.setdefault(mind, len(self._minds))
+        if number == len(self._minds):
             self._minds.append(mind)
         return number
 

@@ -19,7 +19,7 @@ from search.engine.shortest_paths import LevelQueue
 from search.modes.assistance.distances.closure import Arc
 from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
 from search.packed.packed_task import PackedGoal
-from serendipity.model.errors import LIMITS, LimitReachedError
+from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
 Places = NDArray[np.int32]
@@ -53,13 +53,11 @@ _LARGE: Final = 1 << 20
 
 
 class _PerimeterAxis(NamedTuple):
-    """Some fields: their combinations, the place of each, and where its bits are."""
+    """Some fields: the place of each of their combinations, and the bits of these places."""
 
     mask: int
-    values: list[int]
     at: dict[int, int]
-    shift: int
-    width: int
+    bits: int
 
 
 class _Back(NamedTuple):
@@ -103,7 +101,7 @@ class PackedPlaces:
         for mask, combinations in parts:
             width = (len(combinations) - 1).bit_length()
             at = {value: i << self.bits for i, value in enumerate(combinations)}
-            axes.append(_PerimeterAxis(mask, combinations, at, self.bits, width))
+            axes.append(_PerimeterAxis(mask, at, (1 << width) - 1 << self.bits))
             self.bits += width
         self.axes = axes[::-1]
 
@@ -122,31 +120,27 @@ class PackedPlaces:
             found |= at
         return found
 
-    def backward(self, condition: PackedGoal, keep: int, put: int) -> Iterator[tuple[int, int, int]]:
+    def backward(self, arc: Arc) -> Iterator[tuple[int, int, int]]:
         """Mask and bits of places that an action leads to, and the offset to where it came from."""
-        mask, choices = self._choices(condition, keep, put)
+        mask, choices = self._choices(arc)
         for chosen in product(*choices):
             after = sum(after for _, after in chosen)
             yield mask, after, sum(before for before, _ in chosen) - after
 
     def steps(self, arcs: Sequence[Arc]) -> int:
         """How many steps backward have to be tried at each distance, over all values of the first axis."""
-        top = self.axes[0]
-        total = 0
+        top, total = self.axes[0], 0
         for arc in arcs:
-            ways = prod(map(len, self._choices(arc.condition, arc.keep, arc.put)[1]))
-            total += ways if (arc.condition.mask | ~arc.keep) & top.mask else ways * len(top.values)
+            mask, choices = self._choices(arc)
+            total += prod(map(len, choices)) * (1 if mask & top.bits else len(top.at))
         return total
 
-    def _choices(self, condition: PackedGoal, keep: int, put: int) -> tuple[int, list[list[tuple[int, int]]]]:
+    def _choices(self, arc: Arc) -> tuple[int, list[list[tuple[int, int]]]]:
         """Per axis that an action mentions, the pairs of places that it leads between; and their mask."""
-        choices = []
-        mask, mentioned = 0, condition.mask | ~keep
-        for axis in self.axes:
-            if axis.mask & mentioned:
-                choices.append(list(_pairs(axis, condition, keep, put)))
-                mask |= (1 << axis.width) - 1 << axis.shift
-        return mask, choices
+        mentioned = arc.condition.mask | ~arc.keep
+        axes = [axis for axis in self.axes if axis.mask & mentioned]
+        choices = [list(_pairs(axis, arc.condition, arc.keep, arc.put)) for axis in axes]
+        return sum(axis.bits for axis in axes), choices
 
     def holding(self, condition: PackedGoal) -> Places | None:
         """Places of the states in which a condition holds, each once; None where they are too many."""
@@ -180,13 +174,11 @@ class PackedPlaces:
 
 def _pairs(axis: _PerimeterAxis, condition: PackedGoal, keep: int, put: int) -> Iterator[tuple[int, int]]:
     """Where on one axis a condition can hold, and where an effect leads from there."""
-    mask, need = condition.need_mask & axis.mask, condition.need & axis.mask
-    forbidden = [(field, value) for field, value in condition.forbidden if field & axis.mask]
-    for value in axis.values:
-        if value & mask == need and all(value & field != bad for field, bad in forbidden):
-            after = axis.at.get((value & keep | put) & axis.mask)
-            if after is not None:  # else it asks for what never comes up
-                yield axis.at[value], after
+    here = condition.within(axis.mask)
+    for value, before in axis.at.items():
+        after = axis.at.get((value & keep | put) & axis.mask)
+        if after is not None and here.holds(value):  # else it asks for what never comes up
+            yield before, after
 
 
 def _changed_together(arcs: Sequence[Arc], fields: Collection[int], deadline: Deadline) -> list[int]:
@@ -249,15 +241,14 @@ class Perimeter:
     def _backward(self, arcs: Sequence[Arc]) -> list[tuple[int, list[_Back]]]:
         """Actions by the bits of the busiest axis in the places that they lead to."""
         top = self._places.axes[0]
-        mask = (1 << top.width) - 1 << top.shift
         by_place: dict[int, list[_Back]] = {at: [] for at in top.at.values()}
         for arc in arcs:
             major, minor = divmod(arc.weight, 1 << ACTIONS_BITS)
             weight = (major << self._minor_bits) + minor
-            for asked, want, offset in self._places.backward(arc.condition, arc.keep, arc.put):
+            for asked, want, offset in self._places.backward(arc):
                 if offset:
-                    step = _Back(asked & ~mask, want & ~mask, offset, weight)
-                    for at in [want & mask] if asked & mask else by_place:
+                    step = _Back(asked & ~top.bits, want & ~top.bits, offset, weight)
+                    for at in [want & top.bits] if asked & top.bits else by_place:
                         by_place[at].append(step)
         return sorted(by_place.items())
 
@@ -267,19 +258,15 @@ class Perimeter:
             return False
         while self._queue.least == level:  # steps without a major part lead to the level itself
             _, parts = self._queue.pop()
+            grown = False
             try:
                 grown = self._settle(level, parts)
-            except LIMITS:
-                self._put_back(level, parts)  # to be gone through again, should anybody ask again
-                raise
+            finally:
+                for places in () if grown else parts:  # to be gone through again, should anybody ask again
+                    self._queue.push(level, places)
             if not grown:
-                self._put_back(level, parts)
                 return False
         return True
-
-    def _put_back(self, level: int, parts: Sequence[Places]) -> None:
-        for places in parts:
-            self._queue.push(level, places)
 
     def _settle(self, level: int, parts: list[Places]) -> bool:
         """Go on from places of one level; False where a distance does not fit any more.
