@@ -118,7 +118,7 @@ BOUNDS: Final = (
     ),
     LowerBound(
         "h_max of both",
-        "search.modes.assistance.bounds.relaxed:joint_lower_bound",
+        "search.modes.assistance.bounds.bound:joint_lower_bound",
         "Bonet and Geffner 2001",
         "values of silent assistance",
         "nothing",

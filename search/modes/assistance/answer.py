@@ -9,8 +9,7 @@ from typing import Final, TypeVar
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
-from search.modes.assistance.bounds.bound import ValueBound
-from search.modes.assistance.bounds.relaxed import joint_lower_bound
+from search.modes.assistance.bounds.bound import ValueBound, joint_lower_bound
 from search.modes.assistance.game.game import Game
 from search.modes.assistance.game.rules import RULES
 from search.modes.assistance.game.solution import ZERO, Costs, GameSolution

@@ -49,11 +49,7 @@ class Course:
 
 
 class Companion:
-    """Robots beside one human with one goal, who may stand anywhere.
-
-    Attributes:
-        human: the human.
-    """
+    """Robots beside one human with one goal, who may stand anywhere."""
 
     def __init__(
         self, prepared: PreparedTask, options: Options, deadline: Deadline, actions: Collection[int] = ()
@@ -85,11 +81,8 @@ class Companion:
         """The best way to go on that is found in time; None where robots can't make the human get there.
 
         Args:
-            start: where everybody is.
             barred: ids of actions that nobody may do, in one search after the other; only the last one
                 proves that there is nothing better.
-            deadline: of all of them.
-            begins: what may happen in the first epoch.
             known: a way that was found before, which may still be good for something.
             keeps: whether robots don't make a plan impossible that the human would go on with.
 

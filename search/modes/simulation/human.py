@@ -118,12 +118,9 @@ class Human:
         self._looks: dict[tuple[int, int], Glance] = {}
 
     def look(self, expected: int, state: int, intention: Intention, *, settled: bool) -> tuple[int, Glance]:
-        """Step 1: what they believe after a look at the packed state, and what they decide.
+        """Step 1: what they believe after a look at the true state, and what they decide.
 
         Args:
-            expected: what they expect to see.
-            state: as it truly is.
-            intention: what they mean to do.
             settled: see :class:`HumanStep`.
         """
         belief = self.eyes.look(expected, state)

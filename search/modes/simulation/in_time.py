@@ -20,7 +20,6 @@ class BesideOthers(IndividualPlanner):
 
     Args:
         later: the same once nobody else is at anything, and nothing happens any more.
-        due: what happens whatever is chosen.
     """
 
     def __init__(self, human: Human, later: IndividualPlanner, due: Due, options: Options) -> None:

@@ -38,9 +38,6 @@ class Reactive:
     """The search space of robots' action sequences.
 
     Attributes:
-        human: their state machine.
-        successors: what agents can do in an epoch.
-        start: where it begins.
         no_block: robots must not leave them without a plan.
         most_cost: largest scaled cost of an acceptable plan, or None.
         keeps: robots must not make a plan impossible that the human would go on with: one that is being

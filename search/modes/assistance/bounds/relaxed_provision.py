@@ -93,8 +93,7 @@ class RelaxedProvision:
 
     def _find_setters(self) -> dict[Pair, list[Operator]]:
         setters: dict[Pair, list[Operator]] = {}
-        for op in self._game.supporter_ops:
-            self._game.deadline.tick()
+        for op in self._game.deadline.each(self._game.supporter_ops):
             for pair in self._game.packed.assigned(self._provided & ~op.keep, op.put):
                 setters.setdefault(pair, []).append(op)
         return setters
@@ -105,8 +104,7 @@ class RelaxedProvision:
     def _find_charged(self) -> dict[Pair, tuple[int, int]]:
         """For each condition that is charged its price and the bit that is set with it."""
         packed, together = self._game.packed, dict[Pair, int]()
-        for op in packed.own:
-            self._game.deadline.tick()
+        for op in self._game.deadline.each(packed.own):
             for pair in self._asked(op):
                 first_set = op.put & self._monotone
                 together[pair] = together.get(pair, first_set) & first_set
@@ -114,8 +112,7 @@ class RelaxedProvision:
         charged = {}
         for pair, bit in bits.items():
             prices = []
-            for op in self._setters[pair]:
-                self._game.deadline.tick()
+            for op in self._game.deadline.each(self._setters[pair]):
                 also = sum(set_too in bits for set_too in packed.assigned(packed.all_ones & ~op.keep, op.put))
                 prices.append(self._game.cost(op) // also)
             charged[pair] = (min(prices), bit)
@@ -137,8 +134,7 @@ class RelaxedProvision:
     def _make_context(self, provided: int) -> _Context:
         steps: OperatorIndex[ChargedStep] = OperatorIndex(self._field)
         least: dict[int, Pair] = {}
-        for op in self._game.packed.own:
-            self._game.deadline.tick()
+        for op in self._game.deadline.each(self._game.packed.own):
             step = self._step(op, provided)
             if step is None:
                 continue

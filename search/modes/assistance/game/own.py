@@ -74,8 +74,7 @@ class OwnCosts:
         if goal is None:
             return None
         arcs = []
-        for op in self._packed.own:
-            self._deadline.tick()
+        for op in self._deadline.each(self._packed.own):
             condition = _within(PackedGoal(op.need_mask, op.need, op.forbidden), changed, context)
             if condition is not None:
                 arcs.append(Arc(condition, op.keep, op.put, self._weights[op.cost]))

@@ -17,10 +17,10 @@ Model = dict[int, list[Option]]
 
 def solve_all(graph: Graph, deadline: Deadline) -> None:
     """Raise all bounds to the values of what has been looked at, and set ``graph.pick``."""
-    model: Model = {}
-    for state, moves in graph.choices.items():
-        deadline.tick()
-        model[state] = [option for move in moves for option in graph.options(state, move)]
+    model: Model = {
+        state: [option for move in moves for option in graph.options(state, move)]
+        for state, moves in deadline.each(graph.choices.items())
+    }
     if isinstance(graph.rule, Mean):
         values, policy = _mean(graph, model, deadline)
     else:
@@ -31,8 +31,7 @@ def solve_all(graph: Graph, deadline: Deadline) -> None:
             graph.low[state] = value
         if state in policy:
             graph.pick[state] = policy[state]
-    for reply in graph.replies:
-        deadline.tick()
+    for reply in deadline.each(graph.replies):
         graph.back_up_reply(reply)
 
 
@@ -49,8 +48,7 @@ def _mean(graph: Graph, model: Model, deadline: Deadline) -> tuple[dict[int, Val
             return values[state] if state in model else graph.choice_value(state)
 
         improved = False
-        for state, options in model.items():
-            deadline.tick()
+        for state, options in deadline.each(model.items()):
             best = min(options, key=lambda option: option_value(option, rule, value_of))
             if option_value(best, rule, value_of) < values[state]:
                 policy[state] = best
@@ -62,10 +60,10 @@ def _mean(graph: Graph, model: Model, deadline: Deadline) -> tuple[dict[int, Val
 def _certain(graph: Graph, model: Model, deadline: Deadline) -> Model:
     """The states from which some policy ends with certainty, with the options that stay among them."""
     while True:
-        kept: Model = {}
-        for state, options in model.items():
-            deadline.tick()
-            kept[state] = [option for option in options if _stays(graph, model, option)]
+        kept: Model = {
+            state: [option for option in options if _stays(graph, model, option)]
+            for state, options in deadline.each(model.items())
+        }
         reached = _attracted(kept, deadline)
         if len(reached) == len(model):
             return kept
@@ -87,8 +85,7 @@ def _attracted(model: Model, deadline: Deadline) -> dict[int, Option]:
     waiting: dict[int, list[tuple[int, Option]]] = {}
     policy: dict[int, Option] = {}
     pending: list[int] = []
-    for state, options in model.items():
-        deadline.tick()
+    for state, options in deadline.each(model.items()):
         for option in options:
             ends = option.end is not None or any(move.after not in model for move in option.outcomes)
             if ends and state not in policy:

@@ -35,14 +35,7 @@ def option_value(option: Option, rule: ChoiceRule, value_of: Outside) -> Value:
 def evaluate(
     policy: Mapping[int, Option], rule: ChoiceRule, outside: Outside, deadline: Deadline
 ) -> dict[int, Value]:
-    """Values of all states of a policy; infinite where a run may not end.
-
-    Args:
-        policy: per state the option chosen.
-        rule: how the prime's moves count.
-        outside: values of states that are not in the policy.
-        deadline: polled while they are worked out.
-    """
+    """Values of all states of a policy, which has an option for each; infinite where a run may not end."""
     if isinstance(rule, Mean):
         return _mean(policy, rule, outside, deadline)
     found, _ = forced({state: [option] for state, option in policy.items()}, rule, outside, deadline)
@@ -55,8 +48,7 @@ def forced(
     """Least values and options of all states from which the end can be forced; not for means."""
     options: list[Option] = []
     rules: list[Rule[int]] = []
-    for state, listed in model.items():
-        deadline.tick()
+    for state, listed in deadline.each(model.items()):
         for option in listed:
             options.append(option)
             rules.append(Rule({move.after for move in option.outcomes if move.after in model}, (state,)))
@@ -112,8 +104,7 @@ def _mean(policy: Mapping[int, Option], rule: Mean, outside: Outside, deadline: 
                 row = _Row({}, (0, 0)).plus(1 / Fraction(1 - factor), row)
         rows[state] = row
     values: dict[int, Value] = {}
-    for state, row in reversed(rows.items()):
-        deadline.tick()
+    for state, row in deadline.each(reversed(rows.items())):
         if row is None or any(values[other] == rule.infinite for other in row.others):
             values[state] = rule.infinite
             continue

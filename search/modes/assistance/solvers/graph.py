@@ -16,8 +16,7 @@ class Graph:
     """Choices and replies, expanded when first needed.
 
     Args:
-        bound: consistent lower bound.
-        rule: how the prime's actions count.
+        bound: a consistent one.
         no_block: no move may take the prime's last plan away.
 
     Attributes:
