@@ -78,9 +78,8 @@ def solve_for_human(
         if task.due or options.head_start:
             human: Human = HumanInTime(prepared, options, deadline, actions=actions)
         else:
-            human = Human(
-                prepared, options, deadline, human_model=options.human_model, actions=actions, visible=visible
-            )
+            model = options.human_model
+            human = Human(prepared, options, deadline, human_model=model, actions=actions, visible=visible)
             if human_plan is None:
                 human.alone.proved(human.packed.init, plan)
     except LIMITS as limit:
@@ -110,15 +109,13 @@ class _Call:
     deadline: Deadline
     known: Sequence[Step]
     given: bool
+    settled: bool = False
+    """Whether it is known what the human does alone."""
+    limit: str | None = None
 
     def __post_init__(self) -> None:
         self.progress = Progress()
-        self.baseline = Incumbent(INFINITE_KEY)
-        self.idle = Incumbent(INFINITE_KEY)
-        self.best = Incumbent(INFINITE_KEY)
-        self.settled = False
-        """Whether it is known what the human does alone."""
-        self.limit: str | None = None
+        self.baseline, self.idle, self.best = (Incumbent(INFINITE_KEY) for _ in range(3))
 
     def answers(self) -> Iterator[Answer]:
         """Each better answer, then the last one with what is proved of it."""
@@ -186,8 +183,8 @@ class _Call:
     def _outcome(self, status: Status) -> Answer:
         helps, keys = self._helps(), self.human.keys
         answer = self.best if helps or self.task.robot_goal else self.baseline
-        steps = plan_steps(self.plan) if answer.node is None else steps_of(answer)
         known = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
+        steps = plan_steps(self.plan) if answer.node is None else steps_of(answer)
         baseline = None if self.baseline.key == INFINITE_KEY else keys.cost(self.baseline.key)
         cost = keys.cost(answer.key) if known else None
         return Answer(
