@@ -14,13 +14,13 @@ from fractions import Fraction
 
 from search import PreparedTask
 from search.modes.simulation.companion import Companion
-from search.modes.simulation.simulator import Simulation
 from serendipity.execution.advice import Advice, Adviser, Allows, DecisionPoint, ReactiveAdviser
 from serendipity.execution.guard import Following, RobotActions
 from serendipity.execution.session_adviser import SessionAdviser
 from serendipity.execution.unbound import Unbound
 from serendipity.facade.results import named_steps
 from serendipity.model import Condition, Deadline, HumanPlan, Options, Step, Task
+from serendipity.model.answers.simulation import Simulation
 from serendipity.model.errors import LIMITS
 from serendipity.model.numbers import total
 from serendipity.model.task.execution import actions_of, steps_named

@@ -6,9 +6,9 @@ from fractions import Fraction
 from math import inf
 from typing import Generic, Protocol, TypeVar
 
-from search.modes.simulation.simulator import Simulation
 from serendipity.execution.advice import Advice
 from serendipity.model import Deadline, PlanStep, Step, Task
+from serendipity.model.answers.simulation import Simulation
 from serendipity.model.task.execution import steps_named
 
 

@@ -5,11 +5,11 @@ from fractions import Fraction
 from typing import Final, Literal
 
 from search import PreparedTask
-from search.modes.simulation import SimulatedEpoch, Simulation
 from search.modes.simulation import simulate as play
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Result, Step, Task, Visible
+from serendipity.model.answers.simulation import SimulatedEpoch, Simulation
 from serendipity.model.answers.trace import WHY, Trace, TraceEpoch, TraceSkip
 from serendipity.model.arguments import FUNCTION, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.errors import LIMITS, InputError, UsageError

@@ -1,5 +1,5 @@
 """The human who replans: what they do with a plan that nobody told them of (semantics 6)."""
 
-from search.modes.simulation.simulator import SimulatedEpoch, Simulation, Skipped, simulate
+from search.modes.simulation.simulator import simulate
 
-__all__ = ["SimulatedEpoch", "Simulation", "Skipped", "simulate"]
+__all__ = ["simulate"]

@@ -14,9 +14,10 @@ from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, solve_space
 from search.engine.paths import steps_of
 from search.modes.simulation.human import Human, Start
-from search.modes.simulation.simulator import Run, Simulation, way_on
+from search.modes.simulation.simulator import Run, way_on
 from search.modes.simulation.space import Reactive
 from search.packed.cost_vector import INFINITE_KEY
+from serendipity.model.answers.simulation import Simulation
 from serendipity.model.errors import LIMITS, LimitReachedError
 from serendipity.model.options import MAX_EPOCH, Options
 from serendipity.model.resources.deadline import Deadline

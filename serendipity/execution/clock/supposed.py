@@ -5,7 +5,6 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Final
 
-from search.modes.simulation.simulator import Simulation
 from serendipity.execution.advice import Advice
 from serendipity.execution.clock.bystanders import would_pay
 from serendipity.execution.clock.course import Course, Help, after_going_on, after_helping
@@ -18,6 +17,7 @@ from serendipity.facade.person.sight import Sight
 from serendipity.facade.person.ways import Entries, Way, Ways, begun_in, entries_of
 from serendipity.facade.session import Session
 from serendipity.model import INFINITE, Condition, Deadline, Options, PlanError, PlanStep, Step, Task
+from serendipity.model.answers.simulation import Simulation
 from serendipity.model.errors import LIMITS, LimitReachedError, UsageError
 from serendipity.model.numbers import as_written, total
 from serendipity.model.task.actions import GroundAction

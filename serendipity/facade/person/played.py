@@ -5,7 +5,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from search.modes.simulation.simulator import (
+from serendipity.facade.person.follower import Follower
+from serendipity.facade.person.sight import Sight
+from serendipity.facade.person.ways import Ways, entries_of
+from serendipity.facade.results import named_steps
+from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Step, Task
+from serendipity.model.answers.simulation import (
     CONFLICT,
     INAPPLICABLE,
     REFUSED,
@@ -13,11 +18,6 @@ from search.modes.simulation.simulator import (
     Simulation,
     Skipped,
 )
-from serendipity.facade.person.follower import Follower
-from serendipity.facade.person.sight import Sight
-from serendipity.facade.person.ways import Ways, entries_of
-from serendipity.facade.results import named_steps
-from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Step, Task
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.task.actions import GroundAction
 from serendipity.model.task.course import BrokenPlanError
