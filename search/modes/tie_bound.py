@@ -20,7 +20,6 @@ from serendipity.model.errors import LIMITS
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
-from serendipity.model.task.task import HumanPlan
 
 
 def least_over_ties(
@@ -33,12 +32,11 @@ def least_over_ties(
         options: of the call, in mode ``serendipity`` or ``communication``.
         graph: their optimal plans from the initial state.
     """
-    plan = graph.canonical()
-    horizon = int(horizon_of(prepared.task, options, plan))
+    horizon = int(horizon_of(prepared.task, options, graph.canonical()))
     replans = options.suffix == "replan" and options.preservation == "kernel"
     try:
-        if options.mode == "serendipity" and options.human_model == "omniscient" and replans and plan:
-            return _by_windows(prepared, options, graph, plan, horizon, deadline)
+        if options.mode == "serendipity" and options.human_model == "omniscient" and replans and graph.edges:
+            return _by_windows(prepared, options, graph, horizon, deadline)
     except LIMITS:
         return None
     told = Options(
@@ -49,13 +47,9 @@ def least_over_ties(
 
 
 def _by_windows(
-    prepared: PreparedTask,
-    options: Options,
-    graph: PlanGraph,
-    plan: HumanPlan,
-    horizon: int,
-    deadline: Deadline,
+    prepared: PreparedTask, options: Options, graph: PlanGraph, horizon: int, deadline: Deadline
 ) -> Fraction:
+    plan = graph.canonical()
     most = horizon if options.max_window is None else options.max_window
     if options.window_weight:
         most = min(most, int(prepared.task.cost_of(plan) / options.window_weight) + 1)

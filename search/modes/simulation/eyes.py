@@ -29,11 +29,6 @@ class Eyes:
         return belief & ~seen | state & seen
 
 
-def everywhere() -> Eyes:
-    """The observant human: they see the whole state."""
-    return Eyes(0, lambda _: -1)
-
-
 def nearby(encoding: PackedTask, places: Surroundings) -> Eyes:
     """The local human: they see what is where they are, or all where nothing is anywhere."""
     if not places.located:

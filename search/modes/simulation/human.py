@@ -1,12 +1,12 @@
 """The human's state machine: what they decide when they look up (semantics 6, steps 1 and 2)."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask, TaskTables
 from search.human.individual_planner import canonical
-from search.modes.simulation.eyes import as_told, everywhere, nearby
+from search.modes.simulation.eyes import Eyes, as_told, nearby
 from search.modes.simulation.intention import Intention, Intentions
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option
@@ -106,7 +106,7 @@ class Human:
         self.sees_all = not local
         self.asleep = options.head_start
         if not local:
-            self.eyes = everywhere()
+            self.eyes = Eyes(0, lambda _: -1)
         elif visible is None:
             self.eyes = nearby(self.packed, prepared.surroundings(deadline))
         else:
@@ -166,13 +166,11 @@ class Human:
         """Whether a plan leads from what they believe to their goal, with robots idle."""
         return intention.works(belief, self.packed.goal)
 
-    def attends_to_nothing(self, state: int, epoch: int) -> bool:
-        """Whether they don't look up in a packed state after some epochs; without time they always do."""
-        return False
-
-    def unasked(self, state: int, belief: int, intention: Intention) -> Iterator[HumanStep]:
-        """Their part of an epoch in which they don't look up."""
-        return iter(())
+    def unasked(
+        self, state: int, epoch: int, belief: int, intention: Intention
+    ) -> Iterable[HumanStep] | None:
+        """Their part of the epoch after ``epoch``, without a look; None where they look up."""
+        return None
 
     def paid(self, part: JointAction, waited: int) -> tuple[JointAction, int]:
         """Their part of an epoch with the waiting before it, and the weight of what is not yet paid for."""
@@ -180,7 +178,7 @@ class Human:
 
     def accepts(self, joint: Operator, belief: int, best: int | None) -> bool:
         """Step 2: whether the human takes part, ``best`` being their cost alone now."""
-        after = self.after(joint, belief)
+        after = self.follows(belief, as_option(joint, 0)) if applicable(joint, belief) else None
         if after is None:
             return False
         if best is None:
@@ -191,9 +189,9 @@ class Human:
         limit = self.key_of(left + 1)
         return self.alone.key(after, limit) < limit
 
-    def after(self, joint: Operator, belief: int) -> int | None:
-        """What they believe after an epoch in which a joint action begins; None where it can't."""
-        return belief & joint.keep | joint.put if applicable(joint, belief) else None
+    def follows(self, state: int, part: JointAction) -> int | None:
+        """The state after an epoch in which they do something, others nothing new; None where it can't."""
+        return state & part.keep | part.put
 
     def stuck(self, state: int) -> bool:
         """Whether the human has no plan alone from a packed state, as it truly is."""
@@ -201,7 +199,8 @@ class Human:
 
     def stuck_by_themselves(self, state: int, own: JointAction) -> bool:
         """Whether they are after an epoch in which they do something, and robots begin nothing."""
-        return self.stuck(state & own.keep | own.put)
+        after = self.follows(state, own)
+        return after is None or self.stuck(after)
 
     def learn(self, belief: int, state: int, op: Operator) -> int:
         """The belief after the human tried an action in vain: its preconditions as they are."""

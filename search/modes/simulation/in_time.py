@@ -1,6 +1,6 @@
 """The human who replans where actions take time: they look up whenever they are free (semantics 10.6)."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable
 
 from search.call.prepared_task import PreparedTask
 from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
@@ -9,8 +9,8 @@ from search.modes.simulation.human import Glance, Human, HumanStep
 from search.modes.simulation.intention import Intention
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due
-from search.packed.joint_actions import NOTHING, JointAction, as_option
-from search.packed.operators import Operator, applicable
+from search.packed.joint_actions import NOTHING, JointAction
+from search.packed.operators import applicable
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 
@@ -76,34 +76,35 @@ class HumanInTime(Human):
         """See :class:`.Human`; others go on meanwhile, and the script does."""
         at, state = intention, belief
         while at.op is not None:
-            after = self._due.after(state, (at.option,)) if applicable(at.op, state) else None
+            after = self.follows(state, at.option) if applicable(at.op, state) else None
             if after is None:
                 return False
             at, state = at.rest, after
         return self.packed.goal.holds(state)
 
-    def attends_to_nothing(self, state: int, epoch: int) -> bool:
-        """See :class:`.Human`: they are not up yet, or at something."""
-        return epoch < self.asleep or self._due.human(state) is not None
-
-    def unasked(self, state: int, belief: int, intention: Intention) -> Iterator[HumanStep]:
-        """See :class:`.Human`."""
+    def unasked(
+        self, state: int, epoch: int, belief: int, intention: Intention
+    ) -> Iterable[HumanStep] | None:
+        """See :class:`.Human`: they are at something, or not up yet."""
         going_on = self._due.human(state)
+        if going_on is None and epoch >= self.asleep:
+            return None
         if going_on is None:
-            yield HumanStep(NOTHING, self.expects(belief, NOTHING), intention.rest, False)
-            return
+            return [HumanStep(NOTHING, self.expects(belief, NOTHING), intention.rest, False)]
+        found = []
         for part in going_on:
             own = intention.op is not None and intention.op.action == part.actions[0]
-            yield HumanStep(part, self.expects(belief, part), intention.rest if own else intention, False)
+            rest = intention.rest if own else intention
+            found.append(HumanStep(part, self.expects(belief, part), rest, False))
+        return found
 
     def expects(self, belief: int, own: JointAction) -> int:
         """See :class:`.Human`; others go on as the human takes them to, and the script does."""
         return belief if self.sees_all else self._due.supposed(belief, own)
 
-    def stuck_by_themselves(self, state: int, own: JointAction) -> bool:
-        """See :class:`.Human`; what robots are at goes on."""
-        after = self._due.after(state, (own,))
-        return after is None or self.stuck(after)
+    def follows(self, state: int, part: JointAction) -> int | None:
+        """See :class:`.Human`; others go on meanwhile, and the script does."""
+        return self._due.after(state, (part,))
 
     def goes_on(self, belief: int, state: int, look: Glance) -> HumanStep:
         """See :class:`.Human`; whether waiting is paid for is only known when they begin something."""
@@ -119,7 +120,3 @@ class HumanInTime(Human):
         if not self.packed.counted(part.actions[0]):
             return part, waited
         return part._replace(weight=part.weight + waited), 0
-
-    def after(self, joint: Operator, belief: int) -> int | None:
-        """See :class:`.Human`; others go on meanwhile, and the script does."""
-        return self._due.after(belief, (as_option(joint, 0),)) if applicable(joint, belief) else None

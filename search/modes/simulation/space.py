@@ -83,29 +83,26 @@ class Reactive:
         if node.epoch == self.horizon:
             return
         mind, state, human = self._minds[node.phase >> 1], node.state, self.human
-        if human.attends_to_nothing(state, node.epoch):
-            if not (mind.guarded and human.stuck(state)):
-                yield from self._unasked(node, mind, best)
-            return
-        expected = state if human.sees_all else mind.belief
-        belief, look = human.look(expected, state, mind.intention, settled=bool(node.phase & 1))
-        stuck = self._stuck(state, look)
-        if mind.guarded and stuck:
-            return
-        if self._offers_idle and not stuck:
-            self._offer_idle(node, look.intention, best)
-        guarded = self.no_block and not stuck
-        for joint in self.successors.joint(state):
-            op = human.packed.op(joint.actions[0])
-            if human.accepts(op, belief, look.best):
-                yield from self._children(node, mind, best, human.joins(op, belief, look), guarded=guarded)
-        yield from self._children(node, mind, best, human.goes_on(belief, state, look), guarded=guarded)
+        steps = human.unasked(state, node.epoch, mind.belief, mind.intention)
+        if steps is None:
+            expected = state if human.sees_all else mind.belief
+            belief, look = human.look(expected, state, mind.intention, settled=bool(node.phase & 1))
+            steps, stuck = self._steps(state, belief, look), self._stuck(state, look)
+            if self._offers_idle and not stuck:
+                self._offer_idle(node, look.intention, best)
+        else:
+            stuck = (mind.guarded or self.no_block) and human.stuck(state)
+        if not (mind.guarded and stuck):
+            for step in steps:
+                yield from self._children(node, mind, best, step, guarded=self.no_block and not stuck)
 
-    def _unasked(self, node: Node, mind: Mind, best: Incumbent) -> Iterator[tuple[int, Node]]:
-        """Successors of a node in which the human does not look up: they go on, or are not up yet."""
-        guarded = self.no_block and not self.human.stuck(node.state)
-        for step in self.human.unasked(node.state, mind.belief, mind.intention):
-            yield from self._children(node, mind, best, step, guarded=guarded)
+    def _steps(self, state: int, belief: int, look: Glance) -> Iterator[HumanStep]:
+        """What the human may do after a look: joint actions that they accept, or what they decide on."""
+        for joint in self.successors.joint(state):
+            op = self.human.packed.op(joint.actions[0])
+            if self.human.accepts(op, belief, look.best):
+                yield self.human.joins(op, belief, look)
+        yield self.human.goes_on(belief, state, look)
 
     def _children(
         self, node: Node, mind: Mind, best: Incumbent, step: HumanStep, *, guarded: bool

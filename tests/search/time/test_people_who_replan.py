@@ -101,7 +101,7 @@ def test_what_is_planned_happens(seed: int) -> None:
     ("name", "owner", "method", "bug", "seed"),
     [
         ("nobody does anything with robots", Human, "accepts", lambda *_: False, 0),
-        ("they look up before they are up", HumanInTime, "attends_to_nothing", lambda *_: False, 26),
+        ("they look up before they are up", HumanInTime, "unasked", lambda *_: None, 26),
         ("they see nothing that robots are at", BesideOthers, "_least_from", _blind, 65),
     ],
 )
