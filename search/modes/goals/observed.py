@@ -21,6 +21,7 @@ from search.packed.operator_index import by_most_asked
 from search.packed.operators import forms_of
 from search.packed.packings import asked_facts
 from search.packed.successor_generator import Lookup
+from search.strategies.first_answer import canonical_human_plan
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
@@ -171,10 +172,8 @@ def _explanation(
 
 def _optimum(prepared: PreparedTask, deadline: Deadline) -> Likelihood:
     """Where nothing was observed the human's optimum, which their own searches know best."""
-    found = SearchContext(prepared, Options(), deadline).canonical_plan()
-    if found is None:
-        return Likelihood(None, None, None)
-    return Likelihood(prepared.task.cost_of(found.actions), None, found.actions)
+    plan = canonical_human_plan(prepared, deadline, Options())
+    return Likelihood(None if plan is None else prepared.task.cost_of(plan), None, plan)
 
 
 def _embeds(task: Task, plan: HumanPlan, observed: Sequence[str]) -> bool:

@@ -6,6 +6,7 @@ a table over the rest is filled in where it is asked for.
 
 from collections import Counter
 from collections.abc import Sequence
+from functools import cached_property
 from operator import attrgetter
 from typing import Final
 
@@ -37,7 +38,6 @@ class OwnCosts:
         self._mask = packed.own_mask | packed.goal.mask
         self._context: dict[int, Closure | None] = {}
         self._index = by_rarest(packed, packed.own, deadline)
-        self._single: IndividualPlanner | None = None
         self._too_large = False
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
@@ -53,7 +53,7 @@ class OwnCosts:
                 return table.key(state & self._changed, limit)
             except ClosureTooLargeError:
                 self._too_large = True
-        return self._search(state, limit)
+        return self._single.key(state, limit)
 
     def optimal(self, state: int) -> list[tuple[Operator, int]]:
         """Actions that start an optimal plan, ascending, with their successors."""
@@ -81,12 +81,12 @@ class OwnCosts:
         fields = {field: self._packed.values(field) for field in self._packed.fields if field & changed}
         return Closure(arcs, goal, fields, MAX_STATES, self._deadline)
 
-    def _search(self, state: int, limit: int) -> int:
-        if self._single is None:
-            packed, weights = self._packed, self._weights
-            memory = Memory(packed, lambda op: weights[op.cost])
-            self._single = IndividualPlanner(packed, packed.goal, NOTHING_KNOWN, memory, self._deadline)
-        return self._single.key(state, limit)
+    @cached_property
+    def _single(self) -> IndividualPlanner:
+        """What searches each state by itself."""
+        packed, weights = self._packed, self._weights
+        memory = Memory(packed, lambda op: weights[op.cost])
+        return IndividualPlanner(packed, packed.goal, NOTHING_KNOWN, memory, self._deadline)
 
 
 def _within(condition: PackedGoal, changed: int, context: int) -> PackedGoal | None:
