@@ -9,7 +9,7 @@ from typing import Final, TypeVar
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
-from search.modes.assistance.bounds.bound import ValueBound, joint_lower_bound
+from search.modes.assistance.bounds.bound import joint_lower_bound
 from search.modes.assistance.game.game import Game
 from search.modes.assistance.game.rules import RULES
 from search.modes.assistance.game.solution import ZERO, Costs, GameSolution
@@ -84,8 +84,7 @@ def _searched(game: Game, options: Options) -> Iterator[Answer]:
     writer = Writer(game, options.ties)
     search: LaoStar | None = None
     try:
-        rule = RULES[options.ties](game)
-        search = LaoStar(game, ValueBound(game), rule, no_block=bool(options.no_block))
+        search = LaoStar(game, RULES[options.ties](game), no_block=bool(options.no_block))
         for _ in search.run():
             yield _answer(writer, search.solution(floors=False), "feasible", search.expanded)
         solution = search.solution()

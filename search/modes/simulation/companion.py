@@ -57,7 +57,6 @@ class Companion:
     ) -> None:
         self._clock = Deadline()
         self._clock.renew(deadline)
-        self._options = options
         model = options.human_model
         self.human = Human(prepared, options, self._clock, human_model=model, actions=actions)
         context = self.human.context
@@ -97,7 +96,7 @@ class Companion:
         idle = solve_space(space, Incumbent(INFINITE_KEY), self._clock)
         best = replace(idle)
         if begins is None or begins(tuple(step.action for step in known if step.epoch == 1)):
-            replayed = way_on(start, self.human, self._options, known, self._clock)
+            replayed = way_on(start, self.human, known)
             if replayed is not None and replayed.key < best.key:
                 best = replayed
         proved = False
@@ -121,4 +120,4 @@ class Companion:
     def played(self, start: Start, steps: Sequence[Step], deadline: Deadline) -> Simulation:
         """What becomes of the robots' part of a plan; see :func:`.simulate`."""
         self._clock.renew(deadline)
-        return Run(start, self.human, self._options, steps, deadline).play(None)
+        return Run(start, self.human, steps).play(None)

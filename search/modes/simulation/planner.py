@@ -23,7 +23,7 @@ from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.horizon import horizon_of
 from serendipity.model.task.plans import Step
-from serendipity.model.task.task import HumanPlan, Task
+from serendipity.model.task.task import HumanPlan
 from serendipity.model.task.visibility import Visible
 
 
@@ -87,7 +87,7 @@ def solve_for_human(
             yield Answer("unknown", human_plan=plan, horizon=epochs, reason=limit_reason(limit))
         return
     known = () if warm is None else warm.steps
-    call = _Call(task, options, human, plan, epochs, deadline, known, given=human_plan is not None)
+    call = _Call(human, plan, epochs, known, given=human_plan is not None)
     for answer in call.answers():
         bound = answer.lower_bound
         yield answer._replace(lower_bound=None if bound is None else max(least, bound))
@@ -101,12 +101,9 @@ class _Call:
     ``idle`` is what they do alone, if it reaches all goals; ``best`` is the incumbent over everything.
     """
 
-    task: Task
-    options: Options
     human: Human
     plan: HumanPlan
     epochs: int
-    deadline: Deadline
     known: Sequence[Step]
     given: bool
     settled: bool = False
@@ -114,6 +111,8 @@ class _Call:
     limit: str | None = None
 
     def __post_init__(self) -> None:
+        context = self.human.context
+        self.task, self.options, self.deadline = context.task, context.options, context.deadline
         self.progress = Progress()
         self.baseline, self.idle, self.best = (Incumbent(INFINITE_KEY) for _ in range(3))
 
@@ -141,7 +140,7 @@ class _Call:
         if self.task.due:
             return
         human, guarded = self.human, self.options.no_block is not False
-        found = way_on(self._start(), human, self.options, self.known, self.deadline, guarded=guarded)
+        found = way_on(self._start(), human, self.known, guarded=guarded)
         if found is None or found.node is None or found.node.epoch > self.epochs:
             return
         if found.key < self.best.key and not human.keys.exceeds(found.key, self._most_cost()):

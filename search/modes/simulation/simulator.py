@@ -53,18 +53,10 @@ def simulate(
     human = Human(prepared, options, deadline, human_model=human_model, actions=asked, visible=visible)
     init = human.packed.init
     start = Start(init, init, human.intentions.of(human_plan))
-    return Run(start, human, options, steps, deadline).play(horizon)
+    return Run(start, human, steps).play(horizon)
 
 
-def way_on(
-    start: Start,
-    human: Human,
-    options: Options,
-    steps: Sequence[Step],
-    deadline: Deadline,
-    *,
-    guarded: bool = False,
-) -> Incumbent | None:
+def way_on(start: Start, human: Human, steps: Sequence[Step], *, guarded: bool = False) -> Incumbent | None:
     """A plan that was made for another moment, played as before; None where it misses the goals.
 
     Args:
@@ -72,7 +64,7 @@ def way_on(
     """
     if not steps or not all(human.packed.is_useful(step.action) for step in steps):
         return None
-    played = Run(start, human, options, steps, deadline).play(None)
+    played = Run(start, human, steps).play(None)
     if not played.goals_hold or any(epoch.skipped for epoch in played.epochs):
         return None
     node = Node(0, 0, start.state, 0, 0, None, ())
@@ -98,11 +90,7 @@ def variants(task: Task, action: int) -> tuple[int, ...]:
 class Run:
     """One simulation, from any moment on; every action of ``steps`` is packed."""
 
-    def __init__(
-        self, start: Start, human: Human, options: Options, steps: Iterable[Step], deadline: Deadline
-    ) -> None:
-        self.deadline = deadline
-        self.strict = options.strict
+    def __init__(self, start: Start, human: Human, steps: Iterable[Step]) -> None:
         self.human = human
         self.packed = human.packed
         self.task = human.packed.task
@@ -121,7 +109,7 @@ class Run:
         while not self._done() and (horizon is None or len(epochs) < horizon):
             before = self.expected
             try:
-                self.deadline.check()
+                self.human.context.deadline.check()
                 epoch = self._epoch(len(epochs) + 1)
             except LIMITS as error:
                 if not epochs:
@@ -182,14 +170,14 @@ class Run:
 
     def _robots(self, offered: Sequence[int], his: tuple[int, ...], skipped: list[Skipped]) -> list[int]:
         """What robots do without the human; the human has priority, and among robots the smaller id."""
-        done: list[int] = []
+        done, strict = list[int](), self.human.context.options.strict
         for i in offered:
             op = self.packed.op(i)
             if op.agents & self.packed.human_bit:
                 continue
             if not applicable(op, self.state):
                 skipped.append(Skipped(i, INAPPLICABLE))
-            elif not all(self.packed.compatible(i, j, self.strict) for j in (*his, *done)):
+            elif not all(self.packed.compatible(i, j, strict) for j in (*his, *done)):
                 skipped.append(Skipped(i, CONFLICT))
             else:
                 done.append(i)

@@ -16,7 +16,6 @@ class Graph:
     """Choices and replies, expanded when first needed.
 
     Args:
-        bound: a consistent one.
         no_block: no move may take the prime's last plan away.
 
     Attributes:
@@ -29,10 +28,10 @@ class Graph:
         pick: the options of a policy that is known to end, where one was worked out.
     """
 
-    def __init__(self, game: Game, bound: ValueBound, rule: ChoiceRule, *, no_block: bool) -> None:
+    def __init__(self, game: Game, rule: ChoiceRule, *, no_block: bool) -> None:
         self.game = game
         self.rule = rule
-        self._bound = bound
+        self._bound = ValueBound(game)
         self._no_block = no_block
         self.choices: dict[int, list[Move]] = {}
         self.replies: dict[int, tuple[Move, ...]] = {}

@@ -9,7 +9,6 @@ solved at once, see :mod:`search.modes.assistance.solvers.cycles`.
 
 from collections.abc import Iterator
 
-from search.modes.assistance.bounds.bound import ValueBound
 from search.modes.assistance.game.game import Game
 from search.modes.assistance.game.rules import ChoiceRule, Value
 from search.modes.assistance.game.solution import MAX_FLOORS, Costs, GameSolution, PolicyEntry
@@ -25,10 +24,10 @@ _MOST_IDLE_PASSES = 20
 class LaoStar:
     """The search; its arguments are those of :class:`.Graph`."""
 
-    def __init__(self, game: Game, bound: ValueBound, rule: ChoiceRule, *, no_block: bool) -> None:
+    def __init__(self, game: Game, rule: ChoiceRule, *, no_block: bool) -> None:
         self._game = game
         self._rule = rule
-        self._graph = Graph(game, bound, rule, no_block=no_block)
+        self._graph = Graph(game, rule, no_block=no_block)
         self._policy: dict[int, Option] = {}
         self._values: dict[int, Value] = {}
         self._upper: Value = rule.infinite
