@@ -27,25 +27,30 @@ class PlanGraph:
 
     def plans(self) -> Iterator[tuple[int, ...]]:
         """All of them, in string order, lazily."""
-        path: list[int] = []
-        open_steps = [iter(self.edges.get(self.start, ()))]
+        return (plan for plan, _ in self._with_ends(all_ways=True))
+
+    def ending(self, fits: Callable[[int], bool]) -> tuple[int, ...] | None:
+        """The first plan whose last state fits; None where none does."""
+        return next((plan for plan, end in self._with_ends(all_ways=False) if fits(end)), None)
+
+    def _with_ends(self, *, all_ways: bool) -> Iterator[tuple[tuple[int, ...], int]]:
+        """Plans and their last states, in string order; unless ``all_ways``, only the first to each state."""
         if self.start not in self.edges:
-            yield ()
-            return
+            yield (), self.start
+        plan, way, open_steps = list[int](), [self.start], [iter(self.edges.get(self.start, ()))]
+        left = set[int]()
         while open_steps:
-            step = next(open_steps[-1], None)
-            if step is None:
+            action, after = next(open_steps[-1], (-1, 0))
+            if action < 0:
+                left.add(way.pop())
                 open_steps.pop()
-                if path:
-                    path.pop()
-                continue
-            action, after = step
-            path.append(action)
-            if after in self.edges:
-                open_steps.append(iter(self.edges[after]))
-            else:
-                yield tuple(path)
-                path.pop()
+                del plan[-1:]
+            elif all_ways or after not in left:
+                plan.append(action)
+                if after not in self.edges:
+                    yield tuple(plan), after
+                way.append(after)
+                open_steps.append(iter(self.edges.get(after, ())))
 
     def distinct(self, name: Callable[[int], str]) -> Iterator[tuple[int, ...]]:
         """Those that differ in the names of actions, each as it comes first; some actions have no name."""
@@ -63,27 +68,6 @@ class PlanGraph:
             for action, after in reversed(self.edges.get(state, ())):
                 mine = name(action)
                 pending.append((after, (*plan, action), (*names, mine) if mine else names))
-
-    def ending(self, fits: Callable[[int], bool]) -> tuple[int, ...] | None:
-        """The first plan whose last state fits; None where none does."""
-        useless: set[int] = set()
-        plan: list[int] = []
-        way, open_steps = [self.start], [iter(self.edges.get(self.start, ()))]
-        if self.start not in self.edges:
-            return () if fits(self.start) else None
-        while open_steps:
-            action, after = next(open_steps[-1], (-1, 0))
-            if action < 0:
-                useless.add(way.pop())
-                open_steps.pop()
-                del plan[-1:]
-            elif after not in useless:
-                plan.append(action)
-                if after not in self.edges and fits(after):
-                    return tuple(plan)
-                way.append(after)
-                open_steps.append(iter(self.edges.get(after, ())))
-        return None
 
     def fewest(self, size: Callable[[int], int]) -> "PlanGraph":
         """Those plans alone that have the fewest actions; some have size 0, being no actions of their own."""
