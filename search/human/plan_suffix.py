@@ -56,7 +56,7 @@ class BegunActions:
         self.states = [packed.init]
         state = packed.init
         for epoch, action in enumerate(plan, start=1):
-            after = due.after(state, (as_option(packed.op(action), 0),))
+            after = due.after_all(state, (action,))
             assert after is not None, "pi_H is a plan"
             state = after
             if due.human(state) is None and len(self.states) <= sum(start <= epoch for start in self.starts):

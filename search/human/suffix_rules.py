@@ -7,7 +7,6 @@ from search.human.individual_planner import IndividualPlanner, canonical
 from search.human.plan_suffix import PlanSuffix
 from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.packed.due import Due
-from search.packed.joint_actions import as_option
 from search.packed.packed_task import PackedGoal, PackedTask
 
 
@@ -92,7 +91,7 @@ class Lasting:
 
         if awake == state and both is None:  # of the plans that last the canonical one is the first
             found = planner.canonical(state)
-            end = None if found is None else self._end(state, found.actions)
+            end = None if found is None else self.due.after_all(state, found.actions)
             if found is None or (end is not None and lasts(end, len(found.actions))):
                 return None if found is None else found.actions
         graph, others = planner.plans(awake), awake & ~planner.mask
@@ -108,15 +107,6 @@ class Lasting:
         spent = len(graph.canonical())
         return graph.ending(lambda end: lasts(end | others, spent))
 
-    def _end(self, state: int, plan: Sequence[int]) -> int | None:
-        """The packed state after a plan of the human's own; None where it is impossible."""
-        for action in plan:
-            after = self.due.after(state, [as_option(self.packed.op(action), 0)])
-            if after is None:
-                return None
-            state = after
-        return state
-
 
 @dataclass(eq=False)
 class Asked:
@@ -125,7 +115,6 @@ class Asked:
     chosen: "Suffix"
     goals: Sequence[PackedGoal]
     due: Due
-    packed: PackedTask
     _known: dict[tuple[int, int, int], bool] = field(default_factory=dict)
 
     def key(self, state: int, epochs: int, start: int, limit: int) -> int:
@@ -141,12 +130,8 @@ class Asked:
 
     def _keeps(self, state: int, epochs: int, start: int) -> bool:
         actions = self.actions(state, epochs, start)
-        for action in actions:
-            after = self.due.after(state, [as_option(self.packed.op(action), 0)])
-            if after is None:
-                return False
-            state = after
-        return self.due.lasting(state, epochs - len(actions), self.goals)
+        end = self.due.after_all(state, actions)
+        return end is not None and self.due.lasting(end, epochs - len(actions), self.goals)
 
 
 Suffix = Replan | Lasting | PlanSuffix | Asked

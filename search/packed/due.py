@@ -126,6 +126,15 @@ class Due:
                     return self.outcome(state, together(part, others))
         return None
 
+    def after_all(self, state: int, plan: Iterable[int]) -> int | None:
+        """The state after a plan of the human's own, an action an epoch; None where it is impossible."""
+        for action in plan:
+            after = self.after(state, (as_option(self._packed.op(action), 0),))
+            if after is None:
+                return None
+            state = after
+        return state
+
     def supposed(self, state: int, own: JointAction) -> int:
         """The same as somebody takes it to be who may be wrong: all goes on, whatever it asks."""
         done = own

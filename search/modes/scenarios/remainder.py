@@ -107,7 +107,7 @@ class Certain:
         self.suffix: Suffix = suffix_rule(context, scenario.plan)
         if self._keeps:
             chosen = suffix_rule(context, scenario.plan, aside=True)
-            self.suffix = Asked(chosen, context.goals, self._due, self._packed)
+            self.suffix = Asked(chosen, context.goals, self._due)
         task, bits = context.task, self._packed.fact_bits
         self._facts = [(fact, *found) for fact, found in enumerate(bits) if found is not None]
         self._others = frozenset(fact for fact in task.init if bits[fact] is None)
