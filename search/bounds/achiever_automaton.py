@@ -51,6 +51,8 @@ class AchieverAutomaton:
         deadline: polled at each spot that comes up.
 
     Attributes:
+        field: the same.
+        places: place field by robot's bit.
         cost: least cost from the initial state by need id.
         unchanged: the initial value of the field, or -1 where some walks mention the field.
     """
@@ -65,8 +67,8 @@ class AchieverAutomaton:
         flips: Iterable[Operator],
         deadline: Deadline,
     ) -> None:
-        self._places = transitions.places
-        self._field = field
+        self.places = transitions.places.field
+        self.field = field
         self._weights = weights
         self._deadline = deadline
         self._initial = packed.init
@@ -88,7 +90,7 @@ class AchieverAutomaton:
         self._too_dear = INFINITE_KEY
         self._steps: dict[Label, int] = {}
         self.cost: dict[int, int] = {}
-        self.unchanged = self._initial & field if self._acts.walks is self._places.walks else -1
+        self.unchanged = -1 if self._acts.walks_mention else self._initial & field
 
     def explore(self, pays: Callable[[int], bool]) -> None:
         """Forward from the initial state, as long as the cost pays; fills ``cost`` per need id."""
@@ -115,8 +117,8 @@ class AchieverAutomaton:
 
     def _starts(self) -> list[Spot]:
         """The initial state as each robot has a part in it."""
-        value = self._initial & self._field
-        return [(value, 0, robot, self._initial & place) for robot, place in self._places.field.items()]
+        value = self._initial & self.field
+        return [(value, 0, robot, self._initial & place) for robot, place in self.places.items()]
 
     def _relax(
         self,
@@ -154,8 +156,7 @@ class AchieverAutomaton:
         exits.discard(place)
         weights = self._weights
         walks = [
-            (weights[index], (value, team, robot, there))
-            for there, index in self._acts.walks[robot].at(place)
+            (weights[op.cost], (value, team, robot, there)) for there, op in self._acts.walks[robot].at(place)
         ]
         if exits:
             return walks
@@ -175,15 +176,15 @@ class AchieverAutomaton:
         else:
             ops = [op for op in self._acts.on(value) if not op.agents & team]
         for op in ops:
-            after = op.put & self._field if self._field & ~op.keep else value
+            after = op.put & self.field if self.field & ~op.keep else value
             weight = self._weights[op.cost]
-            for other, field in self._places.field.items():
+            for other, field in self.places.items():
                 if op.agents & other:
                     here = place if other == robot else -1
                     edges += [(weight, (after, op.agents, other, p)) for p in self._after(op, field, here)]
         for op in self._flips.at(value):
-            edges.append((0, (op.put & self._field, team, robot, place)))
-        if robot and team and len(self._places.field) > 1:
+            edges.append((0, (op.put & self.field, team, robot, place)))
+        if robot and team and len(self.places) > 1:
             edges.append((0, (value, team, 0, 0)))
         return edges
 
@@ -199,14 +200,14 @@ class AchieverAutomaton:
 
     def _index(self, i: int, need: Need) -> None:
         """The values and places at which a need is provided."""
-        value = need.value & self._field
+        value = need.value & self.field
         robots = self._robots.get(need.mask)
         if robots is None:
-            asked = [robot for robot, field in self._places.field.items() if need.mask & field]
+            asked = [robot for robot, field in self.places.items() if need.mask & field]
             robots = self._robots[need.mask] = asked
         for robot in robots:
             spots = self._at_place.setdefault((value, robot), {})
-            spots.setdefault(need.value & self._places.field[robot], []).append(i)
+            spots.setdefault(need.value & self.places[robot], []).append(i)
         if robots:
             self._detached.setdefault(value, []).append((i, sum(robots)))
         else:
@@ -225,7 +226,7 @@ class AchieverAutomaton:
             acts = self._acts.by_place(at, robot)
             found.update(acts.by_value, self._at_place.get((at, robot), ()))
             for op in (*acts.always, *self._flips.at(at)):
-                after = op.put & self._field if self._field & ~op.keep else at
+                after = op.put & self.field if self.field & ~op.keep else at
                 if after not in seen:
                     seen.add(after)
                     pending.append(after)
@@ -238,7 +239,7 @@ class AchieverAutomaton:
             return 0
         walks = self._acts.walks[robot]
         listed = chain(walks.always, *walks.by_value.values())
-        return min((self._weights[index] for _, index in listed), default=0)
+        return min((self._weights[op.cost] for _, op in listed), default=0)
 
     def _accept(self, node: AutomatonNode) -> None:
         """Note the needs that are provided at a spot."""
@@ -277,9 +278,7 @@ class AchieverAutomaton:
                     elsewhere[label] = cost + step
                     queue.relax(cost, ((2 * step, before) for before in self._stopped[label]), found)
                 queue.relax(cost, node.edges, found)
-        return AchieverCosts(
-            self.settled, self.teams, self.unchanged, self._field, self._places.field, found, elsewhere
-        )
+        return AchieverCosts(self, found, elsewhere)
 
     def teams(self, value: int) -> Teams:
         """The teams that may have been the last to act on the field, by its value.
@@ -288,7 +287,7 @@ class AchieverAutomaton:
         whether others have changed it meanwhile.
         """
         if value == self.unchanged:
-            return ((0, tuple(range(len(self._places.field))), False),)
+            return ((0, tuple(range(len(self.places))), False),)
         return self._changed.get(value, ())
 
     @cached_property
@@ -306,7 +305,7 @@ class AchieverAutomaton:
         that can happen has the same robot of the team in it, then it is enough to track that
         one, and what it needs is a bound by itself.
         """
-        robots = list(enumerate(self._places.field))
+        robots = list(enumerate(self.places))
         if not team:
             return 0, tuple(j for j, _ in robots), False
         needed = [op.agents for op in self._acts.on(value)]

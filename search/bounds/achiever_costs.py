@@ -3,11 +3,12 @@
 Distances come from :mod:`search.bounds.achiever_automaton`, whose glossary holds here, too.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from search.packed.cost_vector import INFINITE_KEY
+
+if TYPE_CHECKING:
+    from search.bounds.achiever_automaton import AchieverAutomaton
 
 Spot = tuple[int, int, int, int]
 """Value of the field, team of the last op on it, tracked robot's bit, its place.
@@ -47,7 +48,6 @@ class _Robot(NamedTuple):
     known: dict[int, tuple[tuple[int, ...], int]]
 
 
-@dataclass(eq=False)
 class AchieverCosts:
     """Least robots' weight from a packed state to provide one need.
 
@@ -55,33 +55,24 @@ class AchieverCosts:
     have paid for getting there.  Where it stopped walking, since all that can happen to the
     field is within reach, the least of what it knows stands for the rest.
 
-    Attributes:
-        settled: what was explored of a spot, if it was.
-        teams: who may have acted last, by the field's value.
-        unchanged: see :class:`search.bounds.achiever_automaton.AchieverAutomaton`.
-        field: the outside field.
-        places: place field by robot's bit.
+    Args:
+        automaton: what was explored.
         found: distance by spot, a key increment.
         elsewhere: the least one by label, where walking stopped.
     """
 
-    settled: Callable[[Spot], AutomatonNode | None]
-    teams: Callable[[int], Teams]
-    unchanged: int
-    field: int
-    places: dict[int, int]
-    found: dict[AutomatonNode, int]
-    elsewhere: dict[Label, int]
-
-    def __post_init__(self) -> None:
-        places = self.places.items()
+    def __init__(
+        self, automaton: "AchieverAutomaton", found: dict[AutomatonNode, int], elsewhere: dict[Label, int]
+    ) -> None:
+        places, self._field = automaton.places.items(), automaton.field
+        self._automaton, self._found, self._elsewhere = automaton, found, elsewhere
         self._alone = len(places) == 1
-        self._robots = [_Robot(robot, place, self.field | place, {}) for robot, place in places]
+        self._robots = [_Robot(robot, place, self._field | place, {}) for robot, place in places]
 
     def __call__(self, state: int) -> int:
         """The bound from a packed state."""
-        value = state & self.field
-        if self._alone or value == self.unchanged:
+        value = state & self._field
+        if self._alone or value == self._automaton.unchanged:
             best = INFINITE_KEY
             for robot in self._robots:
                 _, least = self._at(robot, state)
@@ -89,7 +80,7 @@ class AchieverCosts:
                     best = least
             return best
         best, rows = INFINITE_KEY, [self._at(robot, state)[0] for robot in self._robots]
-        for i, (_, members, each) in enumerate(self.teams(value)):
+        for i, (_, members, each) in enumerate(self._automaton.teams(value)):
             weights = [rows[j][i] for j in members]
             best = min(best, max(weights) if each else min(weights))
         return best
@@ -103,15 +94,15 @@ class AchieverCosts:
         return robot.known.get(state & robot.mask) or self._look(robot, state)
 
     def _look(self, robot: "_Robot", state: int) -> tuple[tuple[int, ...], int]:
-        value, place = state & self.field, state & robot.place
-        teams = self.teams(value)
+        value, place = state & self._field, state & robot.place
+        teams = self._automaton.teams(value)
         row = tuple([self._after(value, team, robot.bit, place) for team, *_ in teams])
         found = robot.known[state & robot.mask] = row, min(row, default=INFINITE_KEY)
         return found
 
     def _after(self, value: int, team: int, robot: int, place: int) -> int:
         tracked = not team or bool(team & robot)
-        node = self.settled((value, team, robot, place) if tracked else (value, team, 0, 0))
+        node = self._automaton.settled((value, team, robot, place) if tracked else (value, team, 0, 0))
         if node is not None:
-            return self.found.get(node, INFINITE_KEY)
-        return self.elsewhere.get((value, team, robot), INFINITE_KEY) if tracked else INFINITE_KEY
+            return self._found.get(node, INFINITE_KEY)
+        return self._elsewhere.get((value, team, robot), INFINITE_KEY) if tracked else INFINITE_KEY

@@ -4,7 +4,6 @@ Glossary: *place* - the value of the field that most of a robot's own ops ask fo
 """
 
 from collections.abc import Sequence
-from collections.abc import Set as AbstractSet
 
 from search.packed.operator_index import OperatorIndex, by_variable, most_asked
 from search.packed.operators import Operator, Signature, set_by
@@ -14,9 +13,6 @@ from serendipity.model.resources.deadline import Deadline
 Moves = OperatorIndex[tuple[int, Operator]]
 """By a robot's place what sets it: the place after it, and the op."""
 
-Walks = OperatorIndex[tuple[int, int]]
-"""The same with the index of the op's cost."""
-
 
 class PositionVariables:
     """The place field of each robot, and what moves it.
@@ -24,7 +20,6 @@ class PositionVariables:
     Attributes:
         field: per robot's bit its place field, 0 where it has none.
         moves: per robot's bit what sets its place.
-        walks: the same with the index of the cost.
     """
 
     def __init__(self, packed: PackedTask, deadline: Deadline) -> None:
@@ -45,7 +40,6 @@ class PositionVariables:
                     for op in form.ops:
                         deadline.tick()
                         moves.add(op.need_mask, op.need, (op.put & field, op))
-        self.walks = {bit: _walks(moves, frozenset()) for bit, moves in self.moves.items()}
 
 
 class TransitionGraph:
@@ -53,18 +47,20 @@ class TransitionGraph:
 
     Attributes:
         walks: per robot's bit what leads elsewhere without mentioning the field.
+        walks_mention: whether some moves are left out for that.
     """
 
     def __init__(self, field: int, forms: Sequence[Signature], places: PositionVariables) -> None:
         self._on = by_variable(field, forms)
         self._places = places.field
         self._here: dict[tuple[int, int], OperatorIndex[Operator]] = {}
-        self.walks = places.walks
-        if any(
+        self.walks = places.moves
+        self.walks_mention = any(
             form.agents & bit and form.sets & place for form in forms for bit, place in self._places.items()
-        ):
+        )
+        if self.walks_mention:
             mentioning = {op.action for form in forms for op in form.ops}
-            self.walks = {robot: _walks(moves, mentioning) for robot, moves in places.moves.items()}
+            self.walks = {robot: _without(moves, mentioning) for robot, moves in places.moves.items()}
 
     def on(self, value: int) -> list[Operator]:
         """What robots can do to a value of the field."""
@@ -100,13 +96,10 @@ class TransitionGraphs:
         return self._known[field]
 
 
-def _walks(moves: Moves, but: AbstractSet[int]) -> Walks:
-    """Moves with the index of their cost, some actions left out."""
-    walks: Walks = OperatorIndex(moves.field)
-    walks.always = _costs(moves.always, but)
-    walks.by_value = {place: _costs(listed, but) for place, listed in moves.by_value.items()}
+def _without(moves: Moves, actions: set[int]) -> Moves:
+    """Moves but for some actions."""
+    walks: Moves = OperatorIndex(moves.field)
+    walks.always = [move for move in moves.always if move[1].action not in actions]
+    for place, listed in moves.by_value.items():
+        walks.by_value[place] = [move for move in listed if move[1].action not in actions]
     return walks
-
-
-def _costs(moves: list[tuple[int, Operator]], but: AbstractSet[int]) -> list[tuple[int, int]]:
-    return [(there, op.cost) for there, op in moves if op.action not in but]
