@@ -1,8 +1,8 @@
 """The context that all searches of a call share: packed task, key weights, bounds, the human alone."""
 
 from bisect import bisect_left
-from collections.abc import Callable, Collection, Sequence
-from functools import cached_property
+from collections.abc import Callable, Collection, Iterable, Sequence
+from functools import cached_property, reduce
 from typing import TYPE_CHECKING
 
 from search.bounds.first_interaction import no_team_bound
@@ -217,6 +217,15 @@ class SearchContext:
     def amount_from(self, limit: int, most: int) -> int:
         """The least amount of the team's of which the key is not below a limit; ``most`` at most."""
         return bisect_left(range(most), limit, key=self.amount_key)
+
+    @property
+    def root(self) -> Node:
+        """The node before all epochs."""
+        return Node(0, 0, self.packed.init, 0, 0, None, ())
+
+    def played(self, epochs: Iterable[Sequence[Operator]]) -> Node:
+        """The node after epochs in each of which some ops happen."""
+        return reduce(self.after, epochs, self.root)
 
     def after(self, node: Node, ops: Sequence[Operator]) -> Node:
         """The node after an epoch in which ops happen together."""

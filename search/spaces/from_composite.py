@@ -50,15 +50,13 @@ class Suggestions:
 
     def _whole(self, epochs: list[list[Operator]]) -> Iterator[Incumbent]:
         """The plan itself."""
-        node = self._root()
-        for ops in epochs[: self._horizon]:
-            node = self._context.after(node, ops)
+        node = self._context.played(epochs[: self._horizon])
         if all(goal.holds(node.state) for goal in self._context.goals):
             yield from self._better(node.key, Incumbent(node.key, node))
 
     def _cut_short(self, epochs: list[list[Operator]]) -> Iterator[Incumbent]:
         """The plan up to an epoch; the window opens where the human leaves ``pi_H``."""
-        human, node, followed = self._context.packed.human_bit, self._root(), True
+        human, node, followed = self._context.packed.human_bit, self._context.root, True
         start = 1
         for ops in epochs[: self._horizon]:
             node = self._context.after(node, ops)
@@ -70,7 +68,7 @@ class Suggestions:
 
     def _beside(self, ops: Sequence[Operator]) -> Iterator[Incumbent]:
         """What robots do of some actions while the human follows ``pi_H``; a window of one epoch."""
-        human, node = self._context.packed.human_bit, self._root()
+        human, node = self._context.packed.human_bit, self._context.root
         left = [op for op in ops if not op.agents & human]
         for epoch in range(1, min(len(self._plan), self._horizon) + 1):
             freely = self._chosen(node.state, epoch, left, keeps=False)
@@ -88,7 +86,7 @@ class Suggestions:
         Args:
             epochs: per epoch what robots do in it.
         """
-        node = self._root()
+        node = self._context.root
         for number, ops in enumerate(epochs[:-1]):
             together = [self._plan[number], *ops]
             if not self._fit(node.state, together):
@@ -102,10 +100,7 @@ class Suggestions:
 
     def exactly(self, epochs: Sequence[Sequence[Operator]]) -> Iterator[Incumbent]:
         """What all agents do in each epoch; the last one is the window."""
-        node = self._root()
-        for ops in epochs:
-            node = self._context.after(node, ops)
-        yield from self._ended(node._replace(start=len(epochs)))
+        yield from self._ended(self._context.played(epochs)._replace(start=len(epochs)))
 
     def _in_window(self, state: int, epoch: int, ops: list[Operator]) -> Iterator[Operator | None]:
         """What the human may do in a window of one epoch."""
@@ -154,9 +149,6 @@ class Suggestions:
                 return False
             state = changed(state, [op])
         return True
-
-    def _root(self) -> Node:
-        return Node(0, 0, self._context.packed.init, 0, 0, None, ())
 
     def _ended(self, node: Node) -> Iterator[Incumbent]:
         """Offer the plan in which the human goes on alone after a node, with its window if there is one."""

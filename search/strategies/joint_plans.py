@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Final
 
-from search.engine.best_first import Incumbent, Node
+from search.engine.best_first import Incumbent
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
 from search.spaces.from_composite import Suggestions
@@ -32,7 +32,8 @@ def team_optimum(call: Call, part: Allowance) -> Iterator[None]:
             init, part.deadline, lambda amount: call.raise_bound(context.amount_key(amount))
         ):
             _count(call, team, before)
-            if call.offer(_after(call, sets)):
+            node = context.played([context.packed.op(action) for action in actions] for actions in sets)
+            if call.offer(Incumbent(node.key, node)):
                 yield
     finally:
         _count(call, team, before)
@@ -42,15 +43,6 @@ def team_optimum(call: Call, part: Allowance) -> Iterator[None]:
 def _count(call: Call, team: "Team", before: tuple[int, int]) -> None:
     expanded, generated, _ = team.planner.counts()
     call.progress.expanded, call.progress.generated = before[0] + expanded, before[1] + generated
-
-
-def _after(call: Call, sets: "Sets") -> Incumbent:
-    """A plan of the team as an incumbent."""
-    context = call.context
-    node = Node(0, 0, context.packed.init, 0, 0, None, ())
-    for actions in sets:
-        node = context.after(node, [context.packed.op(action) for action in actions])
-    return Incumbent(node.key, node)
 
 
 def _team(call: Call) -> "Team":

@@ -137,7 +137,7 @@ def _followed(context: SearchContext, plan: HumanPlan, warm: WarmStart, last: in
     for step in warm.steps:
         if step.epoch <= last:
             done[step.epoch - 1].append(packed.op(step.action))
-    node = Node(0, 0, packed.init, 0, start, None, ())
+    node = context.root._replace(start=start)
     for ops in done:
         epoch = node.epoch + 1
         if not all(applicable(op, node.state) for op in ops):
