@@ -12,7 +12,7 @@ distances: a first pass leaves few of them.
 from collections.abc import Callable, Iterable, Sequence
 from functools import cached_property
 from operator import itemgetter
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 from search.bounds.achievers import Provided
 from search.bounds.interactions import Interactions
@@ -25,18 +25,9 @@ _MOST_TOUCHES = 4096
 """More surviving needs than this make the bound dearer than what it saves."""
 
 
-class Timed(Protocol):
-    """Lower bound of the key increment from an epoch and a packed state after it."""
-
-    def __call__(self, epoch: int, state: int, spent: int, idle: Idle = (), /) -> int:
-        """The bound.
-
-        Args:
-            epoch: how many have passed.
-            state: the packed state after it.
-            spent: the key so far; what would end dearer than the bound needs no close look.
-            idle: for how many epochs robots have been idle.
-        """
+Timed = Callable[[int, int, int, Idle], int]
+"""Lower bound of the key increment: from how many epochs, the packed state after them, the key so far (what
+would end dearer than the bound needs no close look), and for how many epochs robots have been idle."""
 
 
 def survivors(costs: dict[int, int], limit: int, total: Callable[[int, int], int]) -> list[int] | None:
@@ -80,8 +71,8 @@ class FirstInteraction:
     def _without(self) -> dict[int, int]:
         return self._ways.to_goal()
 
-    def __call__(self, epoch: int, state: int, spent: int, idle: Idle = (), /) -> int:
-        """See :class:`Timed`."""
+    def __call__(self, epoch: int, state: int, spent: int, idle: Idle, /) -> int:
+        """See :data:`Timed`."""
         at, around = state & self._mask, state & self._outside
         least = self._without.get(at, INFINITE_KEY)
         for promise in self._promises:
@@ -138,7 +129,7 @@ class _Promise:
         return self._ways.through(self._need)
 
 
-def no_bound(_epoch: int, _state: int, _spent: int, _idle: Idle = (), /) -> int:
+def no_bound(_epoch: int, _state: int, _spent: int, _idle: Idle, /) -> int:
     """The bound that is always right."""
     return 0
 

@@ -79,9 +79,7 @@ class Interactions:
 
     def is_interaction(self, action: int) -> bool:
         """Whether an action of the human's is a touch."""
-        return self._involves_others(self._packed.op(action))
-
-    def _involves_others(self, op: Operator) -> bool:
+        op = self._packed.op(action)
         return self._packed.involves_others(op.agents, self._packed.mentioned(op))
 
     def _look(self, index: OperatorIndex[Operator], value: int) -> list[Seen]:
@@ -96,7 +94,7 @@ class Interactions:
         form = op.need_mask, op.keep, op.agents, op.forbidden
         kind = self._kinds.get(form)
         if kind is None:
-            interaction = self._involves_others(op)
+            interaction = self._packed.involves_others(op.agents, self._packed.mentioned(op))
             kind = self._kinds[form] = op.need_mask & self.mask, op.need_mask & self.outside, interaction
         need_mask, asked, interaction = kind
         mask, number = self.mask, -1

@@ -61,23 +61,15 @@ class SearchContext:
 
     def for_plan(self, plan: HumanPlan) -> "SearchContext":
         """The context in which ``pi_H`` is known; this one, where that makes no difference."""
-        announces = self.options.mode == "communication" and self.options.communication_weight > 0
-        covered = self._covers(plan)
-        if covered and not announces:
-            return self
-        tables = self.tables if covered else self._covering(plan)
-        return SearchContext(self.prepared, self.options, self.deadline, plan, tables)
-
-    def _covers(self, plan: HumanPlan) -> bool:
-        """Whether what every action of a plan asks for is packed."""
-        return all(self.packed.fact_bits[f] is not None for f in asked_facts(self.task, plan))
-
-    def _covering(self, plan: HumanPlan) -> TaskTables:
-        """A packing, for this call, of what every action of a plan asks for as well."""
+        options, tables = self.options, self.tables
         needed = asked_facts(self.task, plan)
-        if self.options.preservation == "state":
-            needed |= human_facts(self.task)
-        return self.prepared.including(needed, self.deadline)
+        if any(self.packed.fact_bits[fact] is None for fact in needed):
+            if options.preservation == "state":
+                needed |= human_facts(self.task)
+            tables = self.prepared.including(needed, self.deadline)
+        elif options.mode != "communication" or not options.communication_weight:
+            return self
+        return SearchContext(self.prepared, options, self.deadline, plan, tables)
 
     @cached_property
     def bound(self) -> PatternDatabase:

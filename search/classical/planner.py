@@ -72,6 +72,8 @@ class ClassicalPlanner:
     Attributes:
         problem: what it is about.
         told: the same, as the kernel is told of it.
+        handle: what the kernel knows it by.
+        is_open: whether a limit came during the last :meth:`cheapest`, which can :meth:`go_on`.
 
     Raises:
         LimitReachedError: there is not enough memory.
@@ -83,20 +85,20 @@ class ClassicalPlanner:
         self._mask = problem.mask
         deadline.require(memory_for(problem))
         self.told = EncodedProblem(problem)
-        self._planner: int | None = None
+        self.handle: int | None = None
         self._alike: list[list[int]] | None = None
         """Classes of fields, by their numbers, once they were looked for."""
         self._start()
 
     def __del__(self) -> None:
-        if getattr(self, "_planner", None):
-            self._kernel.planner_free(self._planner)
+        if getattr(self, "handle", None):
+            self._kernel.planner_free(self.handle)
 
     def _start(self) -> None:
-        if self._planner:
-            self._kernel.planner_free(self._planner)
-        self._planner = self._kernel.planner_new(ctypes.byref(self.told.spec))
-        if not self._planner:
+        if self.handle:
+            self._kernel.planner_free(self.handle)
+        self.handle = self._kernel.planner_new(ctypes.byref(self.told.spec))
+        if not self.handle:
             raise LimitReachedError("memory-limit")
         self._tried = 0.0
         self._tell_alike(self._alike or [], Deadline())
@@ -108,12 +110,7 @@ class ClassicalPlanner:
         """Those that the kernel does not know, by the state where they begin."""
         self._canonical: set[int] = set()
         """States of which these are canonical."""
-        self._is_open = False
-
-    @property
-    def handle(self) -> int | None:
-        """What the kernel knows it by."""
-        return self._planner
+        self.is_open = False
 
     # -- questions
 
@@ -138,19 +135,19 @@ class ClassicalPlanner:
 
     def _begin(self, deadline: Deadline) -> None:
         assert self._asked is not None, "a question was asked"
-        kernel, planner, before = self._kernel, self._planner, self._before
+        kernel, planner, before = self._kernel, self.handle, self._before
         row, most = self.told.row(self._asked), self.problem.limit(self._most)
-        self._is_open = False
+        self.is_open = False
         self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
-        self._is_open = True
+        self.is_open = True
 
     def go_on(self, deadline: Deadline, on_bound: Callable[[int], None] | None = None) -> int:
         """What the last :meth:`cheapest` would have said, where a limit came first: it goes on from there.
 
         Meanwhile only :meth:`bound` and :meth:`first_plan` may have been asked for.
         """
-        kernel, planner = self._kernel, self._planner
-        assert self._is_open, "it was interrupted"
+        kernel, planner = self._kernel, self.handle
+        assert self.is_open, "it was interrupted"
         outcome = RUNNING
         while outcome == RUNNING:
             outcome = self._allowed(lambda room: kernel.planner_run(planner, SLICE, room), deadline)
@@ -164,7 +161,7 @@ class ClassicalPlanner:
             if self._is_settled_symbolically(deadline, on_bound):
                 break
         found = self._unbounded(deadline) if outcome == _UNFIT else self.least
-        self._is_open = False
+        self.is_open = False
         return found
 
     def _is_settled_symbolically(self, deadline: Deadline, on_bound: Callable[[int], None] | None) -> bool:
@@ -222,14 +219,9 @@ class ClassicalPlanner:
         return INFINITE_KEY if search.least is None else self._most
 
     @property
-    def is_open(self) -> bool:
-        """Whether a limit came during the last :meth:`cheapest`, which can :meth:`go_on`."""
-        return self._is_open
-
-    @property
     def least(self) -> int:
         """The amount that no plan from the state of the last :meth:`cheapest` is below, finished or not."""
-        return self.problem.amount(max(self._floor, self._kernel.planner_least(self._planner)))
+        return self.problem.amount(max(self._floor, self._kernel.planner_least(self.handle)))
 
     def bound(self, state: int, deadline: Deadline) -> int:
         """An amount that no plan from a packed state is below; ``INFINITE_KEY`` where there is none.
@@ -237,7 +229,7 @@ class ClassicalPlanner:
         Raises:
             LimitReachedError: there is not enough memory.
         """
-        kernel, planner, row = self._kernel, self._planner, self.told.row(state)
+        kernel, planner, row = self._kernel, self.handle, self.told.row(state)
         found = kernel.planner_bound(planner, row, ROOM)
         if found < 0:
             deadline.require(kernel.planner_wanted(planner))
@@ -246,7 +238,7 @@ class ClassicalPlanner:
 
     def first_plan(self, state: int, deadline: Deadline) -> list[int] | None:
         """Some plan from a packed state, by numbers of operators, or None where there is none."""
-        kernel, planner, row = self._kernel, self._planner, self.told.row(state)
+        kernel, planner, row = self._kernel, self.handle, self.told.row(state)
         self._allowed(lambda room: kernel.planner_begin_greedy(planner, row, room), deadline)
         outcome = RUNNING
         while outcome == RUNNING:
@@ -285,7 +277,7 @@ class ClassicalPlanner:
         """A cheapest plan, by numbers, from a packed state of which the cost was found and is finite."""
         if state & self._mask in self._plans:
             return self._plans[state & self._mask]
-        kernel, planner, row = self._kernel, self._planner, self.told.row(state)
+        kernel, planner, row = self._kernel, self.handle, self.told.row(state)
         moving, part = ctypes.create_string_buffer(row, len(row)), array("i", bytes(4 * _STEPS))
         found: list[int] = []
         while True:
@@ -302,7 +294,7 @@ class ClassicalPlanner:
         """The best plan from a packed state that is at hand, by numbers: what the last :meth:`cheapest`
         has come across, finished or not, or else a cheapest one, if it is put together soon.
         """
-        kernel, planner = self._kernel, self._planner
+        kernel, planner = self._kernel, self.handle
         if self._asked == state & self._mask and self._asked not in self._plans:
             best = self._numbers(lambda *to: kernel.planner_best_way(planner, *to))
             if best is not None:
@@ -315,13 +307,13 @@ class ClassicalPlanner:
     def allowed(self, state: int) -> list[int]:
         """The numbers of the operators that a packed state allows, ascending."""
         numbers = array("i", bytes(4 * max(len(self.problem.operators), 1)))
-        count = self._kernel.planner_allowed(self._planner, self.told.row(state), numbers.buffer_info()[0])
+        count = self._kernel.planner_allowed(self.handle, self.told.row(state), numbers.buffer_info()[0])
         return numbers[:count].tolist()
 
     def counts(self) -> tuple[int, int, int]:
         """How many states were expanded, generated and evaluated so far."""
         found = array("q", (0, 0, 0))
-        self._kernel.planner_counts(self._planner, found.buffer_info()[0])
+        self._kernel.planner_counts(self.handle, found.buffer_info()[0])
         return found[0], found[1], found[2]
 
     def _numbers(self, ask: Callable[[int, int], int]) -> list[int] | None:
@@ -334,7 +326,7 @@ class ClassicalPlanner:
         return numbers[:length].tolist()
 
     def _allowed(self, call: Callable[[int], int], deadline: Deadline) -> int:
-        return with_memory(call, lambda: self._kernel.planner_wanted(self._planner), deadline)
+        return with_memory(call, lambda: self._kernel.planner_wanted(self.handle), deadline)
 
     def alike(self, deadline: Deadline) -> list[list[int]]:
         """Classes of fields that are alike, by their numbers; the kernel is told of them.
@@ -345,12 +337,12 @@ class ClassicalPlanner:
             found = like_fields(self.problem, deadline)
             self._tell_alike(found, deadline)
             self._alike = found
-            if found and self._is_open:
+            if found and self.is_open:
                 self._begin(deadline)
         return self._alike
 
     def _tell_alike(self, classes: list[list[int]], deadline: Deadline) -> None:
         if classes:
-            kernel, planner, fields = self._kernel, self._planner, told(classes)
+            kernel, planner, fields = self._kernel, self.handle, told(classes)
             at, count = fields.buffer_info()
             self._allowed(lambda room: kernel.planner_alike(planner, at, count, room), deadline)

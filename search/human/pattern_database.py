@@ -97,8 +97,8 @@ def own_projection(packed: PackedTask, graph: Projected, deadline: Deadline) -> 
     Returns:
         Distances in the unit of :func:`search.packed.cost_vector.own_weights`.
     """
-    goals = [(0, state) for state in _satisfying(graph, packed.goal)]
-    return PatternDatabase(graph.mask, backward(goals, (graph.moves, graph.interactions), deadline))
+    ends = _satisfying(graph, packed.goal)
+    return PatternDatabase(graph.mask, backward(ends, (graph.moves, graph.interactions), deadline))
 
 
 def translated(bound: PatternDatabase, plain: PackedTask, packed: PackedTask) -> PatternDatabase:
@@ -133,12 +133,11 @@ def steps_in(own: PatternDatabase) -> PatternDatabase:
 
 def human_steps(packed: PackedTask, graph: Projected, deadline: Deadline) -> PatternDatabase:
     """The least number of the human's actions to their goal, in the same variables."""
-    goals = [(0, state) for state in _satisfying(graph, packed.goal)]
     counted = [
         {at: [(own_actions(weight), before) for weight, before in edges] for at, edges in kind.items()}
         for kind in (graph.moves, graph.interactions)
     ]
-    return PatternDatabase(graph.mask, backward(goals, counted, deadline))
+    return PatternDatabase(graph.mask, backward(_satisfying(graph, packed.goal), counted, deadline))
 
 
 def private_fields(packed: PackedTask) -> list[int]:
@@ -154,18 +153,16 @@ def whole_graph(packed: PackedTask, deadline: Deadline) -> Projected | None:
     come is left out where it is too much: the end of the action says what it leads to.
     """
     fields = _goal_first(packed)
-    whole = _tractable(packed, fields) == fields
-    found = _graph(packed, fields, _MAX_STATES if whole else _FEW_STATES, deadline)
+    found = _graph(packed, fields, deadline)
     rest = [field for field in fields if not field & packed.freedom]
     if found is not None or rest == fields:
         return found
-    whole = _tractable(packed, rest) == rest
-    return _graph(packed, rest, _MAX_STATES if whole else _FEW_STATES, deadline)
+    return _graph(packed, rest, deadline)
 
 
 def partial_graph(packed: PackedTask, deadline: Deadline) -> Projected:
     """The human's graph over as many of their private fields as stay tractable by their numbers of values."""
-    found = _graph(packed, _tractable(packed, _goal_first(packed)), _MAX_STATES, deadline)
+    found = _graph(packed, _tractable(packed, _goal_first(packed)), deadline)
     assert found is not None, "there are no more states than values together"
     return found
 
@@ -193,16 +190,14 @@ def alone_projection(packed: PackedTask, deadline: Deadline) -> PatternDatabase 
     they don't come by without others: nothing is known of it.
     """
     fields = [field for field in packed.fields if field & set_by(packed.own_forms) & packed.lasting]
-    whole = _tractable(packed, fields) == fields
     free = forms_of(packed.scripted, packed.all_ones, deadline)
-    graph = _graph(packed, fields, _MAX_STATES if whole else _FEW_STATES, deadline, packed.own_forms, free)
+    graph = _graph(packed, fields, deadline, packed.own_forms, free)
     return None if graph is None else own_projection(packed, graph, deadline)
 
 
 def _graph(
     packed: PackedTask,
-    fields: Sequence[int],
-    most: int,
+    fields: list[int],
     deadline: Deadline,
     forms: Iterable[Signature] | None = None,
     free: Iterable[Signature] = (),
@@ -210,7 +205,6 @@ def _graph(
     """The human's graph over some fields; None where it has too many states.
 
     Args:
-        most: states that it may have.
         forms: of their actions; None for all of them.
         free: of what comes for nothing.
     """
@@ -220,18 +214,18 @@ def _graph(
     dearest_first = sorted(forms, key=lambda form: -form.cost)
     weighed = [(form, weights[form.cost], packed.is_interaction(form)) for form in dearest_first]
     weighed += ((form, 0, True) for form in free)
-    mask = sum(fields)
+    mask, most = sum(fields), _MAX_STATES if _tractable(packed, fields) == fields else _FEW_STATES
     return _explore(mask, packed.init & mask, _transitions(fields, weighed, deadline), most, deadline)
 
 
-def _satisfying(graph: Projected, goal: PackedGoal) -> list[int]:
-    """The projected states of which some state may satisfy the goal."""
+def _satisfying(graph: Projected, goal: PackedGoal) -> list[tuple[int, int]]:
+    """The projected states of which some state may satisfy the goal, each at no distance from it."""
     if goal.need < 0:
         return []
     mask, need = goal.need_mask & graph.mask, goal.need & graph.mask
     forbidden = [(m, value) for m, value in goal.forbidden if m & graph.mask]
-    found = [state for state in graph.moves if state & mask == need]
-    return [s for s in found if all(s & m != v for m, v in forbidden)] if forbidden else found
+    found = [(0, state) for state in graph.moves if state & mask == need]
+    return [at for at in found if all(at[1] & m != v for m, v in forbidden)] if forbidden else found
 
 
 class Transition(NamedTuple):

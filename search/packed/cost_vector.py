@@ -126,7 +126,11 @@ class CostLayout:
         """Key increment of an amount of cost."""
         scaled = cost * self.scale
         assert scaled.denominator == 1, "the scale covers every cost of the task"
-        return (scaled.numerator << self.cost_shift) + (scaled.numerator << self.objective_shift)
+        return self.of_scaled(scaled.numerator)
+
+    def of_scaled(self, cost: int) -> int:
+        """Key increment of a scaled cost."""
+        return (cost << self.cost_shift) + (cost << self.objective_shift)
 
     def of_objective(self, objective: Fraction) -> int:
         """Key that no plan of at least such an objective is below."""
@@ -197,9 +201,8 @@ class Weights:
 
     def key_of(self, amount: int) -> int:
         """Key of a scaled cost and a number of actions, put together as by :func:`own_weights`."""
-        cost, keys = amount >> ACTIONS_BITS, self.keys
-        increment = (cost << keys.cost_shift) + (cost << keys.objective_shift)
-        return increment + ((amount & _ACTIONS) << keys.action_shift)
+        keys = self.keys
+        return keys.of_scaled(amount >> ACTIONS_BITS) + ((amount & _ACTIONS) << keys.action_shift)
 
     def of_own(self, costs: Mapping[int, int]) -> dict[int, int]:
         """Key increments of costs in the unit of :func:`own_weights`, by whatever they are listed."""
@@ -276,13 +279,12 @@ def scaled_costs(
     require_room(layout.objective_shift + dearer.bit_length() + ACTIONS_BITS)
     epoch = (int(window * scale) << layout.objective_shift) + (1 << layout.length_shift)
     keys = replace(layout, epoch_weight=epoch)
-    per_cost = scale // _own_scale(costs)
     return ScaledCosts(
         keys,
         human=[keys.of_action(cost) for cost in costs],
         robots=[keys.of_action(cost * (1 - discount)) for cost in costs],
         announced=[int(cost * announced * scale) for cost in costs],
-        per_cost=(per_cost << layout.cost_shift) + (per_cost << layout.objective_shift),
+        per_cost=keys.of_scaled(scale // _own_scale(costs)),
     )
 
 

@@ -65,6 +65,8 @@ class Successors:
         barred: ids of actions of robots, alone or with the human, that nobody may do.
 
     Attributes:
+        due: what happens whatever is chosen.
+        in_time: whether epochs count.
         idle: the human's part of an epoch in which they do nothing, unless waiting is among their actions.
     """
 
@@ -84,28 +86,19 @@ class Successors:
         self._own = Lookup(packed.own_index, weight)
         self._joint = Lookup(packed.joint_index, weight, barred) if packed.joint and not idle else None
         self._led = [] if idle else [Lookup(index, weight, barred) for index in packed.robot_indices]
-        self._due = Due(packed, weight, strict=strict)
-        self._fits = self._due.fits
+        self.due = Due(packed, weight, strict=strict)
+        self._fits = self.due.fits
+        self.in_time = packed.in_time
         self.idle = () if packed.prices_waiting else (NOTHING,)
         self._busy: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
         self._changing: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
-
-    @property
-    def due(self) -> Due:
-        """What happens whatever is chosen."""
-        return self._due
-
-    @property
-    def in_time(self) -> bool:
-        """Whether epochs count."""
-        return self._packed.in_time
 
     def going_on(self, state: int) -> tuple[JointAction, ...] | None:
         """What the human is in the middle of, and has to go on with: nothing, where that is impossible.
 
         None where they are free to wait, or to do what :meth:`human` and :meth:`joint` say.
         """
-        return self._due.human(state)
+        return self.due.human(state)
 
     def human(self, state: int) -> list[JointAction]:
         """What the human can do alone in a packed state, cheapest first (not: wait)."""
@@ -135,10 +128,10 @@ class Successors:
 
     def begun(self, state: int) -> Sequence[JointAction]:
         """The same without what goes on, and what bystanders do."""
-        if not self._due:
+        if not self.due:
             return self.robots(state)
         found = [NOTHING]
-        for due in self._due.others(state):
+        for due in self.due.others(state):
             for lookup in self._led:
                 free = [option for option in lookup.options(state) if self._fits(option, due)]
                 found += list(self._extend(found, free))
@@ -147,7 +140,7 @@ class Successors:
 
     def with_due(self, begun: JointAction, state: int) -> JointAction | None:
         """What robots begin, with what goes on and what bystanders do; None where they are in the way."""
-        for due in self._due.others(state):
+        for due in self.due.others(state):
             parts = (as_option(self._packed.op(action), 0) for action in begun.actions)
             if not due.actions or all(self._fits(part, due) for part in parts):
                 return together(due, begun)
@@ -155,18 +148,18 @@ class Successors:
 
     def with_robots(self, first: JointAction, state: int) -> Iterator[JointAction]:
         """``first`` (the human's part) alone and with each set of robots' actions that fits it."""
-        return self._due.with_last(self._combine(first, self.robots(state)), state)
+        return self.due.with_last(self._combine(first, self.robots(state)), state)
 
     def with_changers(self, first: JointAction, state: int, fields: int) -> Iterator[JointAction]:
         """The same, of robots' actions only those that set some of the fields."""
         sets = self._changing.get(state) or self._sets(state, self._changing, fields)
-        return self._due.with_last(self._combine(first, sets), state)
+        return self.due.with_last(self._combine(first, sets), state)
 
     def _sets(
         self, state: int, kept: StateCache[list[JointAction]], fields: int | None = None
     ) -> list[JointAction]:
         """Sets of robots' actions, cheapest first; of those only that set some fields, if any are named."""
-        found = self._due.others(state)
+        found = self.due.others(state)
         for lookup in self._led:
             options = lookup.options(state)
             if fields is not None:

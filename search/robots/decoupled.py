@@ -306,15 +306,15 @@ class DecoupledSuccessors(Successors):
     ) -> list[JointAction]:
         """See :class:`Successors`."""
         found = [first]
-        if self._due:
+        if self.due:
             found = [
-                together(first, others) for others in self._due.others(state) if self._fits(first, others)
+                together(first, others) for others in self.due.others(state) if self._fits(first, others)
             ]
         for options in self._in_time(state, idle):
             more = [deed for deed in options if self._fits(deed, first) and promising(together(first, deed))]
             found += [together(chosen, deed) for deed in more for chosen in self._beside(deed, found)]
         found.sort(key=lambda option: option.weight)
-        return [*self._due.with_last(iter(found), state)] if self._due else found
+        return [*self.due.with_last(iter(found), state)] if self.due else found
 
     def _beside(self, deed: JointAction, sets: list[JointAction]) -> list[JointAction]:
         """The sets that a deed fits."""

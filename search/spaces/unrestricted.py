@@ -41,7 +41,7 @@ class Unrestricted:
     def roots(self) -> Iterator[tuple[int, Node]]:
         """The initial state."""
         self.labels.add(self.initial, 0, 0)
-        yield self.bounds.untouched(0, self.initial, 0), Node(0, 0, self.initial, UNTOUCHED, 0, None, ())
+        yield self.bounds.untouched(0, self.initial, 0, ()), Node(0, 0, self.initial, UNTOUCHED, 0, None, ())
 
     def alive(self, node: Node) -> bool:
         """Whether no cheaper node that is as early makes this one superfluous."""
@@ -65,7 +65,7 @@ class Unrestricted:
                 continue
             touched = node.phase == TOUCHED or bounds.interactions(part.actions)
             if not touched:
-                bound = max(bound, key + bounds.untouched(epoch, after, key))
+                bound = max(bound, key + bounds.untouched(epoch, after, key, ()))
             bound = max(bound, key + bounds.team(after))
             if bound >= best.key:
                 continue

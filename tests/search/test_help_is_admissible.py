@@ -84,7 +84,7 @@ def assert_admissible(task: Task, options: Options, over: int | None) -> int:
     told = 0
     for state, spent in graph.spent.items():
         rest = graph.rest.get(state, INFINITE_KEY)
-        bound = bounds.untouched(0, state, spent)
+        bound = bounds.untouched(0, state, spent, ())
         assert bound <= rest or spent + rest >= limit
         told += bounds.private(state) < bound < INFINITE_KEY
     always = {name: bound for name, bound in bounds._asdict().items() if name not in ASKED_OTHERWISE}
@@ -122,7 +122,7 @@ def test_a_robot_that_holds_nothing_does_not_make_help_free() -> None:
     bounds = free_bounds(context, None, INFINITE_KEY, idle=False)
     # From a, where rob has got the kit, to the human in e.
     walk = 4 * context.weights.robots[0]
-    assert bounds.untouched(0, state, 0) == bounds.private(state) + walk
+    assert bounds.untouched(0, state, 0, ()) == bounds.private(state) + walk
 
 
 def test_what_two_robots_have_lifted_one_of_them_may_carry_on():
