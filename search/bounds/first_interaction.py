@@ -10,13 +10,13 @@ distances: a first pass leaves few of them.
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from operator import itemgetter
 from typing import NamedTuple
 
 from search.bounds.achievers import Provided
 from search.bounds.interactions import Interactions
-from search.bounds.private_distances import PrivateDistances
+from search.bounds.private_distances import UNTOUCHED, Corridor, PrivateDistances, ways_through
 from search.human.pattern_database import PatternDatabase
 from search.packed.cost_vector import INFINITE_KEY, NEVER
 from search.packed.joint_actions import Idle
@@ -46,30 +46,30 @@ class FirstInteraction:
     """The bound at any node before the first touch, over the surviving needs.
 
     Args:
-        bound: private distances to the goal.
         ways: the human's side.
+        corridors: what was explored of it.
         needs: the surviving needs with the least totals of plans that touch them first; one may
             stand there twice, before and after ``pi_H`` has changed what it is judged by.
     """
 
     def __init__(
         self,
-        bound: PatternDatabase,
         ways: PrivateDistances,
+        corridors: Sequence[Corridor],
         needs: Iterable[tuple[int, Provided, int]],
         horizon: int,
     ) -> None:
-        self._mask = bound.mask
+        self._mask = ways.interactions.mask
         self._outside = ways.outside
-        self._ways = ways
+        self._through = partial(ways_through, corridors, deadline=ways.deadline)
         self._promises = [
-            _Promise(ways, need, provided, total, horizon)
+            _Promise(self._through, need, provided, total, horizon - 1 - ways.steps_after[need])
             for need, provided, total in sorted(needs, key=itemgetter(2))
         ]
 
     @cached_property
     def _without(self) -> dict[int, int]:
-        return self._ways.to_goal()
+        return self._through(UNTOUCHED)
 
     def __call__(self, epoch: int, state: int, spent: int, idle: Idle, /) -> int:
         """See :data:`Timed`."""
@@ -114,19 +114,24 @@ class _Promise:
     """
 
     def __init__(
-        self, ways: PrivateDistances, need: int, provided: Provided, total: int, horizon: int
+        self,
+        through: Callable[[int], dict[int, int]],
+        need: int,
+        provided: Provided,
+        total: int,
+        latest: int,
     ) -> None:
-        self._ways = ways
+        self._through = through
         self._need = need
         self.provided = provided
         self.total = total
         self.costs: dict[int, int] = {}
-        self.latest = horizon - 1 - ways.steps_after[need]
+        self.latest = latest
 
     @cached_property
     def way(self) -> dict[int, int]:
         """Least key to the goal with a first touch of the need, by projected state."""
-        return self._ways.through(self._need)
+        return self._through(self._need)
 
 
 def no_bound(_epoch: int, _state: int, _spent: int, _idle: Idle, /) -> int:

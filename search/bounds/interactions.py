@@ -7,7 +7,6 @@ their private fields, and nothing outside changes but by robots.  A *need* is th
 outside part of the condition of a touch.
 """
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 from search.packed.operator_index import OperatorIndex
@@ -67,15 +66,6 @@ class Interactions:
                 ops = known[value] = self._look(index, value)
             found += [op for op in ops if state & op.need_mask == op.need]
         return found
-
-    def of(self, need: int) -> Iterator[Seen]:
-        """All touches of a need."""
-        mask, value = self.needs[need]
-        for form in (*self._packed.own_forms, *self._packed.joint_forms):
-            if form.need_mask & self.outside == mask and self._packed.is_interaction(form):
-                for op in form.ops:
-                    if op.need & self.outside == value:
-                        yield self._project(op)
 
     def is_interaction(self, action: int) -> bool:
         """Whether an action of the human's is a touch."""

@@ -1,17 +1,18 @@
 """The human's side of help: their way to each touch, and on to the goal, in their private fields."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
+from typing import Final
 
-from search.bounds.interactions import Interactions, Seen
+from search.bounds.interactions import Interactions
 from search.engine.shortest_paths import LevelQueue, backward
-from search.human.pattern_database import PatternDatabase, Predecessors
-from search.packed.cost_vector import INFINITE_KEY, NEVER, Weights, own_weights
-from search.packed.packed_task import PackedTask
+from search.human.pattern_database import PatternDatabase
+from search.packed.cost_vector import INFINITE_KEY, NEVER, Weights
 from serendipity.model.resources.deadline import Deadline
 
-_MOST_KEPT = 200_000
-"""Distances that are kept with a prepared task, some tens of megabytes."""
+UNTOUCHED: Final = -1
+"""In place of a need: the human gets to their goal without a touch."""
 
 
 class Corridor:
@@ -24,16 +25,17 @@ class Corridor:
         entries: per need its first touches: what they cost to the goal, they included, and from where.
     """
 
-    def __init__(self, deadline: Deadline) -> None:
-        self._deadline = deadline
+    def __init__(self) -> None:
         self.without = INFINITE_KEY
         self.totals: dict[int, int] = {}
         self.before: dict[int, list[tuple[int, int]]] = {}
         self.entries: dict[int, list[tuple[int, int]]] = {}
 
-    def through(self, need: int) -> dict[int, int]:
-        """Least key to the goal with a first touch of a need, by projected state."""
-        return backward(self.entries.get(need, ()), [self.before], self._deadline)
+
+def ways_through(corridors: Sequence[Corridor], need: int, deadline: Deadline) -> dict[int, int]:
+    """Least key to the goal with a first touch of a need, by the projected states of some corridors."""
+    entries = chain.from_iterable(corridor.entries.get(need, ()) for corridor in corridors)
+    return backward(entries, [corridor.before for corridor in corridors], deadline)
 
 
 @dataclass(eq=False)
@@ -41,7 +43,6 @@ class PrivateDistances:
     """Distances by moves alone, up to a first touch.
 
     Attributes:
-        own: the human's ways backward, asked for where they are needed.
         interactions: what their ops mention.
         bound: private distances to the goal.
         steps: the same, counting actions.
@@ -52,7 +53,6 @@ class PrivateDistances:
             the touches that :meth:`explore` has met.
     """
 
-    own: Callable[[Deadline], "OwnPrivateDistances"]
     interactions: Interactions
     bound: PatternDatabase
     steps: PatternDatabase
@@ -65,7 +65,7 @@ class PrivateDistances:
 
     def explore(self, sources: Sequence[tuple[int, int]], limit: int) -> Corridor:
         """From several states, each with what has been spent there, in that order, below a limit."""
-        found = Corridor(self.deadline)
+        found = Corridor()
         bound = self.bound.distances
         queue = LevelQueue((spent, state & self.interactions.mask) for spent, state in sources)
         seen: set[int] = set()
@@ -80,6 +80,7 @@ class PrivateDistances:
                     continue
                 if rest == 0:
                     found.without = min(found.without, spent)
+                    found.entries.setdefault(UNTOUCHED, []).append((0, at))
                 for weight, after in self._leave(at, spent, found, limit):
                     if after not in seen:
                         queue.push(spent + weight, after)
@@ -108,70 +109,3 @@ class PrivateDistances:
                 if steps < self.steps_after.get(op.interaction, NEVER):
                     self.steps_after[op.interaction] = steps
         return moves
-
-    def to_goal(self) -> dict[int, int]:
-        """Least key to the goal without a touch, by projected state."""
-        return self.weights.of_own(self.own(self.deadline).to_goal(self.deadline))
-
-    def through(self, need: int) -> dict[int, int]:
-        """Least key to the goal with a first touch of a need, by projected state."""
-        return self.weights.of_own(self.own(self.deadline).through(need, self.deadline))
-
-
-class OwnPrivateDistances:
-    """The human's ways backward, in the unit of :func:`.own_weights`.
-
-    Args:
-        interactions: what their ops mention.
-        distances: to the goal, by projected state.
-        moves: what leads to each projected state without an interaction.
-    """
-
-    def __init__(
-        self,
-        packed: PackedTask,
-        interactions: Interactions,
-        distances: Mapping[int, int],
-        moves: Predecessors,
-    ) -> None:
-        self._weights = own_weights(packed)
-        self._interactions = interactions
-        self._distances = distances
-        self._moves = moves
-        self._field = packed.own_index.field & interactions.mask
-        self._by_value: dict[int, list[int]] = {}
-        for at in self._distances:
-            self._by_value.setdefault(at & self._field, []).append(at)
-        self._to_goal: dict[int, int] | None = None
-        self._through: dict[int, dict[int, int]] = {}
-
-    def to_goal(self, deadline: Deadline) -> dict[int, int]:
-        """Least cost to the goal without a touch, by projected state."""
-        if self._to_goal is None:
-            goals = [(0, at) for at, rest in self._distances.items() if rest == 0]
-            self._to_goal = backward(goals, [self._moves], deadline)
-        return self._to_goal
-
-    def through(self, need: int, deadline: Deadline) -> dict[int, int]:
-        """Least cost to the goal with a first touch of a need, by projected state."""
-        found = self._through.get(need)
-        if found is None:
-            if len(self._through) * len(self._distances) > _MOST_KEPT:
-                self._through.clear()
-            found = self._through[need] = backward(self._entries(need), [self._moves], deadline)
-        return found
-
-    def _entries(self, need: int) -> Iterator[tuple[int, int]]:
-        """What a touch of a need costs to the goal, it included, and where it is possible."""
-        for op in self._interactions.of(need):
-            weight = self._weights[op.cost]
-            for at in self._where(op):
-                rest = self._distances.get(at & op.keep | op.put)
-                if rest is not None and at & op.need_mask == op.need:
-                    yield weight + rest, at
-
-    def _where(self, op: Seen) -> Iterable[int]:
-        """Projected states in which an op may be possible."""
-        if op.need_mask & self._field:
-            return self._by_value.get(op.need & self._field, ())
-        return self._distances

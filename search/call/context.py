@@ -132,8 +132,7 @@ class SearchContext:
     @cached_property
     def ways(self) -> PrivateDistances:
         """The human's ways to their touches."""
-        own = self.tables.private_distances
-        return PrivateDistances(own, self.interactions, self.bound, self.steps, self.weights, self.deadline)
+        return PrivateDistances(self.interactions, self.bound, self.steps, self.weights, self.deadline)
 
     def successors(self, *, idle: bool = False, barred: Collection[int] = ()) -> Successors:
         """Action sets under the interference rule; with ``idle`` robots do nothing, else nothing barred."""

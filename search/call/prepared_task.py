@@ -14,7 +14,6 @@ from math import prod
 
 from search.bounds.achievers import shared_fields
 from search.bounds.interactions import Interactions
-from search.bounds.private_distances import OwnPrivateDistances
 from search.human.pattern_database import PatternDatabase, private_fields, translated
 from search.human.tables import HumanTables
 from search.packed.cost_vector import scaled_costs
@@ -42,7 +41,6 @@ class TaskTables:
         transitions: what robots' ops do to each variable.
         decoupled: the walks of robots that can be folded.
         interactions: the human's ops, split at what they mention.
-        private_distances: the human's ways backward, from goal and interactions.
     """
 
     def __init__(self, packed: PackedTask, human: HumanTables | None = None) -> None:
@@ -52,18 +50,7 @@ class TaskTables:
         self.positions = positions = KeptTable(partial(PositionVariables, packed))
         self.transitions = KeptTable(lambda deadline: TransitionGraphs(packed, positions(deadline)))
         self.decoupled = KeptTable(lambda deadline: Decoupled(packed, positions(deadline), deadline))
-        self._set_private_distances()
-
-    def _set_private_distances(self) -> None:
-        packed, human = self.packed, self.human
-        interactions = KeptTable(lambda deadline: Interactions(packed, human.graph(deadline).mask))
-
-        def private_distances(deadline: Deadline) -> OwnPrivateDistances:
-            graph, to_goal = human.graph(deadline), human.projection(deadline)
-            return OwnPrivateDistances(packed, interactions(deadline), to_goal.distances, graph.moves)
-
-        self.interactions = interactions
-        self.private_distances = KeptTable(private_distances)
+        self.interactions = _interactions(packed, self.human)
 
     def at(self, task: Task) -> "TaskTables":
         """The same for a task that differs in its initial state only."""
@@ -71,8 +58,12 @@ class TaskTables:
         moved.packed = self.packed.at(task)
         if not self.human.covers(moved.packed.init):
             moved.human = HumanTables(moved.packed)
-            moved._set_private_distances()
+            moved.interactions = _interactions(moved.packed, moved.human)
         return moved
+
+
+def _interactions(packed: PackedTask, human: HumanTables) -> KeptTable[Interactions]:
+    return KeptTable(lambda deadline: Interactions(packed, human.graph(deadline).mask))
 
 
 class PreparedTask:

@@ -12,7 +12,7 @@ from search.bounds.first_interaction import (
     survivors,
 )
 from search.bounds.prefix_bounds import FirstInteractionOnTheWay, PrefixBounds
-from search.bounds.private_distances import Corridor
+from search.bounds.private_distances import Corridor, ways_through
 from search.call.context import SearchContext
 from search.engine.dominance import ParetoFront
 from search.human.pattern_database import NOTHING_KNOWN
@@ -218,7 +218,7 @@ class BoundsAlong:
         for first, end, corridor, ids in self._corridors:
             at = [(base, state & mask) for base, state in self._sources[first:end]]
             for i in ids.keys() & paying:
-                rest = corridor.through(ids[i])
+                rest = ways_through([corridor], ids[i], self._context.deadline)
                 totals = [base + rest.get(place, INFINITE_KEY) for base, place in at]
                 self._openings.refine(i, first, totals)
         left = [i for i in paying if self._total(i) < self._limit]
@@ -233,7 +233,8 @@ class BoundsAlong:
     def _off_plan(self, provided: Mapping[int, Provided]) -> FirstInteraction:
         """The bound where the human does not follow ``pi_H``, over the needs that pay."""
         needs = [(self._providers.touched(i), what, self._total(i)) for i, what in provided.items()]
-        return FirstInteraction(self._context.bound, self._context.ways, needs, self._horizon)
+        corridors = [corridor for _, _, corridor, _ in self._corridors]
+        return FirstInteraction(self._context.ways, corridors, needs, self._horizon)
 
 
 def _achievers(context: SearchContext, weights: Sequence[int], followed: Sequence[Operator]) -> Achievers:
@@ -259,7 +260,8 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
     if not idle:
         ways = context.ways
         providers = _achievers(context, context.weights.robots, ())
-        least = ways.explore([(0, context.packed.init)], limit).totals
+        corridor = ways.explore([(0, context.packed.init)], limit)
+        least = corridor.totals
 
         def total(need: int, cost: int) -> int:
             in_time = providers.epochs(cost) < last - ways.steps_after[need]
@@ -277,7 +279,7 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
             latest = {need: last - 1 - ways.steps_after[need] for need in paying}
             provided = providers.provided(paying, last, slack, latest)
             needs = [(need, provided[need], total(need, costs[need])) for need in paying]
-            untouched = FirstInteraction(context.bound, ways, needs, last)
+            untouched = FirstInteraction(ways, [corridor], needs, last)
     return Bounds(context.bound, context.steps, untouched, context.interactions)
 
 
