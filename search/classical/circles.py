@@ -30,9 +30,12 @@ def circles(
 ) -> Iterator[tuple[Operator, ...]]:
     """Every circle of operators that some state may allow; :class:`TooManyError` where they are too many."""
     operators = _suspects(packed, operators, deadline)
-    disabled = _in_turn(_disabled(packed, operators, deadline), deadline)
+    pairs: dict[int, list[int]] = {}
+    for number, other in disabled(packed, operators, operators, deadline):
+        pairs.setdefault(number, []).append(other)
+    after_each = _in_turn(pairs, deadline)
     steps = 0
-    for first in sorted(disabled):
+    for first in sorted(after_each):
         ways: list[tuple[int, ...]] = [(first,)]
         while ways:
             deadline.tick()
@@ -40,10 +43,14 @@ def circles(
             if steps > _MOST:
                 raise TooManyError
             way = ways.pop()
-            for after in disabled.get(way[-1], ()):
+            for after in after_each.get(way[-1], ()):
                 if after == first and len(way) > 1:
                     yield tuple(operators[i] for i in way)
-                elif after > first and after not in way and _fits(packed, operators, way, after):
+                elif (
+                    after > first
+                    and after not in way
+                    and _fits(packed, [operators[i] for i in way], operators[after])
+                ):
                     ways.append((*way, after))
 
 
@@ -90,10 +97,15 @@ Asking = dict[tuple[int, int], dict[int, list[int]]]
 """Operators that ask for a field's value, by field and value, and by their agents."""
 
 
-def _disabled(packed: PackedTask, operators: Sequence[Operator], deadline: Deadline) -> dict[int, list[int]]:
-    """Per operator those of others that it may disable and share an epoch with."""
-    needing, forbidding = _asking(packed, operators, deadline)
-    found: dict[int, list[int]] = {}
+def disabled(
+    packed: PackedTask, operators: Sequence[Operator], others: Sequence[Operator], deadline: Deadline
+) -> Iterator[tuple[int, int]]:
+    """Numbers of operators with those of others, by other agents, that they may disable in the same epoch.
+
+    Raises:
+        TooManyError: there may be more pairs than are looked at.
+    """
+    needing, forbidding = _asking(packed, others, deadline)
     pairs = 0
     for number, op in enumerate(operators):
         deadline.tick()
@@ -103,17 +115,16 @@ def _disabled(packed: PackedTask, operators: Sequence[Operator], deadline: Deadl
             groups = [needing.get((field, value), {}) for value in asked if value != put]
             groups.append(forbidding.get((field, put), {}))
             for group in groups:
-                for agents, others in group.items():
+                for agents, numbers in group.items():
                     if agents & op.agents:
                         continue
-                    for other in others:
+                    for other in numbers:
                         deadline.tick()
                         pairs += 1
                         if pairs > _MOST_PAIRS:
                             raise TooManyError
-                        if _fits(packed, operators, (number,), other):
-                            found.setdefault(number, []).append(other)
-    return found
+                        if _fits(packed, [op], others[other]):
+                            yield number, other
 
 
 def _asking(packed: PackedTask, operators: Sequence[Operator], deadline: Deadline) -> tuple[Asking, Asking]:
@@ -132,11 +143,9 @@ def _asking(packed: PackedTask, operators: Sequence[Operator], deadline: Deadlin
     return needing, forbidding
 
 
-def _fits(packed: PackedTask, operators: Sequence[Operator], way: tuple[int, ...], after: int) -> bool:
+def _fits(packed: PackedTask, others: Sequence[Operator], op: Operator) -> bool:
     """Whether an operator may share an epoch with others, as far as can be told without a state."""
-    op = operators[after]
-    for number in way:
-        other = operators[number]
+    for other in others:
         both = op.need_mask & other.need_mask
         if op.agents & other.agents or op.need & both != other.need & both:
             return False

@@ -11,15 +11,17 @@ from contextlib import suppress
 from typing import Final
 
 from search.call.context import SearchContext
+from search.classical.circles import TooManyError, disabled
 from search.packed.cost_vector import FAR, INFINITE_KEY
 from search.packed.operators import Operator
-from search.short_windows.independent.conditions import are_apart
+from search.packed.packed_task import PackedTask
 from search.short_windows.independent.landmarks import Landmarks
 from search.short_windows.independent.provision import by_others, provisions
 from search.short_windows.independent.timeline import RobotLayers, TooManyStatesError
 from search.short_windows.independent.window import ACTION, Window
 from search.short_windows.lost_values import lost_values
 from search.short_windows.question import ShortWindowQuestion
+from serendipity.model.resources.deadline import Deadline
 
 _WORTH: Final = 4
 """What a window promises is tried out at once if it is one part in so many of what can be hoped for."""
@@ -113,6 +115,23 @@ def short_windows(question: ShortWindowQuestion) -> ShortWindows | None:
     if not packed.others or not are_apart(packed, context.deadline, strict=context.options.strict):
         return None
     return ShortWindows(question) if _fit_words(question, context) else None
+
+
+def are_apart(packed: PackedTask, deadline: Deadline, *, strict: bool) -> bool:
+    """Whether every action has one participant, and robots leave the human what they need in the same epoch.
+
+    Where a robot may take away what an action of the human's only asks for, while that is being done,
+    what the human pays after a window is no bound on what they pay in it.
+
+    Args:
+        strict: strict interference, which forbids the latter.
+    """
+    if packed.joint or any(op.agents & op.agents - 1 for op in packed.others):
+        return False
+    try:
+        return strict or not any(True for _ in disabled(packed, packed.others, packed.own, deadline))
+    except TooManyError:
+        return False
 
 
 def _fit_words(question: ShortWindowQuestion, context: SearchContext) -> bool:

@@ -3,7 +3,7 @@
 import pytest
 
 from search.packed.operators import asked_by
-from search.short_windows.independent.conditions import are_apart
+from search.short_windows.independent.short_windows import are_apart
 from search.short_windows.lost_values import lost_values
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task as build
