@@ -4,7 +4,7 @@ Keys are those of ``search.packed.cost_vector``: one comparison orders objective
 start and length at once, so the first proof is already the answer of semantics 3.1.
 """
 
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Generator, Iterable
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
@@ -94,7 +94,7 @@ def best_first(
     progress: Progress,
     deadline: Deadline,
     ties: Ties | None = None,
-    is_enough: Callable[[], bool] | None = None,
+    most: int = 0,
 ) -> Generator[None, None, bool]:
     """Yield for each better incumbent, and now and then where the bound has risen.
 
@@ -106,16 +106,17 @@ def best_first(
         best: the incumbent, which is made better.
         progress: what is known so far, which is brought up to date.
         ties: how far incumbents of the best objective are told apart; None: all the way.
-        is_enough: asked before each node whether to end there, whatever has been found; None: never.
+        most: after so many nodes it ends, whatever has been found; 0: never.
 
     Returns:
-        Whether it was enough before the search had come to its end.
+        Whether it ended for that.
 
     Raises:
         LimitReachedError: the deadline ran out; ``best`` and ``progress.bound`` hold what is known.
     """
     queue = LevelQueue(space.roots())
     levels = queue.levels
+    last = progress.expanded + most
     known, left = best.key, 0 if ties is None else ties.nodes
     while (bound := queue.least) is not None and bound < best.key:
         node = queue.pop_latest()
@@ -128,7 +129,7 @@ def best_first(
                 return False
             left -= 1
         progress.expanded += 1
-        if is_enough is not None and is_enough():
+        if most and progress.expanded > last:
             return True
         for child_bound, child in space.expand(node, best):
             deadline.tick()

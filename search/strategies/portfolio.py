@@ -25,7 +25,7 @@ from search.strategies.joint_plans import (
 from search.strategies.outcome import answer_of
 from search.strategies.short_windows import beside_timetable, robots_apart
 from search.strategies.warm_start import WarmStart
-from search.strategies.windows import all_plans, few_nodes, ties, while_bounds_are_exact
+from search.strategies.windows import all_plans, few_nodes, ties
 from serendipity.model.answers.answer import Answer, Tried
 from serendipity.model.errors import LIMITS, LimitReachedError, UsageError, limit_reason
 from serendipity.model.options import Options
@@ -96,7 +96,7 @@ TURNS: Final = (
     Turn("robots-apart", "robots-apart", calls.robots_only_leave_behind, robots_apart, share=0.5),
     Turn("timetable", "timetable-last", calls.robots_only_leave_behind, beside_timetable, 0.9, 10_000_000),
     Turn("joint-optimum", "joint-optimum-on", calls.joint_optimum_is_open, open_joint_optimum, share=0.9),
-    Turn("all-plans", "exact-bounds", calls.is_for_team_beside_plan, while_bounds_are_exact),
+    Turn("all-plans", "exact-bounds", calls.is_for_team_beside_plan, few_nodes, limit=100),
     Turn("joint-optimum", "team", calls.is_for_kernel, team_optimum),
     Turn("all-plans", "all", calls.is_planned, all_plans),
     Turn("all-plans", "ties", calls.has_ties, ties, share=0.1, stage=_FINISH),
