@@ -48,7 +48,6 @@ class AchieverAutomaton:
         needs: ids of the needs that are judged by this field, with the needs.
         weights: key increment of a robots' op by the index of its cost.
         flips: ops of the human that may change the field on their way, for nothing.
-        deadline: polled at each spot that comes up.
 
     Attributes:
         field: the same.

@@ -47,7 +47,6 @@ class PrivateDistances:
         bound: private distances to the goal.
         steps: the same, counting actions.
         weights: key increments of the call.
-        deadline: polled at each state that comes up.
         outside: the fields that others change.
         steps_after: least number of actions to the goal after a touch, by its need, over
             the touches that :meth:`explore` has met.

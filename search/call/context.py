@@ -12,7 +12,6 @@ from search.call.prepared_task import PreparedTask, TaskTables
 from search.engine.best_first import Node
 from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
 from search.human.pattern_database import NOTHING_KNOWN, NearestGoal, PatternDatabase
-from search.human.plan_graph import PlanGraph
 from search.human.strides import StridingPlanner, may_stride
 from search.packed.cost_vector import INFINITE_KEY, Weights
 from search.packed.joint_actions import JointAction, as_option
@@ -24,6 +23,7 @@ from search.robots.decoupled import Decoupled, DecoupledSuccessors
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import Condition
+from serendipity.model.task.plans import Step
 from serendipity.model.task.task import HumanPlan, Task
 
 if TYPE_CHECKING:
@@ -218,6 +218,14 @@ class SearchContext:
         """The node after epochs in each of which some ops happen."""
         return reduce(self.after, epochs, self.root)
 
+    def by_epoch(self, steps: Iterable[Step], last: int) -> list[list[Operator]]:
+        """The ops of some steps, epoch by epoch up to a last one."""
+        found: list[list[Operator]] = [[] for _ in range(last)]
+        for step in steps:
+            if step.epoch <= last:
+                found[step.epoch - 1].append(self.packed.op(step.action))
+        return found
+
     def after(self, node: Node, ops: Sequence[Operator]) -> Node:
         """The node after an epoch in which ops happen together."""
         key, actions = node.key + sum(map(self.weights.team, ops)), tuple(op.action for op in ops)
@@ -233,10 +241,6 @@ class SearchContext:
     def canonical_plan(self) -> FoundPlan | None:
         """The human's canonical plan from ``I``, or None where they have none."""
         return self.alone.canonical(self.packed.init)
-
-    def optimal_plans(self) -> PlanGraph | None:
-        """The human's optimal plans from ``I``, or None where they have none."""
-        return self.alone.plans(self.packed.init)
 
     @cached_property
     def _followed(self) -> dict[HumanPlan, list[tuple[Operator, JointAction]]]:

@@ -247,7 +247,7 @@ class IndividualPlanner:
         classical = self._memory.classical
         if actions is None or classical is None:
             return None
-        expanded, generated, _ = classical.counts()
+        expanded, generated, _ = classical.planner.counts()
         return FoundPlan(actions, self._memory.expanded + expanded, generated)
 
     def first_plan(self, state: int) -> tuple[int, ...] | None:

@@ -82,10 +82,6 @@ class OwnPlanner:
 
         return self._plan(state, lambda free: canonical_plan(self.planner, free, deadline))
 
-    def counts(self) -> tuple[int, int, int]:
-        """See :class:`.ClassicalPlanner`."""
-        return self.planner.counts()
-
     def _plan(self, state: int, found: Callable[[int], Iterable[int] | None]) -> tuple[int, ...] | None:
         freed = self._due.finished(state)
         numbers = None if freed is None else found(freed[0])

@@ -53,7 +53,6 @@ class PackedTask:
 
     Args:
         extra: ids of facts to pack although no useful action asks for them.
-        deadline: polled while facts and actions are packed.
         kept: ids of actions to pack although they contribute to nothing.
 
     Attributes:

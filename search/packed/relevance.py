@@ -23,7 +23,6 @@ def relevant_to_goals(
 
     Args:
         extra: facts that matter, too.
-        deadline: polled while actions are gone through.
         kept: actions that matter, whatever they do.
     """
     actions = task.actions

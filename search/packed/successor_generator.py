@@ -60,7 +60,6 @@ class Successors:
 
     Args:
         weight: key increment of an op.
-        deadline: polled while sets of several robots' actions are put together, which can be many.
         idle: robots do nothing.
         barred: ids of actions of robots, alone or with the human, that nobody may do.
 

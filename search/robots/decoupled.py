@@ -275,7 +275,6 @@ class DecoupledSuccessors(Successors):
         walks: the robots' walks, foldable.
         weight: key increment of an op.
         price: of a walk, by its cost (in the unit of :func:`.own_costs`) and its number of ops.
-        deadline: polled while deeds are looked for.
     """
 
     def __init__(

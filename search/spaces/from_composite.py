@@ -34,19 +34,12 @@ class Suggestions:
 
     def of(self, steps: Sequence[Step]) -> Iterator[Incumbent]:
         """What a composite plan suggests."""
-        epochs = self._epochs(steps)
+        epochs = self._context.by_epoch(steps, max((step.epoch for step in steps), default=0))
         if not self._context.options.windowed:
             yield from self._whole(epochs)
         if self._plan:
             yield from self._cut_short(epochs)
             yield from self._beside([op for ops in epochs for op in ops])
-
-    def _epochs(self, steps: Sequence[Step]) -> list[list[Operator]]:
-        last = max((step.epoch for step in steps), default=0)
-        found: list[list[Operator]] = [[] for _ in range(last)]
-        for step in steps:
-            found[step.epoch - 1].append(self._context.packed.op(step.action))
-        return found
 
     def _whole(self, epochs: list[list[Operator]]) -> Iterator[Incumbent]:
         """The plan itself."""

@@ -26,7 +26,8 @@ _FIRST_BOUND: Final = 0.1
 
 def optimal_human_plans(prepared: PreparedTask, deadline: Deadline | None = None) -> PlanGraph | None:
     """All optimal plans of the human alone, or None where they have none."""
-    return SearchContext(prepared, Options(), deadline or Deadline()).optimal_plans()
+    context = SearchContext(prepared, Options(), deadline or Deadline())
+    return context.alone.plans(context.packed.init)
 
 
 def optimal_plans_in_time(
@@ -34,7 +35,7 @@ def optimal_plans_in_time(
 ) -> Iterator[HumanPlan]:
     """The human's optimal plans, in single epochs, that differ in the names of what they begin."""
     context = SearchContext(prepared, options, deadline)
-    graph, packed = context.optimal_plans(), context.packed
+    graph, packed = context.alone.plans(context.packed.init), context.packed
 
     def name(action: int) -> str:
         return packed.task.actions[action].name if packed.counted(action) else ""

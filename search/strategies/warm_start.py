@@ -132,13 +132,8 @@ def _followed(context: SearchContext, plan: HumanPlan, warm: WarmStart, last: in
         last: the last of these epochs.
         start: the first epoch of the window; 0 without one.
     """
-    packed = context.packed
-    done: list[list[Operator]] = [[] for _ in range(last)]
-    for step in warm.steps:
-        if step.epoch <= last:
-            done[step.epoch - 1].append(packed.op(step.action))
     node = context.root._replace(start=start)
-    for ops in done:
+    for ops in context.by_epoch(warm.steps, last):
         epoch = node.epoch + 1
         if not all(applicable(op, node.state) for op in ops):
             return None

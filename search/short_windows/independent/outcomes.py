@@ -115,11 +115,8 @@ class Together:
     def _keep(self, chosen: NDArray[Any]) -> None:
         """Leave out all others."""
         found = self.found
-        self.found, self._parts = (
-            Outcomes(found.rows[:, chosen], found.amounts[chosen]),
-            self._parts[:, chosen],
-        )
-        self._nets = self._nets[chosen]
+        self.found = Outcomes(found.rows[:, chosen], found.amounts[chosen])
+        self._parts, self._nets = self._parts[:, chosen], self._nets[chosen]
 
     def _join(self, more: Outcomes, nets: Amounts, most: int) -> None:
         """One more robot; ``most``: where the sum of nets is as much, outcomes are left out."""
@@ -207,19 +204,16 @@ class Remaining:
 
     def drop(self, limit: int) -> None:
         """Leave out what is not below a limit."""
-        kept = self._least < limit
+        self._keep(self._least < limit)
+
+    def _keep(self, kept: NDArray[np.bool_]) -> None:
         self._rows, self._places = self._rows[:, kept], self._places[kept]
         self._amounts, self._least = self._amounts[kept], self._least[kept]
 
     def take(self) -> tuple[int, int, int]:
         """One for which least is known: its place, its state, and what robots pay for it."""
         first = int(self._least.argmin())
-        found = (
-            int(self._places[first]),
-            states(self._rows[:, first : first + 1])[0],
-            int(self._amounts[first]),
-        )
-        kept = np.arange(len(self._least)) != first
-        self._rows, self._places = self._rows[:, kept], self._places[kept]
-        self._amounts, self._least = self._amounts[kept], self._least[kept]
+        state = states(self._rows[:, first : first + 1])[0]
+        found = int(self._places[first]), state, int(self._amounts[first])
+        self._keep(np.arange(len(self._least)) != first)
         return found

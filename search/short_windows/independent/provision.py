@@ -8,11 +8,11 @@ others change it, so what they pay for that adds up.
 """
 
 from collections.abc import Callable, Sequence
-from heapq import heappop, heappush
 from typing import NamedTuple
 
 import numpy as np
 
+from search.engine.shortest_paths import backward
 from search.packed.cost_vector import FAR
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedTask
@@ -90,7 +90,9 @@ def leaves(packed: PackedTask) -> list[int]:
     return [field for field in packed.fields if field in found]
 
 
-def detours(packed: PackedTask, field: int, robot: int, amount: Callable[[Operator], int]) -> Amounts:
+def detours(
+    packed: PackedTask, field: int, robot: int, amount: Callable[[Operator], int], deadline: Deadline
+) -> Amounts:
     """Least costs for other robots to bring a field from one value to another, by both; ``FAR``: no way.
 
     Args:
@@ -98,24 +100,14 @@ def detours(packed: PackedTask, field: int, robot: int, amount: Callable[[Operat
         robot: the one that pays nothing.
         amount: of an operator.
     """
-    steps = [
-        (op.need & field if op.need_mask & field else None, op.put & field, amount(op))
-        for op in packed.others
-        if op.agents != robot and field & ~op.keep
-    ]
+    steps: dict[int, list[tuple[int, int]]] = {}
+    for op in packed.others:
+        if op.agents != robot and field & ~op.keep:
+            asked = [op.need & field] if op.need_mask & field else packed.values(field)
+            steps.setdefault(op.put & field, []).extend((amount(op), before) for before in asked)
     shift, size = (field & -field).bit_length() - 1, 1 << field.bit_count()
     found = np.full((size, size), FAR, dtype=np.int64)
     for end in packed.values(field):
-        queue, known = [(0, end)], set[int]()
-        while queue:
-            paid, value = heappop(queue)
-            if value in known:
-                continue
-            known.add(value)
+        for value, paid in backward([(0, end)], [steps], deadline).items():
             found[value >> shift, end >> shift] = min(paid, FAR)
-            for asked, put, price in steps:
-                if put == value:
-                    for before in packed.values(field) if asked is None else (asked,):
-                        if before not in known:
-                            heappush(queue, (paid + price, before))
     return found

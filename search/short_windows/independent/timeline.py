@@ -103,7 +103,7 @@ class RobotLayers:
         self._asked = self._local & ~self.changes | union(map(asked_by, ops))
         lent = {field for field, _ in others}
         self._detours = {
-            field: detours(packed, field, robot, amount)
+            field: detours(packed, field, robot, amount, deadline)
             for field in leaves(packed)
             if field in lent & set(packed.fields)
         }
