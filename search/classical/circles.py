@@ -1,4 +1,4 @@
-"""Sets of actions that need one epoch: each disables another of them, in a circle (semantics 2).
+"""Sets of actions that need one epoch: they disable each other in circles that hang together (semantics 2).
 
 Where epochs don't count, every other set of actions can be done one after another.
 """
@@ -6,7 +6,7 @@ Where epochs don't count, every other set of actions can be done one after anoth
 from collections.abc import Iterator, Sequence
 from typing import Final
 
-from search.packed.operators import Operator, forms_of
+from search.packed.operators import Operator, forms_of, union
 from search.packed.packed_task import PackedTask
 from serendipity.model.resources.deadline import Deadline
 
@@ -28,12 +28,17 @@ class TooManyError(Exception):
 def circles(
     packed: PackedTask, operators: Sequence[Operator], deadline: Deadline
 ) -> Iterator[tuple[Operator, ...]]:
-    """Every circle of operators that some state may allow; :class:`TooManyError` where they are too many."""
+    """Every circle of operators that some state may allow, and those with operators in common together.
+
+    Raises:
+        TooManyError: they are too many.
+    """
     operators = _suspects(packed, operators, deadline)
     pairs: dict[int, list[int]] = {}
     for number, other in disabled(packed, operators, operators, deadline):
         pairs.setdefault(number, []).append(other)
     after_each = _in_turn(pairs, deadline)
+    found: dict[frozenset[int], None] = {}
     steps = 0
     for first in sorted(after_each):
         ways: list[tuple[int, ...]] = [(first,)]
@@ -45,6 +50,7 @@ def circles(
             way = ways.pop()
             for after in after_each.get(way[-1], ()):
                 if after == first and len(way) > 1:
+                    found[frozenset(way)] = None
                     yield tuple(operators[i] for i in way)
                 elif (
                     after > first
@@ -52,6 +58,33 @@ def circles(
                     and _fits(packed, [operators[i] for i in way], operators[after])
                 ):
                     ways.append((*way, after))
+    for joined in _joined(packed, operators, [*found], deadline):
+        yield tuple(operators[i] for i in sorted(joined))
+
+
+def _joined(
+    packed: PackedTask, operators: Sequence[Operator], found: list[frozenset[int]], deadline: Deadline
+) -> Iterator[frozenset[int]]:
+    """Circles with operators in common: they need the same epoch, as none can be done before the others."""
+    known, pending, pairs = {*found}, [*found], 0
+    everybody = union(operators[i].agents for circle in found for i in circle)
+    while pending:
+        some = pending.pop()
+        members = [operators[i] for i in sorted(some)]
+        if not everybody & ~union(op.agents for op in members):
+            continue
+        for circle in found:
+            deadline.tick()
+            pairs += 1
+            if pairs > _MOST_PAIRS:
+                raise TooManyError
+            more = circle - some
+            if len(more) == len(circle) or some | circle in known:
+                continue
+            if all(_fits(packed, members, operators[i]) for i in more):
+                known.add(some | circle)
+                pending.append(some | circle)
+                yield some | circle
 
 
 def _suspects(packed: PackedTask, operators: Sequence[Operator], deadline: Deadline) -> list[Operator]:

@@ -2,6 +2,7 @@
 
 import pytest
 
+import serendipity
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.packed.cost_vector import own_actions
@@ -24,3 +25,13 @@ def test_a_circle_counts_all_its_actions() -> None:
     if context.team is None:
         pytest.skip("the team's plans need the kernel")
     assert own_actions(context.team.planner.cheapest(context.packed.init, Deadline())) == 2
+
+
+@pytest.mark.parametrize("alone", [{}, {f"buy_{fact} h": f"-> {fact} @ 20" for fact in "xyz"}])
+def test_circles_with_an_action_in_common_need_one_epoch(alone: dict[str, str]) -> None:
+    """The middle one and each of the others disable each other: any two of them rule out the third."""
+    chain = {"left h": "p -> x !q @ 1", "middle r": "q s -> y !p !t @ 1", "right b": "t -> z !s @ 1"}
+    task = build(agents="h r b", init="p q s t", goal="x y z", actions=chain | alone)
+    answer = serendipity.plan(task, mode="composite", horizon="inf", discount="0.5")
+    assert (answer.status, answer.cost) == ("optimal", 2)
+    assert serendipity.verify(task, answer).verdict == "proved"
