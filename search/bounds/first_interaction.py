@@ -57,13 +57,12 @@ class FirstInteraction:
         ways: PrivateDistances,
         corridors: Sequence[Corridor],
         needs: Iterable[tuple[int, Provided, int]],
-        horizon: int,
     ) -> None:
         self._mask = ways.interactions.mask
         self._outside = ways.outside
         self._through = partial(ways_through, corridors, deadline=ways.deadline)
         self._promises = [
-            _Promise(self._through, need, provided, total, horizon - 1 - ways.steps_after[need])
+            _Promise(self._through, need, provided, total)
             for need, provided, total in sorted(needs, key=itemgetter(2))
         ]
 
@@ -114,19 +113,14 @@ class _Promise:
     """
 
     def __init__(
-        self,
-        through: Callable[[int], dict[int, int]],
-        need: int,
-        provided: Provided,
-        total: int,
-        latest: int,
+        self, through: Callable[[int], dict[int, int]], need: int, provided: Provided, total: int
     ) -> None:
         self._through = through
         self._need = need
         self.provided = provided
         self.total = total
         self.costs: dict[int, int] = {}
-        self.latest = latest
+        self.latest = provided.latest
 
     @cached_property
     def way(self) -> dict[int, int]:

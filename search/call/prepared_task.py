@@ -81,12 +81,14 @@ class PreparedTask:
 
     def __init__(self, task: Task) -> None:
         self.task = task
-        plain = KeptTable(lambda deadline: _including(task, frozenset(), deadline))
+        plain = KeptTable(lambda deadline: TaskTables(PackedTask(task, frozenset(), deadline)))
         kept = KeptTable(lambda deadline: diversions(plain(deadline).packed, deadline))
         diverted = KeptTable(lambda deadline: _diverted(plain(deadline), kept(deadline), deadline))
         seen = KeptTable(lambda deadline: surroundings(task, deadline.tick))
         self.plain, self.with_diversions, self.diversions, self.surroundings = plain, diverted, kept, seen
-        self.with_human_facts = KeptTable(lambda deadline: _including(task, human_facts(task), deadline))
+        self.with_human_facts = KeptTable(
+            lambda deadline: TaskTables(PackedTask(task, human_facts(task), deadline))
+        )
 
         def doubting(facts: Iterable[int], deadline: Deadline) -> TaskTables:
             return _doubting(diverted(deadline), kept(deadline), frozenset(facts), deadline)
@@ -98,7 +100,7 @@ class PreparedTask:
         self, facts: frozenset[int], deadline: Deadline, actions: tuple[int, ...] = ()
     ) -> TaskTables:
         """Also packed are some facts and actions, which one call asks about; not kept."""
-        return _including(self.task, facts, deadline, actions)
+        return TaskTables(PackedTask(self.task, facts, deadline, actions))
 
     def doubting(self, facts: frozenset[int], deadline: Deadline) -> TaskTables:
         """:attr:`doubtful` with some facts besides, which one call asks about; not kept."""
@@ -152,15 +154,9 @@ class PreparedTask:
         return found
 
 
-def _including(
-    task: Task, facts: frozenset[int], deadline: Deadline, actions: tuple[int, ...] = ()
-) -> TaskTables:
-    return TaskTables(PackedTask(task, facts, deadline, actions))
-
-
 def _diverted(plain: TaskTables, kept: tuple[int, ...], deadline: Deadline) -> TaskTables:
     """The plain packing, and actions that are kept though they contribute to nothing."""
-    return _including(plain.packed.task, frozenset(), deadline, kept) if kept else plain
+    return TaskTables(PackedTask(plain.packed.task, frozenset(), deadline, kept)) if kept else plain
 
 
 def _doubting(
@@ -192,11 +188,7 @@ def prepare(task: Task, deadline: Deadline | None = None) -> PreparedTask:
     transitions = tables.transitions(deadline)
     for field in shared_fields(tables.packed, tables.positions(deadline)):
         transitions.on(field)
-    if _most_states(tables.packed) <= len(task.actions):
+    most_states = prod(len(tables.packed.values(field)) for field in private_fields(tables.packed))
+    if most_states <= len(task.actions):
         tables.human.projection(deadline)
     return prepared
-
-
-def _most_states(packed: PackedTask) -> int:
-    """At least the number of the human's private states."""
-    return prod(len(packed.values(field)) for field in private_fields(packed))

@@ -234,7 +234,7 @@ class BoundsAlong:
         """The bound where the human does not follow ``pi_H``, over the needs that pay."""
         needs = [(self._providers.touched(i), what, self._total(i)) for i, what in provided.items()]
         corridors = [corridor for _, _, corridor, _ in self._corridors]
-        return FirstInteraction(self._context.ways, corridors, needs, self._horizon)
+        return FirstInteraction(self._context.ways, corridors, needs)
 
 
 def _achievers(context: SearchContext, weights: Sequence[int], followed: Sequence[Operator]) -> Achievers:
@@ -262,10 +262,10 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
         providers = _achievers(context, context.weights.robots, ())
         corridor = ways.explore([(0, context.packed.init)], limit)
         least = corridor.totals
+        latest = {need: last - 1 - ways.steps_after[need] for need in least}
 
         def total(need: int, cost: int) -> int:
-            in_time = providers.epochs(cost) < last - ways.steps_after[need]
-            return least[need] + cost if in_time else INFINITE_KEY
+            return least[need] + cost if providers.epochs(cost) <= latest[need] else INFINITE_KEY
 
         start = min(least.values(), default=limit)
 
@@ -276,10 +276,9 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
         paying = survivors(costs, limit, total)
         if paying is not None:
             slack = {need: limit - least[need] for need in paying}
-            latest = {need: last - 1 - ways.steps_after[need] for need in paying}
             provided = providers.provided(paying, last, slack, latest)
             needs = [(need, provided[need], total(need, costs[need])) for need in paying]
-            untouched = FirstInteraction(ways, [corridor], needs, last)
+            untouched = FirstInteraction(ways, [corridor], needs)
     return Bounds(context.bound, context.steps, untouched, context.interactions)
 
 

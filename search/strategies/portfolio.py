@@ -17,11 +17,7 @@ from search.packed.cost_vector import INFINITE_KEY, CostLayout
 from search.strategies import conditions as calls
 from search.strategies.call import Allowance, Call
 from search.strategies.human_plan import first_bound, first_plan, known_plan, optimal_plan, plan_alone, saving
-from search.strategies.joint_plans import (
-    joint_optimum,
-    open_joint_optimum,
-    team_optimum,
-)
+from search.strategies.joint_plans import joint_optimum, open_joint_optimum, team_optimum
 from search.strategies.outcome import answer_of
 from search.strategies.short_windows import beside_timetable, robots_apart
 from search.strategies.warm_start import WarmStart

@@ -12,9 +12,8 @@ if TYPE_CHECKING:  # loaded by the calls that it serves
 
 def robots_apart(call: Call, part: Allowance) -> Iterator[None]:
     """Outcomes of each robot by itself, put together, by the epoch of the window."""
-    from search.short_windows.independent.short_windows import (
-        short_windows,  # only here: most calls come by without
-    )
+    # Only here, as below: most calls come by without.
+    from search.short_windows.independent.short_windows import short_windows
 
     short = short_windows(_question(call, part.deadline))
     if short is None:
@@ -28,7 +27,7 @@ def robots_apart(call: Call, part: Allowance) -> Iterator[None]:
 
 def beside_timetable(call: Call, part: Allowance) -> Iterator[None]:
     """All states beside the human's timetable, epoch by epoch; it goes on from where a limit came."""
-    from search.short_windows.joint.all_together import AllTogether  # only here, as above
+    from search.short_windows.joint.all_together import AllTogether
 
     if call.timetable is None:
         question = _question(call, call.context.deadline)
@@ -37,7 +36,7 @@ def beside_timetable(call: Call, part: Allowance) -> Iterator[None]:
 
 
 def _question(call: Call, deadline: Deadline) -> "ShortWindowQuestion":
-    from search.short_windows.question import ShortWindowQuestion  # only here, as above
+    from search.short_windows.question import ShortWindowQuestion
 
     plan, epochs = call.plan, call.epochs
     assert plan is not None and epochs is not None, "there is a window"
