@@ -40,29 +40,6 @@ class _Way(NamedTuple):
     rest: _Rest
 
 
-class BegunActions:
-    """``pi_H`` as actions, each with the ones of its epochs.
-
-    Attributes:
-        actions: what is begun.
-        starts: the epoch in which each begins.
-        states: the packed states in which each of the first ``j`` has ended, robots idle.
-    """
-
-    def __init__(self, packed: PackedTask, plan: HumanPlan, due: Due) -> None:
-        begun = [(epoch, action) for epoch, action in enumerate(plan, start=1) if packed.counted(action)]
-        self.starts = [epoch for epoch, _ in begun]
-        self.actions = [action for _, action in begun]
-        self.states = [packed.init]
-        state = packed.init
-        for epoch, action in enumerate(plan, start=1):
-            after = due.after_all(state, (action,))
-            assert after is not None, "pi_H is a plan"
-            state = after
-            if due.human(state) is None and len(self.states) <= sum(start <= epoch for start in self.starts):
-                self.states.append(state)
-
-
 class PlanSuffix:
     """A suffix of actions of ``pi_H``: any subsequence (Def. 2.0, eq. 9), or all from one on (Def. 3.1).
 
@@ -88,13 +65,25 @@ class PlanSuffix:
         self._due = due
         self._goals = goals
         self._deadline = deadline
-        self._plan = BegunActions(packed, plan, due)
-        self._first = [as_option(op, weight(op)) for op in map(packed.op, self._plan.actions)]
+        begun = [(epoch, packed.op(i)) for epoch, i in enumerate(plan, start=1) if packed.counted(i)]
+        self._starts = [epoch for epoch, _ in begun]
+        self._first = [as_option(op, weight(op)) for _, op in begun]
         waiting = map(packed.op, packed.idling[:1])
         priced = (as_option(op, weight(op) if packed.prices_waiting else 0) for op in waiting)
         self._waiting = next(priced, NOTHING)
-        self._expected = None if own is None else [self._seen(state, own) for state in self._plan.states]
+        self._expected = None if own is None else [self._seen(state, own) for state in self._ended(plan)]
         self._known: dict[_Rest, tuple[int, _Way | None]] = {}
+
+    def _ended(self, plan: HumanPlan) -> list[int]:
+        """The packed states in which each of the first ``j`` actions has ended, robots idle."""
+        states = [state := self._packed.init]
+        for epoch, action in enumerate(plan, start=1):
+            after = self._due.after_all(state, (action,))
+            assert after is not None, "pi_H is a plan"
+            state = after
+            if self._due.human(state) is None and len(states) <= sum(s <= epoch for s in self._starts):
+                states.append(state)
+        return states
 
     def _seen(self, state: int, own: Collection[int]) -> PackedGoal:
         """What holds in a state of the human's own facts."""
@@ -130,7 +119,7 @@ class PlanSuffix:
             epochs = min(epochs, len(self._first))
         if self._expected is None:
             return [(paid, _Rest(0, state, epochs, True))]
-        first = sum(first < start for first in self._plan.starts)
+        first = sum(first < start for first in self._starts)
         expected = list(enumerate(self._expected))[first:]
         return [(paid, _Rest(j, state, epochs, False)) for j, at in expected if at.holds(state)]
 

@@ -126,10 +126,8 @@ class Suggestions:
         for op in left:
             context.deadline.check()
             if not op.agents & busy and applicable(op, state):
-                fits = all(
-                    context.packed.compatible(op.action, other.action, context.options.strict)
-                    for other in chosen
-                )
+                strict = context.options.strict
+                fits = all(context.packed.compatible(op.action, one.action, strict) for one in chosen)
                 if fits and (not keeps or self._goes_on(changed(state, [*chosen, op]), epoch)):
                     chosen.append(op)
             busy |= op.agents
