@@ -4,6 +4,7 @@ Where epochs don't count, every other set of actions can be done one after anoth
 """
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from typing import Final
 
 from search.packed.operators import Operator, forms_of, union
@@ -67,21 +68,24 @@ def _joined(
 ) -> Iterator[frozenset[int]]:
     """Circles with operators in common: they need the same epoch, as none can be done before the others."""
     known, pending, pairs = {*found}, [*found], 0
-    everybody = union(operators[i].agents for circle in found for i in circle)
+    around: dict[int, list[frozenset[int]]] = {}
+    for circle in found:
+        for i in circle:
+            around.setdefault(i, []).append(circle)
+    everybody = union(operators[i].agents for i in around)
     while pending:
         some = pending.pop()
         members = [operators[i] for i in sorted(some)]
         if not everybody & ~union(op.agents for op in members):
             continue
-        for circle in found:
+        for circle in chain.from_iterable(around[i] for i in sorted(some)):
             deadline.tick()
             pairs += 1
-            if pairs > _MOST_PAIRS:
+            if pairs > _MOST_PAIRS or len(known) > _MOST:
                 raise TooManyError
-            more = circle - some
-            if len(more) == len(circle) or some | circle in known:
+            if some | circle in known:
                 continue
-            if all(_fits(packed, members, operators[i]) for i in more):
+            if all(_fits(packed, members, operators[i]) for i in circle - some):
                 known.add(some | circle)
                 pending.append(some | circle)
                 yield some | circle
