@@ -17,7 +17,7 @@ def path_steps(node: Node) -> tuple[Step, ...]:
     return tuple(sorted(Step(at.epoch, action) for at in _back_from(node) for action in at.actions))
 
 
-def steps_of(found: Incumbent) -> tuple[Step, ...]:
+def whole_plan(found: Incumbent) -> tuple[Step, ...]:
     """The steps of a plan that has a last node, in order of epoch and action."""
     assert found.node is not None, "an incumbent of a search has one"
     return tuple(sorted(path_steps(found.node) + plan_steps(found.tail, found.end)))

@@ -13,7 +13,7 @@ from itertools import count
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, Progress, best_first
-from search.engine.paths import plan_steps, steps_of
+from search.engine.paths import plan_steps, whole_plan
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator
 from search.spaces.fixed_window import FixedWindow, Weighed
@@ -128,7 +128,7 @@ def _examined(
         if human.key >= INFINITE_KEY:
             yield WindowOutcome(window, None, None, None)
             continue
-        steps = plan_steps(plan) if human.node is None else steps_of(human)
+        steps = plan_steps(plan) if human.node is None else whole_plan(human)
         yield WindowOutcome(window, keys.objective(human.key), keys.objective(team.key), steps)
 
 

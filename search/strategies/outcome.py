@@ -4,7 +4,7 @@ from contextlib import suppress
 from fractions import Fraction
 
 from search.engine.best_first import Incumbent
-from search.engine.paths import path_sets, path_steps, plan_steps
+from search.engine.paths import path_sets, plan_steps, whole_plan
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.parallelise import schedule
 from search.strategies.call import Call
@@ -141,6 +141,6 @@ def steps_of(call: Call, answer: Incumbent) -> tuple[Step, ...]:
         return plan_steps(call.plan or ())
     if call.epochs is None and not call.context.packed.in_time:
         return schedule(call.task, path_sets(answer.node))
-    steps = path_steps(answer.node) + plan_steps(answer.tail, answer.end)
+    steps = whole_plan(answer)
     walks = call.context.walks(call.plan or ()) if answer.node.idle else None
     return steps if walks is None else tuple(sorted((*steps, *walks.steps(answer.node))))

@@ -124,9 +124,8 @@ def execute(
     if persona.told and goals is not None and (task.robot_goal or options.get("mode") == "communication"):
         why = "with robots' own goals, or communication, an omniscient person's goal is known"
         raise UsageError(f"goals: {why}")
-    model = (
-        human_model if human_model is not None else (persona.human_model if plans is None else "omniscient")
-    )
+    usual = persona.human_model if plans is None else "omniscient"
+    model = usual if human_model is None else human_model
     require_one_of("human_model", model, CHOICES["human_model"])
     if plans is not None and model != "omniscient":
         raise UsageError("human_model: with plans only 'omniscient' is possible")

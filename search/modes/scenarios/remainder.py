@@ -14,7 +14,7 @@ from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, Progress, Space, best_first, solve_space
 from search.engine.dominance import ParetoFront
-from search.engine.paths import path_steps, plan_steps
+from search.engine.paths import path_steps, plan_steps, whole_plan
 from search.human.suffix_rules import Asked, Suffix
 from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, Member, Worths
 from search.modes.scenarios.variants import Variants
@@ -297,8 +297,7 @@ class Certain:
             best.key = min(alone, best.key)
         least, worth = self._searched(space, best, deadline)
         if best.node is not None:
-            steps = path_steps(best.node) + plan_steps(best.tail, best.end)
-            return Remainder(least, worth, steps, Window(best.node.start, best.end))
+            return Remainder(least, worth, whole_plan(best), Window(best.node.start, best.end))
         if is_left_alone:
             worth = self._worths.of_key(best.key)
             return Remainder(least, worth, plan_steps(self._scenario.plan[epoch:], epoch + 1))

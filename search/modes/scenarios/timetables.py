@@ -71,15 +71,18 @@ class Timetable:
 
     def _over(self, run: Callable[[int, int, Deadline], bool], there: Deadline, share: float) -> bool:
         """Whether a part of an epoch is over in its share of the time, under a lower limit if it must be."""
-        most = _MOST * (len(_HALVES) - len(self._limits) + 4) // 4
         while len(self._limits) > 1:
             with suppress(LimitReachedError):
-                if run(self._limits[0], most, there.part(share)):
+                if run(self._limits[0], self._most, there.part(share)):
                     return True
             there.check()
             del self._limits[0]
-            most += _MOST // 4
-        return run(self._limits[0], most, there)
+        return run(self._limits[0], self._most, there)
+
+    @property
+    def _most(self) -> int:
+        """States under the limit that is in force."""
+        return _MOST * (len(_HALVES) - len(self._limits) + 4) // 4
 
     def least(self, epoch: int, state: int, *, at_once: bool = False) -> int:
         """Bound on the key of what is left after an epoch with a window of one to come, without that one.

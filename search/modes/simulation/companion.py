@@ -12,7 +12,7 @@ from functools import cache
 
 from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, solve_space
-from search.engine.paths import steps_of
+from search.engine.paths import whole_plan
 from search.modes.simulation.human import Human, Start
 from search.modes.simulation.simulator import Run, way_on
 from search.modes.simulation.space import Reactive
@@ -115,7 +115,7 @@ class Companion:
             return None
         keys = self.human.keys
         alone = None if idle.key >= INFINITE_KEY else keys.cost(idle.key)
-        return Course(steps_of(best), keys.cost(best.key), alone, proved)
+        return Course(whole_plan(best), keys.cost(best.key), alone, proved)
 
     def played(self, start: Start, steps: Sequence[Step], deadline: Deadline) -> Simulation:
         """What becomes of the robots' part of a plan; see :func:`.simulate`."""

@@ -7,7 +7,7 @@ from fractions import Fraction
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, Progress, best_first, solve_space
-from search.engine.paths import plan_steps, steps_of
+from search.engine.paths import plan_steps, whole_plan
 from search.human.individual_planner import FoundPlan
 from search.modes.simulation.human import Human, Start
 from search.modes.simulation.in_time import HumanInTime
@@ -183,7 +183,7 @@ class _Call:
         helps, keys = self._helps(), self.human.keys
         answer = self.best if helps or self.task.robot_goal else self.baseline
         known = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
-        steps = plan_steps(self.plan) if answer.node is None else steps_of(answer)
+        steps = plan_steps(self.plan) if answer.node is None else whole_plan(answer)
         baseline = None if self.baseline.key == INFINITE_KEY else keys.cost(self.baseline.key)
         cost = keys.cost(answer.key) if known else None
         return Answer(

@@ -30,17 +30,25 @@ def _line(task: Task, candidate: Candidate, horizon: int) -> Line:
     return Line(scenario, 0, Moves(context.successors(), worths), worths)
 
 
+def _twice(given_: tuple[Task, list[Candidate]], more: int) -> tuple[Line, Line, int]:
+    """Two lines of the first scenario, and the horizon: so many epochs beyond its plan."""
+    task, (candidate, *_) = given_
+    horizon = len(candidate.plan) + more
+    return _line(task, candidate, horizon), _line(task, candidate, horizon), horizon
+
+
+def _alone(line: Line) -> int:
+    return line.certain.alone(line.first().state, 0)
+
+
 @given(scenarios(), st.integers(0, 2), st.integers(0, 3))
 @settings(max_examples=60)
 def test_they_are_never_above_what_is_left(
     given_: tuple[Task, list[Candidate]], more: int, halves: int
 ) -> None:
     """After each epoch, whatever robots have done by then: of the whole as of any lower limit."""
-    task, (candidate, *_) = given_
-    horizon = len(candidate.plan) + more
-    line, exact = _line(task, candidate, horizon), _line(task, candidate, horizon)
-    start, worth = line.first(), exact.certain.alone(line.first().state, 0)
-    least = exact.least(start, 0)
+    line, exact, horizon = _twice(given_, more)
+    start, least, worth = line.first(), exact.least(line.first(), 0), _alone(exact)
     line.tabulate(least, least + (worth - least >> halves), Deadline())
     reached = {start}
     for epoch in range(horizon):
@@ -58,11 +66,8 @@ def test_what_they_leave_out_is_not_worth_less(
     given_: tuple[Task, list[Candidate]], more: int, share: Fraction
 ) -> None:
     """Windows that open in an epoch are not looked at where none can be worth so little: a part of all."""
-    task, (candidate, *_) = given_
-    horizon = len(candidate.plan) + more
-    line, exact = _line(task, candidate, horizon), _line(task, candidate, horizon)
-    start, worth = line.first(), exact.certain.alone(line.first().state, 0)
-    least = exact.least(start, 0)
+    line, exact, horizon = _twice(given_, more)
+    start, least, worth = line.first(), exact.least(line.first(), 0), _alone(exact)
     most = least + int((worth - least) * share)
     line.tabulate(least, worth, Deadline())
     reached = {start}
