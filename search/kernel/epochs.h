@@ -277,7 +277,7 @@ static int look_back(Epochs *e, Cost paid) {
     return 1;
 }
 
-/* What is left from a state of a layer, by all ways or by those that leave something behind at once; NONE: it was not met. */
+/* What is left from a state of a layer, by all ways or by those that leave something behind at once; NONE: not met. */
 static Cost rest_from(Epochs *e, int32_t layer, const Word *state, int at_once) {
     memcpy(e->other, state, (size_t)e->problem.words * sizeof(Word));
     represent(&e->problem, &e->alike[layer], e->other);
@@ -417,9 +417,9 @@ static int epochs_run(Epochs *e, Cost limit, double seconds, size_t allowed) {
     return FOUND;
 }
 
-/* A slice of going back, once all epochs are over, under the lowest of their limits: the least that is left from each state of each
-   layer to what can be left behind then or later, and a bound on what follows; no more than what of the limit was left on
-   the cheapest way to the state. */
+/* A slice of going back, once all epochs are over, under the lowest of their limits: the least that is left from each state
+   of each layer to what can be left behind then or later, and a bound on what follows; no more than what of the limit was
+   left on the cheapest way to the state. */
 static int epochs_go_back(Epochs *e, const int32_t *given, Cost limit, double seconds) {
     double end = now() + seconds;
     if (!e->is_back) e->is_back = 1, e->is_end = 0, e->layer = e->n_layers - 1, e->cursor = 0, e->target = NULL;
