@@ -219,10 +219,16 @@ class Line:
 
     # -- what is left
 
-    def guide(self, at: Member, epoch: int, deadline: Deadline) -> Guide | None:
-        """The best plan known for what is left, if this is what the human does for certain."""
-        found = self.certain.remainder(at, epoch, deadline, again=False)
-        if found.worth >= INFINITE_WORTH:
+    def guide(self, at: Member, epoch: int, deadline: Deadline | None) -> Guide | None:
+        """The best plan known for what is left, if this is what the human does for certain.
+
+        Args:
+            deadline: of an ordinary call, where there was none; None: there is none.
+        """
+        certain, found = self.certain, self.certain.known(at, epoch)
+        if deadline is not None:
+            found = certain.remainder(at, epoch, deadline, again=False)
+        if found is None or found.worth >= INFINITE_WORTH:
             return None
         found = found._replace(steps=tuple(sorted(found.steps)))
         return Guide(self.number, found, at.phase, self._context, self.variants)
@@ -243,7 +249,8 @@ class Line:
             return self._worths.epoch if done else INFINITE_WORTH
         window, of_key = self._worths.epoch, self._worths.of_key
         known = self.certain.floor(at, epoch)
-        if self.certain.known(at, epoch) is not None:
+        found = self.certain.known(at, epoch)
+        if found is not None and found.least >= found.worth:
             return known
         least = min(self._rest(at.state) + window, INFINITE_WORTH)
         if at.phase == FOLLOWING and self._timetable is not None:

@@ -59,12 +59,10 @@ class PolicySearch:
         """Bring the bounds of the root together, to a limit; yield whenever they have changed much."""
         self._look(self.root)
         yield
+        yield from self._probes(asks=False)
         self._tabulate()
-        is_whole = self._is_tabulated(self.root, wholly=True)
-        for scenario in () if is_whole else (*(line.number for line in self._lines), None):
-            if not self.root.is_settled:
-                self._probe(self.root, None if scenario is None else self._guide(self.root, scenario))
-                yield
+        if not self._is_tabulated(self.root, wholly=True):
+            yield from self._probes(asks=True)
         yield from self._search()
 
     def _tabulate(self) -> None:
@@ -75,6 +73,7 @@ class PolicySearch:
         for i, line in enumerate(self._lines):
             limit = self._measure.limit(members, least, i, self.root.upper)
             line.tabulate(least[i], limit, deadline.part(1 / (len(members) - i)))
+        self._groups.clear()  # what came before was bounded without
 
     # -- groups
 
@@ -218,8 +217,20 @@ class PolicySearch:
 
     # -- policies that suggest themselves
 
-    def _probe(self, group: Group, guide: Guide | None) -> None:
-        """Value the policy that helps one scenario, or nobody, as long as others are possible."""
+    def _probes(self, *, asks: bool) -> Iterator[None]:
+        """Value the policies that help one scenario, or nobody, as long as others are possible.
+
+        Args:
+            asks: whether by ordinary calls, or by what is known.
+        """
+        for scenario in (*(line.number for line in self._lines), None):
+            if not self.root.is_settled:
+                guide = None if scenario is None else self._guide(self.root, scenario, asks=asks)
+                self._probe(self.root, guide, asks=asks)
+                yield
+
+    def _probe(self, group: Group, guide: Guide | None, *, asks: bool) -> None:
+        """Value the one that follows a guide as long as its scenario is possible."""
         trail: list[tuple[Group, Choice]] = []
         pending = [(group, guide, self.root.upper)]
         try:
@@ -227,12 +238,15 @@ class PolicySearch:
                 at, followed, most = pending.pop()
                 if at.lower >= min(most, at.upper):
                     continue
-                if len(at.members) == 1:
+                if len(at.members) == 1 and asks:
                     self._look(at, most, _SHARE)
                     continue
                 self._leave_alone(at)
+                at.offer(self._known(at), None)
                 if followed is not None and followed.scenario not in {m.scenario for m in at.members}:
-                    followed = self._guide(at, at.members[0].scenario)
+                    followed = self._guide(at, at.members[0].scenario, asks=asks)
+                if followed is None and not asks:
+                    continue
                 choice = self._guided(at, followed)
                 if choice is not None:
                     trail.append((at, choice))
@@ -245,14 +259,11 @@ class PolicySearch:
             for at, choice in reversed(trail):
                 at.offer(self._upper(choice), choice)
 
-    def _guide(self, group: Group, scenario: int) -> Guide | None:
+    def _guide(self, group: Group, scenario: int, *, asks: bool) -> Guide | None:
         """The best plan for one of a group, were it the only one."""
         at = next(m for m in group.members if m.scenario == scenario)
-        return (
-            None
-            if at.phase == OVER
-            else self._lines[scenario].guide(at, group.epoch, self._deadline.part(_SHARE))
-        )
+        deadline = self._deadline.part(_SHARE) if asks else None
+        return None if at.phase == OVER else self._lines[scenario].guide(at, group.epoch, deadline)
 
     def _guided(self, group: Group, guide: Guide | None) -> Choice | None:
         """The next epoch of a group, all but the guided one left alone; None where that is impossible."""

@@ -11,6 +11,7 @@ from typing import Final
 
 from search.call.context import SearchContext
 from search.classical.problem import MOST_WEIGHT
+from search.packed.cost_vector import ACTIONS_BITS
 from search.packed.operators import Operator, union
 from search.short_windows.joint.all_together import epochs_of
 from search.short_windows.joint.epochs import Epochs
@@ -28,6 +29,9 @@ _THERE: Final = 0.7
 
 _HUMP: Final = 2
 """An epoch may take so many times its share: those in the middle have the most states."""
+
+_UNIT: Final = 1 << ACTIONS_BITS
+"""The least that costs differ by: what is worth just the limit is worth knowing, or it is looked for."""
 
 
 class Timetable:
@@ -47,7 +51,7 @@ class Timetable:
     ) -> None:
         self._context, self._steps = context, steps
         self._epochs: Epochs | None = None
-        limits = [context.amount_from(least + (limit - least >> n), MOST_WEIGHT) for n in _HALVES]
+        limits = [context.amount_from(least + (limit - least >> n), MOST_WEIGHT) + _UNIT for n in _HALVES]
         self._limits = [*dict.fromkeys(limits)]
         with suppress(LimitReachedError):
             if steps and limits[0] < MOST_WEIGHT:
