@@ -68,6 +68,9 @@ def test_unknown_goals(server: Server) -> None:
     task = serendipity.example("room2")
     answer = server.post("/plan", {"task": ROOM2, "goals": goals, "options": {"discount": 0.9}})
     assert facts(answer.json()) == facts(serendipity.plan(task, goals=goals, discount=0.9).to_dict())
+    seen = {"goals": goals, "observed": ["move commx room13 hall8"], "beta": 2, "noise": "miss=0.1,wrong=0.1"}
+    answer = server.post("/plan", {"task": ROOM2, **seen})
+    assert facts(answer.json()) == facts(serendipity.plan(task, **seen).to_dict())
 
 
 def test_a_library_of_plans(server: Server) -> None:

@@ -87,6 +87,7 @@ class PlanRequest(AnytimeRequest):
     )
     observed: list[str] | None = Field(None, description="what the human has done, for `goals`")
     beta: float | str | None = Field(None, description="of the posterior, for `goals`")
+    noise: str | None = Field(None, description="of `observed`: `miss=P,wrong=Q`")
     plans: list[dict[str, Any]] | dict[str, Any] | None = Field(
         None, description="plans that the human may follow, or the library that `serendipity learn` writes"
     )

@@ -250,7 +250,7 @@ JOBS: Final[dict[str, Job]] = {
 
 def _call(asked: Given) -> dict[str, Any]:
     """Keyword arguments of a planning call."""
-    more = {name: asked.get(name) for name in ("human_plan", "goals", "observed", "beta", "plans")}
+    more = {name: asked.get(name) for name in ("human_plan", "goals", "observed", "beta", "noise", "plans")}
     return {**_options(asked), **{name: value for name, value in more.items() if value is not None}}
 
 
