@@ -79,8 +79,7 @@ class AchieverAutomaton:
         self._at_place: dict[tuple[int, int], dict[int, list[int]]] = {}
         self._detached: dict[int, list[tuple[int, int]]] = {}
         self._robots: dict[int, list[int]] = {}
-        for i, need in needs:
-            deadline.tick()
+        for i, need in deadline.each(needs):
             self._index(i, need)
         self._nodes: dict[Spot, AutomatonNode] = {}  # in the order in which they were met
         self._accepted: dict[int, list[AutomatonNode]] = {}
@@ -181,8 +180,7 @@ class AchieverAutomaton:
                 if op.agents & other:
                     here = place if other == robot else -1
                     edges += [(weight, (after, op.agents, other, p)) for p in self._after(op, field, here)]
-        for op in self._flips.at(value):
-            edges.append((0, (op.put & self.field, team, robot, place)))
+        edges += [(0, (op.put & self.field, team, robot, place)) for op in self._flips.at(value)]
         if robot and team and len(self.places) > 1:
             edges.append((0, (value, team, 0, 0)))
         return edges
@@ -202,8 +200,7 @@ class AchieverAutomaton:
         value = need.value & self.field
         robots = self._robots.get(need.mask)
         if robots is None:
-            asked = [robot for robot, field in self.places.items() if need.mask & field]
-            robots = self._robots[need.mask] = asked
+            robots = self._robots[need.mask] = [r for r, field in self.places.items() if need.mask & field]
         for robot in robots:
             spots = self._at_place.setdefault((value, robot), {})
             spots.setdefault(need.value & self.places[robot], []).append(i)
@@ -248,10 +245,9 @@ class AchieverAutomaton:
             there = self._at_place.get((value, robot), {}).get(place, ())
         else:
             there = [i for i, robots in self._detached.get(value, ()) if not robots & team]
-        for needs in (self._anyhow.get(value, ()), there):
-            for i in needs:
-                self._accepted.setdefault(i, []).append(node)
-                self.cost.setdefault(i, node.cost)
+        for i in chain(self._anyhow.get(value, ()), there):
+            self._accepted.setdefault(i, []).append(node)
+            self.cost.setdefault(i, node.cost)
 
     def distances(self, need: int, slack: int) -> AchieverCosts:
         """Backward from a need, over what :meth:`explore` has seen.

@@ -65,6 +65,7 @@ def soonest(epochs: Sequence[int], idle: Idle) -> int:
     return max(0, min(needed - rest for needed, rest in each))
 
 
+@dataclass(eq=False)
 class Achievers:
     """The robots' side.
 
@@ -78,27 +79,21 @@ class Achievers:
     happens, and, under the id ``-1 - need``, afterwards.
     """
 
-    def __init__(
-        self,
-        packed: PackedTask,
-        transitions: TransitionGraphs,
-        interactions: Interactions,
-        weights: Sequence[int],
-        followed: Sequence[Operator],
-        deadline: Deadline,
-    ) -> None:
-        self._packed = packed
-        self._transitions = transitions
-        self._interactions = interactions
-        self._weights = weights
-        self._followed = followed
-        self._deadline = deadline
+    packed: PackedTask
+    transitions: TransitionGraphs
+    interactions: Interactions
+    weights: Sequence[int]
+    followed: Sequence[Operator]
+    deadline: Deadline
+
+    def __post_init__(self) -> None:
+        packed, weights = self.packed, self.weights
         self._changes: dict[int, int] = {}
         self._judges: dict[int, int] = {}
-        for epoch, op in enumerate(followed, start=1):
+        for epoch, op in enumerate(self.followed, start=1):
             for field in packed.split(packed.all_ones & ~op.keep):
                 self._changes.setdefault(field, epoch)
-        self._shared = shared_fields(packed, transitions.places)
+        self._shared = shared_fields(packed, self.transitions.places)
         used = {weights[form.cost] for form in packed.other_forms}
         self._uniform = len(used) <= 1
         self._unit = max(used, default=1)
@@ -123,7 +118,7 @@ class Achievers:
 
     def costs(self, needs: Sequence[int], pays: Callable[[int], bool]) -> dict[int, int]:
         """Least cost from the initial state per need, as far as anything can pay that or more."""
-        return self._explore(self._by_cost, needs, self._weights, pays)
+        return self._explore(self._by_cost, needs, self.weights, pays)
 
     def epochs(self, cost: int) -> int:
         """At least so many epochs go into what costs robots a key increment."""
@@ -142,7 +137,7 @@ class Achievers:
         """
         unit = self._unit
         if not self._uniform:
-            self._explore(self._by_step, needs, [1] * len(self._weights), horizon.__ge__)
+            self._explore(self._by_step, needs, [1] * len(self.weights), horizon.__ge__)
             unit = 1
         found = {}
         for need in needs:
@@ -163,11 +158,11 @@ class Achievers:
             groups.setdefault(self._group(need), []).append(need)
         costs: dict[int, int] = {}
         for (field, late), members in groups.items():
-            listed = [(i, self._interactions.needs[self.touched(i)]) for i in members]
-            flips = self._followed if late else ()
-            self._deadline.check()
+            listed = [(i, self.interactions.needs[self.touched(i)]) for i in members]
+            flips = self.followed if late else ()
+            self.deadline.check()
             provision = AchieverAutomaton(
-                self._packed, self._transitions, field, listed, weights, flips, self._deadline
+                self.packed, self.transitions, field, listed, weights, flips, self.deadline
             )
             provision.explore(pays)
             provisions[field, late] = provision
@@ -183,8 +178,8 @@ class Achievers:
         """The first shared field that the need asks for; 0: only places matter."""
         field = self._judges.get(need)
         if field is None:
-            self._deadline.tick()
-            mask = self._interactions.needs[need].mask
+            self.deadline.tick()
+            mask = self.interactions.needs[need].mask
             field = self._judges[need] = next((f for f in self._shared if mask & f), 0)
         return field
 

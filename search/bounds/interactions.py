@@ -7,6 +7,7 @@ their private fields, and nothing outside changes but by robots.  A *need* is th
 outside part of the condition of a touch.
 """
 
+from itertools import chain
 from typing import NamedTuple
 
 from search.packed.operator_index import OperatorIndex
@@ -41,7 +42,6 @@ class Interactions:
         mask: the private fields that the projection of :func:`.whole_graph` or :func:`.partial_graph` keeps.
 
     Attributes:
-        mask: the private fields that the projection keeps.
         outside: the fields that some op without them changes.
         needs: the needs met so far; a need's id is its index.
     """
@@ -49,17 +49,17 @@ class Interactions:
     def __init__(self, packed: PackedTask, mask: int) -> None:
         self.mask = mask
         self.needs: list[Need] = []
-        self._ids: dict[tuple[int, int], int] = {}
+        self._ids: dict[Need, int] = {}
         self._kinds: dict[tuple[int, int, int, object], tuple[int, int, bool]] = {}
         self._packed = packed
         self.outside = packed.outside
-        self._indices = [packed.own_index, packed.joint_index]
-        self._seen: list[dict[int, list[Seen]]] = [{}, {}]
+        self._indices: list[tuple[OperatorIndex[Operator], dict[int, list[Seen]]]]
+        self._indices = [(packed.own_index, {}), (packed.joint_index, {})]
 
     def seen(self, state: int) -> list[Seen]:
         """Moves and touches that are possible in a projected state."""
         found = []
-        for index, known in zip(self._indices, self._seen, strict=True):
+        for index, known in self._indices:
             value = state & index.field
             ops = known.get(value)
             if ops is None:
@@ -75,10 +75,8 @@ class Interactions:
     def _look(self, index: OperatorIndex[Operator], value: int) -> list[Seen]:
         """The ops under a value of an index; under every value, if the field is not the human's own."""
         hidden = index.field & ~self.mask
-        ops = (
-            (op for ops in index.by_value.values() for op in ops) if hidden else index.by_value.get(value, ())
-        )
-        return [self._project(op) for op in (*ops, *index.always)]
+        groups = index.by_value.values() if hidden else [index.by_value.get(value, ())]
+        return [self._project(op) for op in chain(*groups, index.always)]
 
     def _project(self, op: Operator) -> Seen:
         form = op.need_mask, op.keep, op.agents, op.forbidden
@@ -89,10 +87,8 @@ class Interactions:
         need_mask, asked, interaction = kind
         mask, number = self.mask, -1
         if interaction:
-            need = asked, op.need & self.outside
-            known = self._ids.get(need)
-            if known is None:
-                known = self._ids[need] = len(self.needs)
-                self.needs.append(Need(*need))
-            number = known
+            need = Need(asked, op.need & self.outside)
+            number = self._ids.setdefault(need, len(self.needs))
+            if number == len(self.needs):
+                self.needs.append(need)
         return Seen(need_mask, op.need & mask, op.keep, op.put & mask, op.cost, number)

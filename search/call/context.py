@@ -2,7 +2,7 @@
 
 from bisect import bisect_left
 from collections.abc import Callable, Collection, Iterable, Sequence
-from functools import cached_property, reduce
+from functools import cache, cached_property, reduce
 from typing import TYPE_CHECKING
 
 from search.bounds.first_interaction import no_team_bound
@@ -13,6 +13,7 @@ from search.engine.best_first import Node
 from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
 from search.human.pattern_database import NOTHING_KNOWN, NearestGoal, PatternDatabase
 from search.human.strides import StridingPlanner, may_stride
+from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY, Weights
 from search.packed.joint_actions import JointAction, as_option
 from search.packed.operators import Operator, asked_by, changed, union
@@ -58,6 +59,7 @@ class SearchContext:
         self.packed = tables.packed
         self.weights = Weights(self.packed, tables.scaling, options, plan)
         self.keys = self.weights.keys
+        self._followed: dict[HumanPlan, list[tuple[Operator, JointAction]]] = {}
 
     def for_plan(self, plan: HumanPlan) -> "SearchContext":
         """The context in which ``pi_H`` is known; this one, where that makes no difference."""
@@ -95,8 +97,8 @@ class SearchContext:
         if self.weights.announces:
             return self._alone_to(self.packed.goal)
         packed, human = self.packed, self.tables.human
-        bound = NOTHING_KNOWN
-        if not self.distances_say_little or not _has_kernel():
+        bound = NOTHING_KNOWN  # the kernel knows more than private distances say, which can take seconds
+        if not self.distances_say_little or library() is None:
             bound = human.projection(self.deadline)
         # What it finds serves calls that weigh otherwise.
         memory = human.memory(strict=self.options.strict)
@@ -114,15 +116,11 @@ class SearchContext:
     @cached_property
     def alone_to_both(self) -> IndividualPlanner | None:
         """The human alone, to ``G_H`` and ``G_R``; None where they can't affect ``G_R``."""
-        robot_goal = self.task.robot_goal
-        touched = {*robot_goal.positive, *robot_goal.negative}
-        affects = bool(touched) and any(
-            touched.intersection(action.add) or touched.intersection(action.delete)
-            for action in (self.task.actions[i] for i in self.task.human_actions)
-        )
-        if not affects:
+        task, goal = self.task, self.task.robot_goal
+        asked, own = {*goal.positive, *goal.negative}, (task.actions[i] for i in task.human_actions)
+        if not asked or asked.isdisjoint(fact for a in own for fact in (*a.add, *a.delete)):
             return None
-        return self._alone_to(self.packed.condition(_both(self.task)))
+        return self._alone_to(self.packed.condition(_both(task)))
 
     @property
     def interactions(self) -> Interactions:
@@ -187,15 +185,8 @@ class SearchContext:
         team = self.team if self.distances_say_little else None
         if team is None:
             return no_team_bound
-        planner, known = team.planner, dict[int, int]()
-
-        def bound(state: int) -> int:
-            found = known.get(state)
-            if found is None:
-                found = known[state] = self.amount_key(planner.bound(state, self.deadline))
-            return found
-
-        return bound
+        planner = team.planner
+        return cache(lambda state: self.amount_key(planner.bound(state, self.deadline)))
 
     def under(self, deadline: Deadline) -> "SearchContext":
         """The same call with another deadline."""
@@ -242,10 +233,6 @@ class SearchContext:
         """The human's canonical plan from ``I``, or None where they have none."""
         return self.alone.canonical(self.packed.init)
 
-    @cached_property
-    def _followed(self) -> dict[HumanPlan, list[tuple[Operator, JointAction]]]:
-        return {}
-
     def followed(self, plan: HumanPlan) -> list[tuple[Operator, JointAction]]:
         """The packed actions of a human plan and what they do, in order."""
         known = self._followed.get(plan)
@@ -253,13 +240,6 @@ class SearchContext:
             ops = [self.packed.op(i) for i in plan]
             known = self._followed[plan] = [(op, as_option(op, self.weights.team(op))) for op in ops]
         return known
-
-
-def _has_kernel() -> bool:
-    """Whether it knows more of the human alone than private distances say, which can take seconds."""
-    from search.kernel.library import library  # only here: most calls come by without it
-
-    return library() is not None
 
 
 def _both(task: Task) -> Condition:
