@@ -99,8 +99,7 @@ def _suspects(packed: PackedTask, operators: Sequence[Operator], deadline: Deadl
     # Two that set one variable of many values undo each other, so they don't share an epoch.
     wide = sum(field for field in packed.fields if len(packed.values(field)) > 2)
     disabled: dict[int, list[int]] = {}
-    for number, a in enumerate(forms):
-        deadline.tick()
+    for number, a in enumerate(deadline.each(forms, batch=1)):
         for other, b in enumerate(forms):
             if a.agents & b.agents or a.sets & b.sets & wide:
                 continue
@@ -114,8 +113,7 @@ def _suspects(packed: PackedTask, operators: Sequence[Operator], deadline: Deadl
 def _in_turn(disabled: dict[int, list[int]], deadline: Deadline) -> dict[int, list[int]]:
     """Leaves out who disables nobody, as long as there is anybody: the others may be in circles."""
     by: dict[int, list[int]] = {}
-    for number, others in disabled.items():
-        deadline.tick()
+    for number, others in deadline.each(disabled.items()):
         for other in others:
             by.setdefault(other, []).append(number)
     left = {number: len(others) for number, others in disabled.items()}
@@ -144,8 +142,7 @@ def disabled(
     """
     needing, forbidding = _asking(packed, others, deadline)
     pairs = 0
-    for number, op in enumerate(operators):
-        deadline.tick()
+    for number, op in enumerate(deadline.each(operators)):
         for field in packed.split(packed.all_ones & ~op.keep):
             put = op.put & field
             asked = [op.need & field] if op.need_mask & field else packed.values(field)
@@ -168,8 +165,7 @@ def _asking(packed: PackedTask, operators: Sequence[Operator], deadline: Deadlin
     """Operators by the values that they need, and by those that they forbid."""
     needing: Asking = {}
     forbidding: Asking = {}
-    for number, op in enumerate(operators):
-        deadline.tick()
+    for number, op in enumerate(deadline.each(operators)):
         for field in packed.split(op.need_mask):
             # Two may both make true what both need to be false: adding a fact twice is no conflict.
             if op.keep & field or not op.need & field:

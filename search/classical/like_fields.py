@@ -52,8 +52,7 @@ class _Likes:
         self._mentioning: list[list[int]] = [[] for _ in problem.fields]
         places = {field & -field: number for number, (field, _) in enumerate(problem.fields)}
         by_lowest_bit, mask = {field & -field: field for field, _ in problem.fields}, problem.mask
-        for number, op in enumerate(problem.operators):
-            deadline.tick()
+        for number, op in enumerate(deadline.each(problem.operators)):
             self._numbers[self._told(number)] = number
             for field in split((asked_by(op) | ~op.keep) & mask, by_lowest_bit):
                 self._mentioning[places[field & -field]].append(number)

@@ -8,6 +8,7 @@ Glossary: *field* - the bits of one variable; *op* - a packed ground action; *fo
 ops of the same agents that mention the same fields in the same way.
 """
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from functools import reduce
 from operator import or_
@@ -60,19 +61,13 @@ class Signature(NamedTuple):
 
 def forms_of(ops: Iterable[Operator], all_ones: int, deadline: Deadline) -> tuple[Signature, ...]:
     """Ops by their forms."""
-    members: dict[tuple[int, int, int, int, int], list[Operator]] = {}
-    for op in ops:
-        deadline.tick()
+    members = defaultdict[tuple[int, int, int, int, int], list[Operator]](list)
+    for op in deadline.each(ops):
         need_mask, _, keep, _, forbidden, _, agents, cost = op
         forbids = 0
         for mask, _ in forbidden:
             forbids |= mask
-        shape = (agents, need_mask, forbids, keep, cost)
-        known = members.get(shape)
-        if known is None:
-            members[shape] = [op]
-        else:
-            known.append(op)
+        members[agents, need_mask, forbids, keep, cost].append(op)
     return tuple(
         Signature(agents, need_mask, forbids, all_ones & ~keep, cost, listed)
         for (agents, need_mask, forbids, keep, cost), listed in members.items()

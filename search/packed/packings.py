@@ -29,12 +29,12 @@ def diversions(packed: PackedTask, deadline: Deadline) -> tuple[int, ...]:
 
     That is what they take part in because it costs nothing, and is busy with (semantics 6).
     """
-    task, found = packed.task, list[int]()
-    for i, action in enumerate(task.actions):
-        deadline.tick()
-        if action.joint and not action.cost and task.human in action.participants and not packed.is_useful(i):
-            found.append(i)
-    return tuple(found)
+    task = packed.task
+    return tuple(
+        i
+        for i, action in deadline.each(enumerate(task.actions))
+        if action.joint and not action.cost and task.human in action.participants and not packed.is_useful(i)
+    )
 
 
 def doubted(task: Task, deadline: Deadline) -> Task:
@@ -47,13 +47,11 @@ def doubted(task: Task, deadline: Deadline) -> Task:
     """
     shared, clock = set[int](), task.agents.index(CLOCK) if CLOCK in task.agents else None
     ticks = {fact for fact, action in task.due if task.actions[action].participants == (clock,)}
-    for action in task.actions:
-        deadline.tick()
+    for action in deadline.each(task.actions):
         if task.human not in action.participants:
             shared.update(action.add, action.delete)
     found: list[Variable] = []
-    for variable in task.variables:
-        deadline.tick()
+    for variable in deadline.each(task.variables):
         if shared.isdisjoint(variable.facts) or not ticks.isdisjoint(variable.facts):
             found.append(variable)
         else:

@@ -28,18 +28,14 @@ def relevant_to_goals(
     actions = task.actions
     relevant = {*extra, *task.goal.positive, *task.goal.negative}
     relevant.update(task.robot_goal.positive, task.robot_goal.negative)
-    for i in kept:
-        relevant.update(actions[i].pre, actions[i].neg)
-    changers: list[list[int]] = [[] for _ in task.facts]
-    for i, action in enumerate(actions):
-        deadline.tick()
-        for fact in action.add:
-            changers[fact].append(i)
-        for fact in action.delete:
-            changers[fact].append(i)
     useful = bytearray(len(actions))
     for i in kept:
+        relevant.update(actions[i].pre, actions[i].neg)
         useful[i] = 1
+    changers: list[list[int]] = [[] for _ in task.facts]
+    for i, action in deadline.each(enumerate(actions)):
+        for fact in action.add + action.delete:
+            changers[fact].append(i)
     pending = list(relevant)
     while pending:
         for i in changers[pending.pop()]:

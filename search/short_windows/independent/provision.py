@@ -43,8 +43,7 @@ def provisions(
         epochs: how many are looked at.
     """
     changes = []
-    for op in packed.others:
-        deadline.tick()
+    for op in deadline.each(packed.others):
         needs = frozenset(packed.assigned(op.need_mask, op.need))
         sets = list(packed.assigned(packed.all_ones & ~op.keep, op.put))
         changes.append(_Change(op, needs, sets))
@@ -54,8 +53,7 @@ def provisions(
     for epoch in range(1, epochs + 1):
         new: set[Value] = set()
         left = []
-        for change in changes:
-            deadline.tick()
+        for change in deadline.each(changes):
             if change.needs <= known:
                 provision = found.setdefault(change.op.agents, {})
                 for value in change.sets:
