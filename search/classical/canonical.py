@@ -53,7 +53,7 @@ def in_order(operators: Sequence[Operator], plan: Sequence[int], deadline: Deadl
     """Of all orders of a plan's operators, given by their numbers, that do the same the first."""
     waits = [0] * len(plan)
     after: list[list[int]] = [[] for _ in plan]
-    sets = [_sets(operators[number]) for number in plan]
+    sets = [~operators[number].keep for number in plan]
     asks = [asked_by(operators[number]) for number in plan]
     for later in range(len(plan)):
         deadline.check()
@@ -77,9 +77,4 @@ def in_order(operators: Sequence[Operator], plan: Sequence[int], deadline: Deadl
 
 def _independent(a: Operator, b: Operator) -> bool:
     """Whether neither sets what the other one asks for or sets: then their order does not matter."""
-    return not (_sets(a) & (asked_by(b) | _sets(b)) or _sets(b) & asked_by(a))
-
-
-def _sets(op: Operator) -> int:
-    """The bits that an operator may change; all beyond the fields are kept."""
-    return ~op.keep
+    return not (~a.keep & (asked_by(b) | ~b.keep) or ~b.keep & asked_by(a))

@@ -50,9 +50,7 @@ class Team:
         try:
             best = planner.cheapest_plan(state, deadline, amount, on_bound)
         except LimitReachedError:
-            best = planner.best_so_far(state)
-            if best is not None:
-                yield self._sets(best)
+            yield from self._best_so_far(state)
             raise
         if best is not None:
             yield self._sets(best)
@@ -65,16 +63,17 @@ class Team:
         Raises:
             LimitReachedError: the deadline came before the end.
         """
-        limit = None
         try:
             self.planner.go_on(deadline, on_bound)
-        except LimitReachedError as error:
-            limit = error
+        except LimitReachedError:
+            yield from self._best_so_far(state)
+            raise
+        yield from self._best_so_far(state)
+
+    def _best_so_far(self, state: int) -> Iterator[Sets]:
         best = self.planner.best_so_far(state)
         if best is not None:
             yield self._sets(best)
-        if limit is not None:
-            raise limit
 
     def _sets(self, numbers: list[int]) -> Sets:
         return [self.actions[number] for number in numbers]

@@ -83,13 +83,10 @@ class Due:
         """What others have to do, as one set; no set where that is impossible."""
         found = NOTHING
         for variants in self._others.at(state):
-            for option in self._possible(variants, state)[:1]:
-                if not self.fits(option, found):
-                    return []
-                found = together(found, option)
-                break
-            else:
+            ways = self._possible(variants, state)
+            if not ways or not self.fits(ways[0], found):
                 return []
+            found = together(found, ways[0])
         return [found]
 
     def pending(self, state: int) -> int:

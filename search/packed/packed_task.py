@@ -90,13 +90,12 @@ class PackedTask:
             deadline.check()  # a place may have thousands of facts
             if not any(f in relevant for f in variable.facts):
                 continue
-            width = 1 if variable.boolean else max(1, (len(variable.facts) - 1).bit_length())
+            codes = range(2 if variable.boolean else len(variable.facts))
+            width = (len(codes) - 1).bit_length()
             mask = (1 << width) - 1 << shift
-            for code, fact in enumerate(variable.facts):
-                value = 1 if variable.boolean else code
-                self.fact_bits[fact] = (mask, value << shift)
+            for fact, code in zip(variable.facts, codes[variable.boolean :], strict=True):
+                self.fact_bits[fact] = (mask, code << shift)
             self.fields.append(mask)
-            codes = range(2) if variable.boolean else range(len(variable.facts))
             self._values[mask] = [code << shift for code in codes]
             shift += width
         self._by_lowest_bit = {field & -field: field for field in self.fields}
