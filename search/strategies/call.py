@@ -1,7 +1,7 @@
 """One planning call beside ``pi_H``: its incumbents, and what is proved of them (semantics 3)."""
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
@@ -33,6 +33,7 @@ class Allowance(NamedTuple):
     limit: int
 
 
+@dataclass(eq=False)
 class Call:
     """One planning call: its incumbents and its bound.
 
@@ -64,22 +65,16 @@ class Call:
         limit: what has ended the call, if anything has.
     """
 
-    def __init__(
-        self,
-        context: SearchContext,
-        given: HumanPlan | None,
-        warm: WarmStart,
-        least_alone: Fraction | None = None,
-        most: Callable[[CostLayout], int] | None = None,
-    ) -> None:
-        self.context = context
-        self.task = context.task
-        self.options = context.options
-        self.keys = context.keys
-        self.given = given
-        self.warm = warm
-        self.least_alone = least_alone
-        self._most = most
+    context: SearchContext
+    given: HumanPlan | None
+    warm: WarmStart
+    least_alone: Fraction | None = None
+    most: Callable[[CostLayout], int] | None = None
+
+    def __post_init__(self) -> None:
+        self.task = self.context.task
+        self.options = self.context.options
+        self.keys = self.context.keys
         self.plan: HumanPlan | None = None
         self.is_planned = False
         self.epochs: int | None = None
@@ -166,8 +161,8 @@ class Call:
             self.baseline = found  # what savings are counted from has to be the least there is
         self.idle = replace(self.baseline, key=self.baseline.key + self.window_of_nothing)
         self.best = self.unhelped()
-        if self._most is not None and self._most(self.keys) < self.best.key:
-            self.best = Incumbent(self._most(self.keys))
+        if self.most is not None and self.most(self.keys) < self.best.key:
+            self.best = Incumbent(self.most(self.keys))
 
     @property
     def window_of_nothing(self) -> int:

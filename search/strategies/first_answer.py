@@ -84,8 +84,6 @@ class FirstAnswer:
 
     def answers(self) -> Iterator[Answer]:
         """The answer, where nothing speaks against it; once more with a bound, if one is found soon."""
-        if self.plan is None:
-            return
         answer = self.beside(self.plan)
         if answer is None:
             return
@@ -100,8 +98,7 @@ class FirstAnswer:
         Args:
             limit: the reason why it is the last one; None where others may follow.
         """
-        plan = self.plan if limit is None else self.best
-        answer = None if plan is None else self.beside(plan)
+        answer = self.beside(self.plan if limit is None else self.best)
         return Answer("unknown", reason=limit) if answer is None else answer
 
     def alone(self, limit: str | None) -> Answer:
@@ -122,10 +119,10 @@ class FirstAnswer:
         plans = () if self.plan is None else (_cheaper(self._context, self.plan).actions, self.plan)
         return next((plan for plan in plans if _fits(self._context.options, plan)), None)
 
-    def beside(self, plan: HumanPlan) -> Answer | None:
-        """Doing nothing beside a plan of the human's; None where robots have a goal or ``T`` is too short."""
+    def beside(self, plan: HumanPlan | None) -> Answer | None:
+        """Doing nothing beside a plan, if any; None where robots have a goal or ``T`` is too short, too."""
         context = self._context
-        if context.task.robot_goal or not _fits(context.options, plan):
+        if plan is None or context.task.robot_goal or not _fits(context.options, plan):
             return None
         horizon = horizon_of(context.task, context.options, plan)
         return plan_alone(context.task, FoundPlan(plan, 0, 0), self.least)._replace(horizon=horizon)

@@ -10,7 +10,6 @@ from search.strategies.first_answer import FirstAnswer
 from search.strategies.outcome import answered
 from search.strategies.warm_start import replayed
 from serendipity.model.errors import LimitReachedError
-from serendipity.model.task.task import HumanPlan
 
 
 def first_plan(call: Call, _: Allowance) -> Iterator[None]:
@@ -56,7 +55,8 @@ def plan_alone(call: Call, part: Allowance) -> None:
     plan = call.plan
     assert plan is not None and call.given is not None, "it is given"
     optimum = call.context.alone.key(call.context.packed.init)
-    call.is_improvable = _is_dearer(call, plan, optimum)
+    least = call.keys.cost(optimum) if call.least_alone is None else call.least_alone
+    call.is_improvable = call.task.cost_of(plan) > least
     if call.is_improvable and _may_turn_at_once(call, optimum):
         # Then what they gain alone is known, and what robots gain has to have a smaller objective.
         window = call.keys.epoch_weight + call.keys.of_start(len(plan), int(call.horizon))
@@ -72,12 +72,6 @@ def plan_alone(call: Call, part: Allowance) -> None:
             call.unaided = alone
         call.offer(alone)
     call.knows_alone = True
-
-
-def _is_dearer(call: Call, plan: HumanPlan, optimum: int) -> bool:
-    """Whether a plan costs more than an optimal one, by the key of that."""
-    least = call.keys.cost(optimum) if call.least_alone is None else call.least_alone
-    return call.task.cost_of(plan) > least
 
 
 def _may_turn_at_once(call: Call, optimum: int) -> bool:

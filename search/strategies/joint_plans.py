@@ -91,7 +91,7 @@ def _suggest(call: Call, steps: Sequence[Step]) -> bool:
     """Whether something that a composite plan suggests is the best so far in this mode."""
     context, options = call.context, call.options
     in_order = options.preservation == "kernel" and not options.keep_prefix
-    if call.epochs is None or context.weights.announces or not in_order or call.context.packed.in_time:
+    if call.epochs is None or context.weights.announces or not in_order:
         return False
     part = context.under(context.deadline.part(_SUGGESTIONS))
     suggestions = Suggestions(part, call.plan or (), call.epochs, call.most_cost, call.best.key)

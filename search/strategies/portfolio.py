@@ -19,9 +19,8 @@ from search.strategies.call import Allowance, Call
 from search.strategies.human_plan import first_bound, first_plan, known_plan, optimal_plan, plan_alone, saving
 from search.strategies.joint_plans import joint_optimum, open_joint_optimum, team_optimum
 from search.strategies.outcome import answer_of
-from search.strategies.short_windows import beside_timetable, robots_apart
 from search.strategies.warm_start import WarmStart
-from search.strategies.windows import all_plans, few_nodes, ties
+from search.strategies.windows import all_plans, beside_timetable, few_nodes, robots_apart, ties
 from serendipity.model.answers.answer import Answer, Tried
 from serendipity.model.errors import LIMITS, LimitReachedError, UsageError, limit_reason
 from serendipity.model.options import Options
