@@ -44,13 +44,13 @@ class Landmarks:
     def __init__(self, packed: PackedTask, amount: Callable[..., int], deadline: Deadline) -> None:
         self._deadline = deadline
         self._number: dict[Value, int] = {}
-        self._values: list[Value] = []
         self._goal = list(map(self._fact, packed.assigned(packed.goal.need_mask, packed.goal.need)))
         asked = [
             list(map(self._fact, packed.assigned(op.need_mask, op.need))) for op in deadline.each(packed.own)
         ]
         self._always = self._fact((0, 0))
         """What is true from the start, for operators that ask for nothing."""
+        self._values = list(self._number)
         cheapest: dict[tuple[tuple[int, ...], tuple[int, ...]], int] = {}
         for op, needs in zip(packed.own, asked, strict=True):
             known = map(self._number.get, packed.assigned(packed.all_ones & ~op.keep, op.put))
@@ -65,10 +65,7 @@ class Landmarks:
         self._adders = self._by_fact(self._adds)
 
     def _fact(self, value: Value) -> int:
-        if value not in self._number:
-            self._number[value] = len(self._values)
-            self._values.append(value)
-        return self._number[value]
+        return self._number.setdefault(value, len(self._number))
 
     def _by_fact(self, lists: list[tuple[int, ...]]) -> list[list[int]]:
         found: list[list[int]] = [[] for _ in self._values]

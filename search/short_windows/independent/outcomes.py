@@ -13,16 +13,14 @@ from numpy.typing import NDArray
 
 from search.short_windows.independent.landmarks import Landmark, left_to_pay
 from search.short_windows.independent.provision import Value
-from search.short_windows.independent.rows import Amounts, Rows, agree, cheapest, codes, column, states
-from search.short_windows.independent.timeline import Layer, TooManyStatesError
+from search.short_windows.independent.rows import Amounts, Rows, agree, cheapest, codes, column, packed_state
+from search.short_windows.independent.timeline import AT_ONCE, Layer, TooManyStatesError
 from serendipity.model.resources.deadline import Deadline
 
 MOST_OUTCOMES: Final = 500_000
 """Of a robot, and of all together: sorting as many takes 0.1 s, in which nobody looks at the clock."""
 
 _MOST_PAIRS: Final = 50_000_000
-
-_AT_ONCE: Final = 500_000
 
 Parts = NDArray[np.int32]
 """Per outcome of all robots the places of those of each of them."""
@@ -143,7 +141,7 @@ class Together:
             made_of = np.concatenate([np.repeat(parts[:, i : i + 1], len(chosen), axis=1), [places]])
             batch.append((*some, nets[chosen] + known_nets[i], made_of))
             size += len(chosen)
-            if size > _AT_ONCE:
+            if size > AT_ONCE:
                 self._add(batch)
                 batch, size = [], 0
         self._add(batch)
@@ -213,7 +211,6 @@ class Remaining:
     def take(self) -> tuple[int, int, int]:
         """One for which least is known: its place, its state, and what robots pay for it."""
         first = int(self._least.argmin())
-        state = states(self._rows[:, first : first + 1])[0]
-        found = int(self._places[first]), state, int(self._amounts[first])
+        found = int(self._places[first]), packed_state(self._rows, first), int(self._amounts[first])
         self._keep(np.arange(len(self._least)) != first)
         return found

@@ -32,15 +32,12 @@ class _Change(NamedTuple):
     sets: list[Value]
 
 
-def provisions(
-    packed: PackedTask, steps: Sequence[Operator], epochs: int, deadline: Deadline
-) -> dict[int, Provision]:
+def provisions(packed: PackedTask, steps: Sequence[Operator], deadline: Deadline) -> dict[int, Provision]:
     """By robot what it can set and after how many epochs, while the human follows their plan.
 
     Args:
         packed: the packed task; each action without the human has one participant.
         steps: the human's plan, an action an epoch.
-        epochs: how many are looked at.
     """
     changes = []
     for op in deadline.each(packed.others):
@@ -50,7 +47,7 @@ def provisions(
     found: dict[int, Provision] = {}
     state = packed.init
     known = set(packed.assigned(packed.all_ones, state))
-    for epoch in range(1, epochs + 1):
+    for epoch, step in enumerate(steps, start=1):
         new: set[Value] = set()
         left = []
         for change in deadline.each(changes):
@@ -62,10 +59,8 @@ def provisions(
             else:
                 left.append(change)
         changes = left
-        if epoch <= len(steps):
-            state = state & steps[epoch - 1].keep | steps[epoch - 1].put
-            new.update(packed.assigned(packed.all_ones, state))
-        known |= new
+        state = state & step.keep | step.put
+        known.update(new, packed.assigned(packed.all_ones, state))
     return found
 
 

@@ -22,10 +22,9 @@ def column(state: int, words: int) -> Rows:
     return np.frombuffer(state.to_bytes(8 * words, "little"), dtype=np.uint64).reshape(words, 1)
 
 
-def states(rows: Rows) -> list[int]:
-    """Columns as packed states."""
-    size, data = 8 * rows.shape[0], np.ascontiguousarray(rows.T).tobytes()
-    return [int.from_bytes(data[at : at + size], "little") for at in range(0, len(data), size)]
+def packed_state(rows: Rows, place: int) -> int:
+    """A column as a packed state."""
+    return int.from_bytes(rows[:, place].tobytes(), "little")
 
 
 def agree(rows: Rows, mask: int, value: int) -> Flags:

@@ -40,7 +40,7 @@ class ShortWindows:
         self._steps = question.steps()
         self._lost = lost_values(packed)
         self._landmarks = Landmarks(packed, self._amount, context.deadline)
-        provided = provisions(packed, self._steps, len(self._steps), context.deadline)
+        provided = provisions(packed, self._steps, context.deadline)
         self._timelines = [
             RobotLayers(context, robot, self._steps, by_others(provided, robot), self._amount)
             for robot in sorted({op.agents for op in packed.others})

@@ -21,7 +21,7 @@ from serendipity.model.errors import LimitReachedError
 MOST_STATES: Final = 200_000
 """Of a robot after an epoch."""
 
-_AT_ONCE: Final = 500_000
+AT_ONCE: Final = 500_000
 """Found before they are sorted: nobody looks at the clock meanwhile."""
 
 
@@ -101,11 +101,10 @@ class RobotLayers:
         """What the human asks for of what the robot sets."""
         self._local = union(map(packed.mentioned, ops))
         self._asked = self._local & ~self.changes | union(map(asked_by, ops))
-        lent = {field for field, _ in others}
         self._detours = {
             field: detours(packed, field, robot, amount, deadline)
             for field in leaves(packed)
-            if field in lent & set(packed.fields)
+            if field in self._settable
         }
         self._every = self._acts, self._local
         """What the robot can do and the fields that matter, before any of them was forgotten."""
@@ -243,7 +242,7 @@ class RobotLayers:
                 after, spent = self._after(rows[:, able][:, can], act.op), spent[can]
                 found.append(Layer(after, spent, np.ones_like(spent, dtype=np.bool_)))
                 size += len(spent)
-                if size > _AT_ONCE:
+                if size > AT_ONCE:
                     found, size = [self._merged(found)], 0
         return self._merged(found)
 

@@ -11,7 +11,7 @@ from search.packed.operators import Operator, union
 from search.short_windows.independent.landmarks import Landmarks, left_to_pay
 from search.short_windows.independent.outcomes import Outcomes, Remaining, Together, outcomes, values
 from search.short_windows.independent.provision import Value
-from search.short_windows.independent.rows import Rows, column, states
+from search.short_windows.independent.rows import Rows, column, packed_state
 from search.short_windows.independent.timeline import RobotLayers, TooManyStatesError
 
 ACTION: Final = 1 << ACTIONS_BITS
@@ -146,7 +146,7 @@ class Window:
         for timeline, apart, shared, part in zip(
             self._timelines, self._apart, self._shared, parts, strict=True
         ):
-            change = states(apart.rows[:, part : part + 1])[0]
+            change = packed_state(apart.rows, part)
             own = (field for field in self._fields if field & timeline.changes)
             mask = union(field for field in own if change & field or not field & shared)
             way = timeline.way(self._epochs, mask, (self._base ^ change) & mask, int(apart.amounts[part]))
