@@ -89,10 +89,7 @@ class PreparedTask:
         self.with_human_facts = KeptTable(
             lambda deadline: TaskTables(PackedTask(task, human_facts(task), deadline))
         )
-
-        def doubting(facts: Iterable[int], deadline: Deadline) -> TaskTables:
-            return _doubting(diverted(deadline), kept(deadline), frozenset(facts), deadline)
-
+        self._doubting = doubting = partial(_doubting, diverted, kept)
         self.doubtful = KeptTable(lambda deadline: doubting(seen(deadline).located, deadline))
         self.complete = KeptTable(lambda deadline: doubting(range(len(task.facts)), deadline))
 
@@ -104,8 +101,7 @@ class PreparedTask:
 
     def doubting(self, facts: frozenset[int], deadline: Deadline) -> TaskTables:
         """:attr:`doubtful` with some facts besides, which one call asks about; not kept."""
-        facts = facts.union(self.surroundings(deadline).located)
-        return _doubting(self.with_diversions(deadline), self.diversions(deadline), facts, deadline)
+        return self._doubting(facts.union(self.surroundings(deadline).located), deadline)
 
     # -- other tasks
 
@@ -160,14 +156,17 @@ def _diverted(plain: TaskTables, kept: tuple[int, ...], deadline: Deadline) -> T
 
 
 def _doubting(
-    diverted: TaskTables, kept: tuple[int, ...], facts: frozenset[int], deadline: Deadline
+    diverted: KeptTable[TaskTables],
+    kept: KeptTable[tuple[int, ...]],
+    facts: Iterable[int],
+    deadline: Deadline,
 ) -> TaskTables:
     """The same for a human who may be wrong, with some facts besides."""
-    plain = diverted.packed
-    packed = PackedTask(doubted(plain.task, deadline), facts, deadline, kept)
+    tables = diverted(deadline)
+    packed = PackedTask(doubted(tables.packed.task, deadline), frozenset(facts), deadline, kept(deadline))
 
     def projection(deadline: Deadline) -> PatternDatabase:
-        return translated(diverted.human.projection(deadline), plain, packed)
+        return translated(tables.human.projection(deadline), tables.packed, packed)
 
     return TaskTables(packed, HumanTables(packed, projection))
 

@@ -148,17 +148,14 @@ def disabled(
             asked = [op.need & field] if op.need_mask & field else packed.values(field)
             groups = [needing.get((field, value), {}) for value in asked if value != put]
             groups.append(forbidding.get((field, put), {}))
-            for group in groups:
-                for agents, numbers in group.items():
-                    if agents & op.agents:
-                        continue
-                    for other in numbers:
-                        deadline.tick()
-                        pairs += 1
-                        if pairs > _MOST_PAIRS:
-                            raise TooManyError
-                        if _fits(packed, [op], others[other]):
-                            yield number, other
+            by_agents = chain.from_iterable(group.items() for group in groups)
+            for other in chain.from_iterable(them for agents, them in by_agents if not agents & op.agents):
+                deadline.tick()
+                pairs += 1
+                if pairs > _MOST_PAIRS:
+                    raise TooManyError
+                if _fits(packed, [op], others[other]):
+                    yield number, other
 
 
 def _asking(packed: PackedTask, operators: Sequence[Operator], deadline: Deadline) -> tuple[Asking, Asking]:

@@ -41,13 +41,6 @@ class EncodedProblem:
     def __init__(self, problem: ClassicalProblem) -> None:
         self._mask = problem.mask
         self.size = _size(self._mask)
-        self.spec = self._of(problem)
-
-    def row(self, state: int) -> bytes:
-        """A packed state."""
-        return (state & self._mask).to_bytes(self.size, "little")
-
-    def _of(self, problem: ClassicalProblem) -> Spec:
         goal, operators, full = problem.goal, problem.operators, (1 << 8 * self.size) - 1
         literals = [(number, pair) for number, op in enumerate(operators) for pair in op.forbidden]
         shapes, facts = array("i"), 0
@@ -57,7 +50,7 @@ class EncodedProblem:
         forbidding = array("i", [number for number, _ in literals])
         weights = array("q", problem.weights)
         self._held = shapes, forbidding, weights  # by address below
-        return Spec(
+        self.spec = Spec(
             *(self.size // 8, len(operators), len(problem.fields), facts, len(literals)),
             len(goal.forbidden),
             self._rows(op.need_mask for op in operators),
@@ -72,6 +65,10 @@ class EncodedProblem:
             self._rows([goal.need]),
             self._rows(word for pair in goal.forbidden for word in pair),
         )
+
+    def row(self, state: int) -> bytes:
+        """A packed state."""
+        return (state & self._mask).to_bytes(self.size, "little")
 
     def _rows(self, numbers: Iterable[int]) -> bytes:
         return b"".join([number.to_bytes(self.size, "little") for number in numbers])

@@ -273,7 +273,7 @@ class ClassicalPlanner:
         weights = self.problem.weights
         return sum(self.problem.amount(weights[number]) for number in numbers)
 
-    def known_plan(self, state: int, deadline: Deadline | None = None) -> list[int] | None:
+    def known_plan(self, state: int, deadline: Deadline) -> list[int] | None:
         """A cheapest plan, by numbers, from a packed state of which the cost was found and is finite."""
         if state & self._mask in self._plans:
             return self._plans[state & self._mask]
@@ -281,8 +281,7 @@ class ClassicalPlanner:
         moving, part = ctypes.create_string_buffer(row, len(row)), array("i", bytes(4 * _STEPS))
         found: list[int] = []
         while True:
-            if deadline is not None:
-                deadline.check()
+            deadline.check()
             count = int(kernel.planner_known_way(planner, moving, part.buffer_info()[0], _STEPS))
             if count < 0:
                 return None

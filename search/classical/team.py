@@ -36,47 +36,37 @@ class Team:
 
         Args:
             on_bound: told now and then what no plan is cheaper than.
-
-        Raises:
-            LimitReachedError: the deadline came before the end.
         """
         planner = self.planner
         first = planner.first_plan(state, deadline)
         if first is None:
             return
         on_bound(planner.bound(state, deadline))
-        yield self._sets(first)
+        yield from self._plans(first)
         amount = planner.amount(first)
         try:
             best = planner.cheapest_plan(state, deadline, amount, on_bound)
         except LimitReachedError:
-            yield from self._best_so_far(state)
+            yield from self._plans(planner.best_so_far(state))
             raise
-        if best is not None:
-            yield self._sets(best)
+        yield from self._plans(best)
 
     def go_on(self, state: int, deadline: Deadline, on_bound: Callable[[int], None]) -> Iterator[Sets]:
         """:meth:`better_plans` from where a limit came; no other plans may have been asked for since.
 
         There is no better plan than those before where none comes.
-
-        Raises:
-            LimitReachedError: the deadline came before the end.
         """
         try:
             self.planner.go_on(deadline, on_bound)
         except LimitReachedError:
-            yield from self._best_so_far(state)
+            yield from self._plans(self.planner.best_so_far(state))
             raise
-        yield from self._best_so_far(state)
+        yield from self._plans(self.planner.best_so_far(state))
 
-    def _best_so_far(self, state: int) -> Iterator[Sets]:
-        best = self.planner.best_so_far(state)
-        if best is not None:
-            yield self._sets(best)
-
-    def _sets(self, numbers: list[int]) -> Sets:
-        return [self.actions[number] for number in numbers]
+    def _plans(self, numbers: list[int] | None) -> Iterator[Sets]:
+        """The plan of some operators, where there is one."""
+        if numbers is not None:
+            yield [self.actions[number] for number in numbers]
 
 
 def team_planner(

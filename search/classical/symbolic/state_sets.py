@@ -6,7 +6,7 @@ al., Efficient symbolic search for cost-optimal planning, 2017).
 """
 
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import reduce
 from operator import or_
 from typing import Final, NamedTuple
@@ -58,7 +58,8 @@ class StateSets:
     def __init__(self, problem: ClassicalProblem) -> None:
         masks = [field for field, _ in problem.fields]
         order = variable_order(masks, problem.operators)
-        self._bits = [bit for number in order for bit in _bits(masks[number])]
+        each = (masks[number] for number in order)
+        self._bits = [bit for mask in each for bit in range(mask.bit_length()) if mask >> bit & 1]
         self._manager = BCDDManager(_MOST_NODES, _CACHE, 1)
         self._manager.add_vars(2 * len(self._bits))
         self._before = {bit: self._manager.var(2 * at) for at, bit in enumerate(self._bits)}
@@ -128,14 +129,13 @@ class StateSets:
         return kept
 
     def _ready(self, relation: _Relation) -> _Step:
-        bits = [bit for bit in self._bits if relation.sets >> bit & 1]
-        at = {bit: 2 * place for place, bit in enumerate(self._bits)}
+        at = {bit: 2 * place for place, bit in enumerate(self._bits) if relation.sets >> bit & 1}
         return _Step(
             relation.diagram,
             self._fixed(relation.sets, -1, self._before),
             self._fixed(relation.sets, -1, self._after),
-            Diagram.make_substitution((at[bit] + 1, self._before[bit]) for bit in bits),
-            Diagram.make_substitution((at[bit], self._after[bit]) for bit in bits),
+            Diagram.make_substitution((place + 1, self._before[bit]) for bit, place in at.items()),
+            Diagram.make_substitution((place, self._after[bit]) for bit, place in at.items()),
         )
 
     def _fixed(self, mask: int, values: int, variables: dict[int, Diagram]) -> Diagram:
@@ -150,8 +150,3 @@ class StateSets:
         for field, value in forbidden:
             states &= ~self._fixed(field, value, self._before)
         return states
-
-
-def _bits(mask: int) -> Sequence[int]:
-    """The numbers of its bits, ascending."""
-    return [bit for bit in range(mask.bit_length()) if mask >> bit & 1]

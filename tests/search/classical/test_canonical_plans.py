@@ -56,7 +56,7 @@ def test_plans_are_known_from_states_whose_cost_was_found(task: Task) -> None:
     planner, costs = planner_of(packed), exact(packed)
     for state, cost in costs.items():
         found = planner.cheapest(state, Deadline())
-        plan = planner.known_plan(state)
+        plan = planner.known_plan(state, Deadline())
         assert (plan is None) == (found == INFINITE_KEY)
         if plan is not None:
             assert assert_leads_to_goal(packed, state, plan) == cost
