@@ -50,7 +50,6 @@ class AchieverAutomaton:
         flips: ops of the human that may change the field on their way, for nothing.
 
     Attributes:
-        field: the same.
         places: place field by robot's bit.
         cost: least cost from the initial state by need id.
         unchanged: the initial value of the field, or -1 where some walks mention the field.
@@ -92,7 +91,9 @@ class AchieverAutomaton:
 
     def explore(self, pays: Callable[[int], bool]) -> None:
         """Forward from the initial state, as long as the cost pays; fills ``cost`` per need id."""
-        for spot in self._starts():
+        value = self._initial & self.field
+        for robot, place in self.places.items():
+            spot = value, 0, robot, self._initial & place
             self._nodes[spot] = AutomatonNode(spot)
         queue = LevelQueue((0, node) for node in self._nodes.values())
         for cost, level in queue:
@@ -112,11 +113,6 @@ class AchieverAutomaton:
         """What is known of a spot that was explored."""
         node = self._nodes.get(spot)
         return None if node is None or node.cost < 0 else node
-
-    def _starts(self) -> list[Spot]:
-        """The initial state as each robot has a part in it."""
-        value = self._initial & self.field
-        return [(value, 0, robot, self._initial & place) for robot, place in self.places.items()]
 
     def _relax(
         self,

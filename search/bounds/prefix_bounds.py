@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 from search.bounds.achievers import Provided, soonest
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import Idle
-from search.packed.state_cache import StateCache
+from search.packed.table import StateCache
 
 _MOST_KEPT: Final = 1_000_000
 """Offers in the lists that are kept: some 10 MiB."""

@@ -212,7 +212,7 @@ def _graph(
     forms = (*packed.own_forms, *packed.joint_forms) if forms is None else forms
     # The cheapest last, so that it stays where forms look alike.
     dearest_first = sorted(forms, key=lambda form: -form.cost)
-    weighed = [(form, weights[form.cost], packed.is_interaction(form)) for form in dearest_first]
+    weighed = [(f, weights[f.cost], packed.involves_others(f.agents, f.mentions)) for f in dearest_first]
     weighed += ((form, 0, True) for form in free)
     mask, most = sum(fields), _MAX_STATES if _tractable(packed, fields) == fields else _FEW_STATES
     return _explore(mask, packed.init & mask, _transitions(fields, weighed, deadline), most, deadline)

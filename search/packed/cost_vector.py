@@ -189,10 +189,8 @@ class Weights:
         """Increment of an op inside a composite plan, communication included."""
         if not op.agents & self._human_bit:
             return self.robots[op.cost]
-        weight = self.human[op.cost]
-        if self.announces and not self._is_planned(op):
-            weight += self._announced[op.cost] << self.keys.objective_shift
-        return weight
+        weight = self.alone(op)
+        return self.keys.announce(weight) if self.announces else weight
 
     def scaled_cost(self, op: Operator) -> int:
         """What an op costs the team, communication left out, times the scale."""
@@ -228,12 +226,9 @@ class Weights:
     def alone(self, op: Operator) -> int:
         """Increment of an op for the human's own preferences; communication ranks last."""
         weight = self.human[op.cost]
-        if self.announces and not self._is_planned(op):
+        if self.announces and self._actions[op.action].name not in self._planned:
             weight += self._announced[op.cost]
         return weight
-
-    def _is_planned(self, op: Operator) -> bool:
-        return self._actions[op.action].name in self._planned
 
 
 @dataclass(frozen=True, slots=True)

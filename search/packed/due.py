@@ -74,7 +74,10 @@ class Due:
         return (tuple(theirs), () if last is None else (last,)) if theirs or last is not None else None
 
     def human(self, state: int) -> tuple[JointAction, ...] | None:
-        """What the human has to go on with, if it is possible; None where they are free."""
+        """What the human is in the middle of, and has to go on with: nothing, where that is impossible.
+
+        None where they are free to wait, or to begin something.
+        """
         for variants in self._human.at(state):
             return self._possible(variants, state)
         return None

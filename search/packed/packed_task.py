@@ -70,16 +70,13 @@ class PackedTask:
         robot_indices: ``others`` by theirs, an index for each first participant.
     """
 
+    @no_collection()
     def __init__(
         self, task: Task, extra: frozenset[int], deadline: Deadline, kept: tuple[int, ...] = ()
     ) -> None:
         self.task = task
         self.human_bit = 1 << task.human
         self._agents: dict[tuple[int, ...], int] = {}
-        with no_collection():
-            self._build(task, extra, deadline, kept)
-
-    def _build(self, task: Task, extra: frozenset[int], deadline: Deadline, kept: tuple[int, ...]) -> None:
         relevant, useful = relevant_to_goals(task, extra, deadline, (*kept, *deeds_of(task), *_priced(task)))
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
@@ -244,10 +241,6 @@ class PackedTask:
     def own_mask(self) -> int:
         """The fields that what the human does alone asks for or sets."""
         return union(form.mentions for form in self.own_forms)
-
-    def is_interaction(self, form: Signature) -> bool:
-        """Whether ops of the human mention what others change, or others take part."""
-        return self.involves_others(form.agents, form.mentions)
 
     def involves_others(self, agents: int, fields: int) -> bool:
         """Whether others than the human take part, or change some of the fields."""

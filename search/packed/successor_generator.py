@@ -13,7 +13,7 @@ from search.packed.joint_actions import NOTHING, Idle, JointAction, as_option, t
 from search.packed.operator_index import OperatorIndex
 from search.packed.operators import Operator, applicable, asked_by
 from search.packed.packed_task import PackedTask
-from search.packed.state_cache import StateCache
+from search.packed.table import StateCache
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import disables
 
@@ -92,13 +92,6 @@ class Successors:
         self._busy: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
         self._changing: StateCache[list[JointAction]] = StateCache(MOST_KEPT)
 
-    def going_on(self, state: int) -> tuple[JointAction, ...] | None:
-        """What the human is in the middle of, and has to go on with: nothing, where that is impossible.
-
-        None where they are free to wait, or to do what :meth:`human` and :meth:`joint` say.
-        """
-        return self.due.human(state)
-
     def human(self, state: int) -> list[JointAction]:
         """What the human can do alone in a packed state, cheapest first (not: wait)."""
         return self._own.options(state)
@@ -109,32 +102,25 @@ class Successors:
 
     def free(self, state: int) -> Sequence[JointAction]:
         """What the human may do where they follow no plan: go on, or wait and whatever they can."""
-        going_on = self.going_on(state)
+        going_on = self.due.human(state)
         return (*self.idle, *self.human(state), *self.joint(state)) if going_on is None else going_on
 
     def name(self, part: JointAction) -> str | None:
         """The name of what the human begins; None where they wait, or go on."""
-        acts = part.actions and self.begins(part.actions[0])
+        acts = part.actions and self._packed.counted(part.actions[0])
         return self._packed.task.actions[part.actions[0]].name if acts else None
 
     def robots(self, state: int) -> list[JointAction]:
         """Every applicable set of actions of the robots without the human, cheapest first."""
         return self._busy.get(state) or self._sets(state, self._busy)
 
-    def begins(self, action: int) -> bool:
-        """Whether somebody begins an action by choice: they neither wait nor go on with it."""
-        return bool(self._packed.counted(action))
-
     def begun(self, state: int) -> Sequence[JointAction]:
         """The same without what goes on, and what bystanders do."""
         if not self.due:
             return self.robots(state)
-        found = [NOTHING]
         for due in self.due.others(state):
-            for lookup in self._led:
-                free = [option for option in lookup.options(state) if self._fits(option, due)]
-                found += list(self._extend(found, free))
-            return found
+            each = (lookup.options(state) for lookup in self._led)
+            return self._sets_of([NOTHING], ([o for o in options if self._fits(o, due)] for options in each))
         return ()
 
     def with_due(self, begun: JointAction, state: int) -> JointAction | None:
@@ -158,12 +144,10 @@ class Successors:
         self, state: int, kept: StateCache[list[JointAction]], fields: int | None = None
     ) -> list[JointAction]:
         """Sets of robots' actions, cheapest first; of those only that set some fields, if any are named."""
-        found = self.due.others(state)
-        for lookup in self._led:
-            options = lookup.options(state)
-            if fields is not None:
-                options = [option for option in options if ~option.keep & fields]
-            found += list(self._extend(found, options))
+        each = (lookup.options(state) for lookup in self._led)
+        if fields is not None:
+            each = ([o for o in options if ~o.keep & fields] for options in each)
+        found = self._sets_of(self.due.others(state), each)
         found.sort(key=lambda option: option.weight)
         kept.keep(state, found, len(found))
         return found
@@ -215,9 +199,7 @@ class Successors:
 
     def _circles(self, groups: list[list[JointAction]]) -> Iterator[tuple[JointAction, JointAction]]:
         """Sets of one option from each of several groups that can't be done in a sequence."""
-        sets = [NOTHING]
-        for group in groups[1:]:
-            sets += list(self._extend(sets, group))
+        sets = self._sets_of([NOTHING], groups[1:])
         for part in (NOTHING, *groups[0]):
             for option in self._combine(part, sets):
                 if len(option.actions) > 1 and not self.sequential(option.actions):
@@ -236,12 +218,13 @@ class Successors:
             left.remove(last)
         return True
 
-    def _extend(self, sets: list[JointAction], more: list[JointAction]) -> Iterator[JointAction]:
-        for chosen in sets:
-            self._deadline.tick()
-            for option in more:
-                if self._fits(option, chosen):
-                    yield together(chosen, option)
+    def _sets_of(self, sets: list[JointAction], groups: Iterable[list[JointAction]]) -> list[JointAction]:
+        """Some sets, alone and with one option at most from each of several groups that fits."""
+        for options in groups:
+            for chosen in sets[:]:
+                self._deadline.tick()
+                sets += [together(chosen, option) for option in options if self._fits(option, chosen)]
+        return sets
 
     def _combine(self, first: JointAction, sets: list[JointAction]) -> Iterator[JointAction]:
         for number, chosen in enumerate(sets):

@@ -1,4 +1,4 @@
-"""Tables that serve every call on a task, each built when a call first asks for it."""
+"""What was worked out, kept for later: tables for every call on a task, and caches by state."""
 
 from collections.abc import Callable
 from typing import Generic, TypeVar
@@ -29,3 +29,20 @@ class KeptTable(Generic[T]):
         if self.known is None:
             self.known = (self._build(deadline),)
         return self.known[0]
+
+
+class StateCache(dict[int, T]):
+    """By packed state; it is emptied when all that it holds has more than ``most`` entries."""
+
+    def __init__(self, most: int) -> None:
+        super().__init__()
+        self._most = most
+        self._size = 0
+
+    def keep(self, state: int, found: T, size: int) -> None:
+        """Keep something that has ``size`` entries."""
+        self._size += size
+        if self._size > self._most:
+            self.clear()
+            self._size = size
+        self[state] = found

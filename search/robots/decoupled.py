@@ -24,8 +24,8 @@ from search.packed.joint_actions import Idle, JointAction, together
 from search.packed.operator_index import LiteralIndex
 from search.packed.operators import Operator, Signature, union
 from search.packed.packed_task import PackedTask
-from search.packed.state_cache import StateCache
 from search.packed.successor_generator import MOST_KEPT, Successors, in_time
+from search.packed.table import StateCache
 from search.robots.transition_graphs import PositionVariables
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.plans import Step

@@ -51,7 +51,7 @@ class AnyOfPlan:
 
     def options(self, epoch: int, state: int) -> Iterable[JointAction]:
         """See :class:`InLayers`."""
-        going_on = self._successors.going_on(state)
+        going_on = self._successors.due.human(state)
         if going_on is not None:
             return going_on
         own = self._successors.human(state)
@@ -181,7 +181,7 @@ class Windowed:
 
     def _open(self, node: Node) -> Iterator[tuple[int, Node]]:
         start = node.epoch + 1
-        if self.opens_late and start < self.last and self.successors.going_on(node.state) is not None:
+        if self.opens_late and start < self.last and self.successors.due.human(node.state) is not None:
             return
         key = node.key + self.keys.of_start(start, self.horizon)
         bound = node.key + self.on_the_way.opening(node.epoch, node.state, node.idle)
@@ -219,7 +219,7 @@ class Windowed:
         sooner = _sooner(node.idle)
         after = node.key + self.keys.epoch_weight + self.bounds.private(state)
         is_last = not node.idle and not self._goes_on(node.start, node.epoch + 1, after, best)
-        going_on = successors.going_on(state)
+        going_on = successors.due.human(state)
         free = going_on
         if free is None:
             free = (*successors.human(state), *successors.joint(state), *successors.idle)
