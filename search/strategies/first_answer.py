@@ -106,11 +106,9 @@ class FirstAnswer:
         context, plan = self._context, self.plan
         if plan is None:
             return Answer("unknown", reason=limit)
-        found, least = FoundPlan(plan, 0, 0), _least(context)
-        if limit is None:
-            return plan_alone(context.task, found, least, given=self._given)
-        found = _cheaper(context, plan)
-        proved = least >= context.task.cost_of(found.actions)
+        least = _least(context)
+        found = FoundPlan(plan, 0, 0) if limit is None else _cheaper(context, plan)
+        proved = limit is not None and least >= context.task.cost_of(found.actions)
         return plan_alone(context.task, found, least, given=self._given, proved=proved)
 
     @property

@@ -249,9 +249,7 @@ class RobotLayers:
     def _merged(self, layers: Sequence[Layer]) -> Layer:
         """Each state of some layers once."""
         self._deadline.require(5 * sum(layer.rows.nbytes + layer.amounts.nbytes for layer in layers))
-        rows = np.concatenate([layer.rows for layer in layers], axis=1)
-        amounts = np.concatenate([layer.amounts for layer in layers])
-        merged = self._distinct(rows, amounts, np.concatenate([layer.fresh for layer in layers]))
+        merged = self._distinct(*(np.concatenate(some, axis=-1) for some in zip(*layers, strict=True)))
         if len(merged.amounts) > MOST_STATES:
             raise TooManyStatesError
         return merged
