@@ -154,10 +154,8 @@ class SearchContext:
 
     def folded(self, walks: Decoupled) -> DecoupledSuccessors:
         """:meth:`successors` with walks left out."""
-        weights, strict = self.weights, self.options.strict
-        return DecoupledSuccessors(
-            self.packed, walks, weights.team, weights.of_walk, self.deadline, strict=strict
-        )
+        strict = self.options.strict
+        return DecoupledSuccessors(self.packed, walks, self.weights, self.deadline, strict=strict)
 
     @cached_property
     def distances_say_little(self) -> bool:

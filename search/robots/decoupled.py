@@ -19,7 +19,7 @@ from itertools import count, product
 from typing import NamedTuple
 
 from search.engine.best_first import Node
-from search.packed.cost_vector import own_costs
+from search.packed.cost_vector import Weights, own_costs
 from search.packed.joint_actions import Idle, JointAction, together
 from search.packed.operator_index import LiteralIndex
 from search.packed.operators import Operator, Signature, union
@@ -273,24 +273,15 @@ class DecoupledSuccessors(Successors):
 
     Args:
         walks: the robots' walks, foldable.
-        weight: key increment of an op.
-        price: of a walk, by its cost (in the unit of :func:`.own_costs`) and its number of ops.
+        weights: key increments of ops, and of walks.
     """
 
     def __init__(
-        self,
-        packed: PackedTask,
-        walks: Decoupled,
-        weight: Callable[[Operator], int],
-        price: Callable[[int, int], int],
-        deadline: Deadline,
-        *,
-        strict: bool,
+        self, packed: PackedTask, walks: Decoupled, weights: Weights, deadline: Deadline, *, strict: bool
     ) -> None:
-        super().__init__(packed, weight, deadline, strict=strict, idle=True)
+        super().__init__(packed, weights.team, deadline, strict=strict, idle=True)
         self._walks = walks
-        self._weight = weight
-        self._price = price
+        self._weights = weights
         self._joint_deeds = walks.joint, Known(MOST_KEPT)
         self._led_deeds = [(deeds, Known(MOST_KEPT)) for deeds in walks.led]
         self._rests: dict[Idle, Idle] = {}  # of equal ones, nodes keep the same
@@ -364,8 +355,9 @@ class DecoupledSuccessors(Successors):
                 ways.append([(slot, way.epochs, way.cost) for way in there])
             else:
                 for chosen in product(*ways):
-                    weight = self._weight(op) + sum(self._price(cost, steps) for _, steps, cost in chosen)
+                    walked = sum(self._weights.of_walk(cost, steps) for _, steps, cost in chosen)
                     due = tuple((slot, steps) for slot, steps, _ in chosen)
+                    weight = self._weights.team(op) + walked
                     found.append(JointAction(weight, keep, put, (op.action,), op.agents, due))
         found.sort(key=lambda option: option.weight)
         return found
