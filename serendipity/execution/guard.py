@@ -62,13 +62,12 @@ class Following:
         human = self._human
         self._state = human.packed.pack(state)
         self._belief = human.eyes.look(self._belief, self._state)
-        goal = human.packed.goal
         plans = self.plans if habit is None else (human.intentions.of(habit), *self.plans)
-        self.plans = tuple(plan for plan in plans if plan.works(self._belief, goal))
+        self.plans = tuple(plan for plan in plans if human.works(self._belief, plan))
         if habit is not None and self.plans[:1] == plans[:1]:
             self.plans = plans[:1]
             return
-        limit = min((human.key_of(plan.cost) for plan in self.plans), default=INFINITE_KEY)
+        limit = min((human.keys.of_scaled(plan.cost) for plan in self.plans), default=INFINITE_KEY)
         if human.alone.key(self._belief, limit) < limit:  # nobody leaves a plan for one that is no cheaper
             self.plans += (human.intentions.of(canonical(human.alone, self._belief)),)
 
@@ -145,13 +144,13 @@ class Following:
         if self._conflict(op, others):
             return True
         then = _after(state, [_does(op), *map(_does, others)])
-        left, goal = human.alone.key(then), human.packed.goal
-        if begins and left >= human.key_of(human.keys.scaled_cost(human.alone.key(alone)) + 1):
+        left = human.alone.key(then)
+        if begins and left >= human.keys.of_scaled(human.keys.scaled_cost(human.alone.key(alone)) + 1):
             return True
         return any(
-            rest.works(alone, goal)
-            and not rest.works(then, goal)
-            and not (self._sees_all and left < human.key_of(rest.cost))
+            human.works(alone, rest)
+            and not human.works(then, rest)
+            and not (self._sees_all and left < human.keys.of_scaled(rest.cost))
             for rest in rests
         )
 
@@ -162,7 +161,7 @@ class Following:
         if least >= INFINITE_KEY:
             return False
         rest = human.keys.scaled_cost(least) - human.keys.scaled_cost(human.weights.human[op.cost])
-        return rest >= 0 and human.alone.key(after, limit := human.key_of(rest + 1)) < limit
+        return rest >= 0 and human.alone.key(after, limit := human.keys.of_scaled(rest + 1)) < limit
 
     def _worse(self, offer: int, others: Sequence["_Other"]) -> bool:
         """Whether what is left is dearer by what robots do, if the person takes part in an action."""

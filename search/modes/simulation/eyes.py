@@ -1,6 +1,7 @@
 """Looks: the human's belief after they have looked up (semantics 6)."""
 
 from collections.abc import Callable
+from functools import cache
 
 from search.packed.operators import union
 from search.packed.packed_task import PackedTask
@@ -17,15 +18,11 @@ class Eyes:
 
     def __init__(self, depends: int, sees: Callable[[int], int]) -> None:
         self._depends = depends
-        self._sees = sees
-        self._seen: dict[int, int] = {}
+        self._sees = cache(sees)
 
     def look(self, belief: int, state: int) -> int:
         """The belief after a look at the packed state."""
-        at = state & self._depends
-        seen = self._seen.get(at)
-        if seen is None:
-            seen = self._seen[at] = self._sees(at)
+        seen = self._sees(state & self._depends)
         return belief & ~seen | state & seen
 
 

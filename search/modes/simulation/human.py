@@ -155,7 +155,7 @@ class Human:
 
     def _decide(self, belief: int, intention: Intention) -> Glance:
         kept = intention.cost if self.works(belief, intention) else None
-        limit = INFINITE_KEY if kept is None else self.key_of(kept)
+        limit = INFINITE_KEY if kept is None else self.keys.of_scaled(kept)
         best = self.alone.key(belief, limit)
         if best >= limit:
             return Glance(intention, kept, kept)
@@ -164,7 +164,13 @@ class Human:
 
     def works(self, belief: int, intention: Intention) -> bool:
         """Whether a plan leads from what they believe to their goal, with robots idle."""
-        return intention.works(belief, self.packed.goal)
+        at, state = intention, belief
+        while at.op is not None:
+            after = self.follows(state, at.option) if applicable(at.op, state) else None
+            if after is None:
+                return False
+            at, state = at.rest, after
+        return self.packed.goal.holds(state)
 
     def unasked(
         self, state: int, epoch: int, belief: int, intention: Intention
@@ -186,7 +192,7 @@ class Human:
         left = best - self.keys.scaled_cost(self.weights.human[joint.cost])
         if left < 0:
             return False
-        limit = self.key_of(left + 1)
+        limit = self.keys.of_scaled(left + 1)
         return self.alone.key(after, limit) < limit
 
     def follows(self, state: int, part: JointAction) -> int | None:
@@ -197,19 +203,10 @@ class Human:
         """Whether the human has no plan alone from a packed state, as it truly is."""
         return self.alone.key(state) >= INFINITE_KEY
 
-    def stuck_by_themselves(self, state: int, own: JointAction) -> bool:
-        """Whether they are after an epoch in which they do something, and robots begin nothing."""
-        after = self.follows(state, own)
-        return after is None or self.stuck(after)
-
     def learn(self, belief: int, state: int, op: Operator) -> int:
         """The belief after the human tried an action in vain: its preconditions as they are."""
         mask = asked_by(op)
         return belief & ~mask | state & mask
-
-    def key_of(self, cost: int) -> int:
-        """The least key of a scaled cost."""
-        return (cost << self.keys.cost_shift) + (cost << self.keys.objective_shift)
 
 
 def _packing(

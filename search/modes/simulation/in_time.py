@@ -10,7 +10,6 @@ from search.modes.simulation.intention import Intention
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due
 from search.packed.joint_actions import NOTHING, JointAction
-from search.packed.operators import applicable
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 
@@ -28,7 +27,7 @@ class BesideOthers(IndividualPlanner):
         memory.lookup = BesideScript(human.packed, memory.weight, strict=options.strict)
         bound = context.tables.human.projection(context.deadline)
         super().__init__(human.packed, human.packed.goal, bound, memory, context.deadline, context.weights)
-        self._mask = human.packed.all_ones
+        self.mask = human.packed.all_ones
         self._later, self._due = later, due
 
     def canonical(self, state: int) -> FoundPlan | None:
@@ -71,16 +70,6 @@ class HumanInTime(Human):
         """See :class:`.Human`; what robots begin may always be news."""
         belief = self.eyes.look(expected, state)
         return belief, self.decide(belief, intention)
-
-    def works(self, belief: int, intention: Intention) -> bool:
-        """See :class:`.Human`; others go on meanwhile, and the script does."""
-        at, state = intention, belief
-        while at.op is not None:
-            after = self.follows(state, at.option) if applicable(at.op, state) else None
-            if after is None:
-                return False
-            at, state = at.rest, after
-        return self.packed.goal.holds(state)
 
     def unasked(
         self, state: int, epoch: int, belief: int, intention: Intention

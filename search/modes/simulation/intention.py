@@ -5,8 +5,8 @@ from functools import cached_property
 
 from search.packed.cost_vector import CostLayout
 from search.packed.joint_actions import NOTHING, JointAction, as_option
-from search.packed.operators import Operator, applicable
-from search.packed.packed_task import PackedGoal, PackedTask
+from search.packed.operators import Operator
+from search.packed.packed_task import PackedTask
 
 
 class Intention:
@@ -47,16 +47,6 @@ class Intention:
             found += at.option.actions
             at = at.rest
         return tuple(found)
-
-    def works(self, state: int, goal: PackedGoal) -> bool:
-        """Whether it leads from a packed state to the goal, with robots idle."""
-        at = self
-        while at.op is not None:
-            if not applicable(at.op, state):
-                return False
-            state = state & at.op.keep | at.op.put
-            at = at.rest
-        return goal.holds(state)
 
 
 class Intentions:

@@ -116,8 +116,9 @@ class Reactive:
         rest = human.bound(alone)
         if node.key + part.weight + rest >= best.key:
             return
-        if guarded and not human.sees_all and human.stuck_by_themselves(state, part):
-            guarded = False  # the human's own mistake, whatever robots do
+        if guarded and not human.sees_all:
+            own = human.follows(state, part)
+            guarded = own is not None and not human.stuck(own)  # else it is their own mistake
         number = self._number(Mind(self._belief(step.belief), step.intention, guarded, waited)) << 1
         for option in self.successors.with_robots(part, state):
             key = node.key + option.weight
@@ -169,7 +170,7 @@ class Reactive:
         if not (alone ^ after) & human.concern or goal.holds(after):
             return False
         if not self.human.sees_all:
-            return rest.works(alone, goal) and not rest.works(after, goal)
+            return human.works(alone, rest) and not human.works(after, rest)
         look = human.decide(after, rest)
         return look.kept is None and (look.best is None or look.best >= rest.cost)
 
