@@ -105,7 +105,7 @@ class SearchContext:
         if packed.in_time and may_stride(packed, strict=memory.strict):
             alone = human.alone(self.deadline)
             nearest = bound if alone is None else NearestGoal(human.projection(self.deadline), alone)
-            return StridingPlanner(packed, packed.goal, nearest, memory, self.deadline, prices=self.weights)
+            return StridingPlanner(packed, nearest, memory, self.deadline, self.weights)
         return IndividualPlanner(packed, packed.goal, bound, memory, self.deadline, prices=self.weights)
 
     def _alone_to(self, goal: PackedGoal) -> IndividualPlanner:

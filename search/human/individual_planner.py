@@ -6,6 +6,7 @@ search per projection, and a search also fills in the states along its result.
 """
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from search.engine.astar import AStar
@@ -80,6 +81,9 @@ class IndividualPlanner:
         memory: how operators weigh, and what earlier calls have found with the same goal and weights.
         prices: makes keys of sums of weights, then in the unit of :func:`.own_weights`, which the kernel
             knows; None: they are keys.
+
+    Attributes:
+        mask: the fields that the human's plans depend on, or change.
     """
 
     def __init__(
@@ -96,21 +100,16 @@ class IndividualPlanner:
         self._prices = prices
         self._projection = bound
         self._deadline = deadline
-        self._mask = packed.all_ones if packed.clock_bit else goal.mask | bound.mask | packed.own_mask
+        self.mask = packed.all_ones if packed.clock_bit else goal.mask | bound.mask | packed.own_mask
         self._memory = memory
         self._lookup, self._known, self._at_least = memory.lookup, memory.known, memory.at_least
         self._blind = bool(goal.mask & ~bound.mask & ~packed.freedom)
-
-    @property
-    def mask(self) -> int:
-        """The fields that the human's plans depend on, or change."""
-        return self._mask
 
     def key(self, state: int, limit: int = INFINITE_KEY) -> int:
         """The optimal key alone from a packed state; from ``limit`` (a key) on any value says "not below"."""
         if self._prices is not None and limit < INFINITE_KEY:
             limit = self._prices.own_limit(limit)
-        return self._key_of(self._least_from(state & self._mask, limit))
+        return self._key_of(self._least_from(state & self.mask, limit))
 
     def _key_of(self, found: int) -> int:
         """A sum of weights as a key."""
@@ -127,10 +126,8 @@ class IndividualPlanner:
         if floor >= limit:
             return floor
         if self._memory.classical is None:
-            try:
+            with suppress(TakenOverError):
                 return self._search(state, limit)
-            except TakenOverError:
-                pass
         return self._by_kernel(state, limit)
 
     def _by_kernel(self, state: int, limit: int) -> int:
@@ -145,7 +142,7 @@ class IndividualPlanner:
             self._at_least[state] = max(found, self._at_least.get(state, 0))
             return found
         self._known[state] = found
-        return self._known[state]
+        return found
 
     def _search(self, start: int, limit: int) -> int:
         """A*; exact below ``limit``.
@@ -222,13 +219,10 @@ class IndividualPlanner:
 
     def canonical(self, state: int) -> FoundPlan | None:
         """The canonical optimal plan (semantics 1) from a packed state; None if there is no plan."""
-        start = state & self._mask
+        start = state & self.mask
         if self._memory.classical is None:
-            try:
+            with suppress(TakenOverError):
                 graph = self._graph(start)
-            except TakenOverError:
-                pass
-            else:
                 if graph is None:
                     return None
                 return FoundPlan(graph.canonical(), graph.expanded, graph.generated)
@@ -240,7 +234,7 @@ class IndividualPlanner:
     def best_plan(self, state: int) -> FoundPlan | None:
         """The best plan from a packed state that searches have come across so far; None: no plan yet."""
         classical = self._memory.classical
-        return None if classical is None else self._found(classical.best_so_far(state & self._mask))
+        return None if classical is None else self._found(classical.best_so_far(state & self.mask))
 
     def _found(self, actions: tuple[int, ...] | None) -> FoundPlan | None:
         """What the kernel has found."""
@@ -254,17 +248,17 @@ class IndividualPlanner:
         """Some plan from a packed state, soon; None where there is none, or no way to find one soon."""
         self._take_over()
         classical = self._memory.classical
-        return None if classical is None else classical.first_plan(state & self._mask, self._deadline)
+        return None if classical is None else classical.first_plan(state & self.mask, self._deadline)
 
     def least(self, state: int) -> int:
         """What is known so far that no key from a packed state is below."""
-        state &= self._mask
+        state &= self.mask
         floor = max(self._known.get(state, 0), self._at_least.get(state, 0))
         return self._key_of(min(max(floor, self._bound(state)), INFINITE_KEY))
 
     def plans(self, state: int) -> PlanGraph | None:
         """All the human's optimal plans from a packed state; None if there is none."""
-        start = state & self._mask
+        start = state & self.mask
         try:
             return self._graph(start)
         except TakenOverError:
@@ -276,7 +270,7 @@ class IndividualPlanner:
         weight = self._memory.weight
         rest = sum(map(weight, ops))
         for op in ops:
-            self._known[state & self._mask] = rest
+            self._known[state & self.mask] = rest
             state, rest = state & op.keep | op.put, rest - weight(op)
 
     def _graph(self, start: int) -> PlanGraph | None:

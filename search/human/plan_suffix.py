@@ -111,10 +111,10 @@ class PlanSuffix:
         if not self._packed.at_rest.holds(state):
             return []
         finished = self._due.finished(state)
-        if finished is None or len(finished[1]) > epochs:
+        if finished is None or len(finished[2]) > epochs:
             return []
-        state, paid = finished[0], sum(one.weight for one in finished[1])
-        epochs -= len(finished[1])
+        state, paid, following = finished
+        epochs -= len(following)
         if not self._packed.in_time:  # then waiting at the end makes no difference
             epochs = min(epochs, len(self._first))
         if self._expected is None:
@@ -175,9 +175,8 @@ class PlanSuffix:
             return None
         begun = self._due.after(at.state, (part,))
         finished = None if begun is None else self._due.finished(begun)
-        if finished is None or len(finished[1]) >= at.left:
+        if finished is None or len(finished[2]) >= at.left:
             return None
-        state, following = finished
-        done = (part, *following)
-        weight, actions = sum(one.weight for one in done), tuple(i for one in done for i in one.actions)
-        return _Way(weight, actions, _Rest(at.begun + 1, state, at.left - len(done), at.skips))
+        state, weight, following = finished
+        rest = _Rest(at.begun + 1, state, at.left - 1 - len(following), at.skips)
+        return _Way(part.weight + weight, part.actions + following, rest)

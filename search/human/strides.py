@@ -12,16 +12,18 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from heapq import heappop, heappush
-from itertools import count
+from itertools import count, groupby
 from typing import NamedTuple
 
 from search.human.agenda import Agenda, Course
-from search.human.individual_planner import FoundPlan, IndividualPlanner, TakenOverError
-from search.packed.cost_vector import INFINITE_KEY
+from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory, TakenOverError
+from search.human.pattern_database import GoalBound
+from search.packed.cost_vector import INFINITE_KEY, Weights
 from search.packed.due import Due, as_one
 from search.packed.operator_index import OperatorIndex, by_most_asked
 from search.packed.operators import Operator, set_by, union
 from search.packed.packed_task import PackedGoal, PackedTask
+from serendipity.model.resources.deadline import Deadline
 
 
 class Stride(NamedTuple):
@@ -73,14 +75,18 @@ class _Beside(NamedTuple):
 class StridingPlanner(IndividualPlanner):
     """An :class:`.IndividualPlanner` that goes from action to action, where :func:`may_stride`."""
 
-    @cached_property
-    def _due(self) -> Due:
-        return Due(self._packed, lambda op: self._memory.weight(op), strict=self._memory.strict)
+    def __init__(
+        self, packed: PackedTask, bound: GoalBound, memory: Memory, deadline: Deadline, prices: Weights
+    ) -> None:
+        super().__init__(packed, packed.goal, bound, memory, deadline, prices)
+        self._agendas: dict[int, tuple[Agenda, int]] = {}
+        """By what is due what happens from there on, as that of an agenda's epoch."""
+        self._indices: dict[tuple[int, int], OperatorIndex[Stride]] = {}
+        self._begins: dict[tuple[int, Agenda, Course], list[int | None]] = {}
 
     @cached_property
-    def _agendas(self) -> dict[int, tuple[Agenda, int]]:
-        """By what is due what happens from there on, as that of an agenda's epoch."""
-        return {}
+    def _due(self) -> Due:
+        return Due(self._packed, self._memory.weight, strict=self._memory.strict)
 
     def _beside(self, state: int) -> _Beside:
         at = state & self._due.deciding
@@ -92,10 +98,6 @@ class StridingPlanner(IndividualPlanner):
         agenda, first = self._agendas[at]
         course = agenda.course(state, first)
         return _Beside(agenda, course, first, agenda.end(state, course, first))
-
-    @cached_property
-    def _indices(self) -> dict[tuple[int, int], OperatorIndex[Stride]]:
-        return {}
 
     def _strides(self, fields: int, known: int) -> OperatorIndex[Stride]:
         """What may begin, by the busiest field of the human's own ops that is not left out.
@@ -189,10 +191,6 @@ class StridingPlanner(IndividualPlanner):
                 before = max(epoch, found)
                 yield before
 
-    @cached_property
-    def _begins(self) -> dict[tuple[int, Agenda, Course], list[int | None]]:
-        return {}
-
     def _soonest(self, stride: Stride, agenda: Agenda, course: Course) -> list[int | None]:
         """By epoch when an action can begin at the soonest, by what is known by epoch."""
         key = stride.ops[0].action, agenda, course
@@ -213,17 +211,9 @@ class StridingPlanner(IndividualPlanner):
     def _waiting_weight(self) -> int:
         return self._memory.weight(self._packed.op(self._packed.idling[0]))
 
-    def _freed(self, state: int) -> tuple[int, int, tuple[int, ...]] | None:
-        """The state in which they have ended what they are at, what that weighs, and its ops."""
-        finished = self._due.finished(state)
-        if finished is None:
-            return None
-        state, done = finished
-        return state, sum(one.weight for one in done), tuple(one.actions[0] for one in done)
-
     def _search(self, start: int, limit: int) -> int:
         """See :class:`.IndividualPlanner`: exact below ``limit``."""
-        freed = self._freed(start)
+        freed = self._due.finished(start)
         if freed is None:
             self._known[start] = INFINITE_KEY
             return INFINITE_KEY
@@ -236,13 +226,13 @@ class StridingPlanner(IndividualPlanner):
                 self._at_least[start] = max(limit, self._at_least.get(start, 0))
             return limit
         self._known[start] = weight + found.weight
-        return self._known[start]
+        return weight + found.weight
 
     def canonical(self, state: int) -> FoundPlan | None:
         """See :class:`.IndividualPlanner`."""
         if self._memory.classical is not None:
             return super().canonical(state)
-        freed = self._freed(state & self._mask)
+        freed = self._due.finished(state & self.mask)
         before = self._memory.expanded
         try:
             found = None if freed is None else self._best(freed[0], INFINITE_KEY, in_order=True)
@@ -333,11 +323,11 @@ def _order(label: _Label) -> tuple[int, int, tuple[tuple[int, int], ...]]:
 def _together(asked: Sequence[PackedGoal]) -> Iterator[tuple[int, int, PackedGoal]]:
     """Conditions by epoch, those together that go on."""
     first = 0
-    for epoch, condition in enumerate(asked):
-        if epoch + 1 == len(asked) or asked[epoch + 1] != condition:
-            if condition.mask:
-                yield first, epoch + 1 - first, condition
-            first = epoch + 1
+    for condition, same in groupby(asked):
+        epochs = len([*same])
+        if condition.mask:
+            yield first, epochs, condition
+        first += epochs
 
 
 def may_stride(packed: PackedTask, *, strict: bool) -> bool:

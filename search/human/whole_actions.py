@@ -46,8 +46,7 @@ class OwnPlanner:
         freed = self._due.finished(state)
         if freed is None:
             return INFINITE_KEY
-        state, rest = freed
-        self._spent = sum(part.weight for part in rest)
+        state, self._spent, _ = freed
         if limit <= self._spent:
             return limit
         left = limit
@@ -66,7 +65,7 @@ class OwnPlanner:
         freed = self._due.finished(state)
         if freed is None:
             return INFINITE_KEY
-        return self._total(self.planner.bound(freed[0], deadline), sum(part.weight for part in freed[1]))
+        return self._total(self.planner.bound(freed[0], deadline), freed[1])
 
     def first_plan(self, state: int, deadline: Deadline) -> tuple[int, ...] | None:
         """Some plan from a packed state, as ids of actions."""
@@ -87,8 +86,7 @@ class OwnPlanner:
         numbers = None if freed is None else found(freed[0])
         if freed is None or numbers is None:
             return None
-        rest = [action for part in freed[1] for action in part.actions]
-        return (*rest, *(op.action for number in numbers for op in self._chains[number]))
+        return (*freed[2], *(op.action for number in numbers for op in self._chains[number]))
 
     def _total(self, amount: int, spent: int | None = None) -> int:
         if amount >= INFINITE_KEY:

@@ -147,19 +147,20 @@ class Due:
         after, last = state & done.keep | done.put, self.last(state)
         return after if last is None else after & last.keep | last.put
 
-    def finished(self, state: int) -> tuple[int, list[JointAction]] | None:
-        """The state in which the human has ended what they are at, and what they did for that, by epochs.
+    def finished(self, state: int) -> tuple[int, int, tuple[int, ...]] | None:
+        """The state in which the human has ended what they are at, what that weighs, its actions by epochs.
 
         None where they can't go on with it.
         """
-        done: list[JointAction] = []
+        weight, actions = 0, list[int]()
         while (going_on := self.human(state)) is not None:
             after = self.after(state, going_on)
             if after is None:
                 return None
             state = after
-            done.append(going_on[0])
-        return state, done
+            weight += going_on[0].weight
+            actions += going_on[0].actions
+        return state, weight, tuple(actions)
 
     def lasting(self, state: int, epochs: int, goals: Iterable[PackedGoal]) -> bool:
         """Whether goals hold after some epochs of waiting from a state."""
