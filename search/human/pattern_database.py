@@ -222,10 +222,8 @@ def _satisfying(graph: Projected, goal: PackedGoal) -> list[tuple[int, int]]:
     """The projected states of which some state may satisfy the goal, each at no distance from it."""
     if goal.need < 0:
         return []
-    mask, need = goal.need_mask & graph.mask, goal.need & graph.mask
-    forbidden = [(m, value) for m, value in goal.forbidden if m & graph.mask]
-    found = [(0, state) for state in graph.moves if state & mask == need]
-    return [at for at in found if all(at[1] & m != v for m, v in forbidden)] if forbidden else found
+    holds = goal.within(graph.mask).holds
+    return [(0, state) for state in graph.moves if holds(state)]
 
 
 class Transition(NamedTuple):

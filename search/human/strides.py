@@ -301,19 +301,15 @@ class StridingPlanner(IndividualPlanner):
         if agenda.last:
             if known.epochs > other.epochs:
                 return False
-            if _differ(agenda.edges, first + known.epochs, first + other.epochs):
-                return False
+            edges, sooner, later = agenda.edges, first + known.epochs, first + other.epochs
+            if bisect_right(edges, sooner) != bisect_right(edges, later):
+                return False  # one is between them
             # After the last epoch nothing depends on which it is, so that nobody waits for one.
             waited = min(other.epochs, agenda.last - first) - known.epochs
             caught_up += max(0, waited) * self._waiting_weight
         if caught_up != other.weight or not in_order:
             return caught_up <= other.weight
         return len(known.begun) <= len(other.begun) and known.begun <= other.begun
-
-
-def _differ(edges: Sequence[int], epoch: int, other: int) -> bool:
-    """Whether an edge is between two epochs."""
-    return bisect_right(edges, epoch) != bisect_right(edges, other)
 
 
 def _order(label: _Label) -> tuple[int, int, tuple[tuple[int, int], ...]]:

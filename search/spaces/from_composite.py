@@ -1,7 +1,7 @@
 """Answers that a composite plan suggests: agents act as it says for a while, then the human goes on alone."""
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations
+from itertools import accumulate, combinations
 
 from search.call.context import SearchContext
 from search.engine.best_first import Incumbent, Node
@@ -135,11 +135,9 @@ class Suggestions:
 
     def _goes_on(self, state: int, epoch: int) -> bool:
         """Whether the rest of ``pi_H`` is applicable after an epoch."""
-        for op in self._plan[epoch:]:
-            if not applicable(op, state):
-                return False
-            state = changed(state, [op])
-        return True
+        rest = self._plan[epoch:]
+        states = accumulate(rest, lambda before, op: changed(before, [op]), initial=state)
+        return all(map(applicable, rest, states))
 
     def _ended(self, node: Node) -> Iterator[Incumbent]:
         """Offer the plan in which the human goes on alone after a node, with its window if there is one."""

@@ -1,11 +1,10 @@
 """From a task and options to the answer of mode ``assistance`` (semantics 7)."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
-from functools import partial
-from typing import Final, TypeVar
+from typing import Final
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
@@ -23,8 +22,6 @@ from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
-
-_T = TypeVar("_T")
 
 _PLAN_SHARE: Final = 0.3
 """What of the time some plan of the prime's may take."""
@@ -151,11 +148,17 @@ def _unknown(task: Task, lower: Costs, limit: str) -> Answer:
 
 def _answer(writer: Writer, solution: GameSolution, status: Status, expanded: int) -> Answer:
     has_policy = status != "infeasible"
+    plan = steps = None
+    with suppress(*LIMITS):  # the time may be up before it is known what the prime chooses
+        plan = writer.human_plan()
+    policy = writer.policy(solution) if has_policy else None
+    with suppress(*LIMITS):
+        steps = writer.plan(solution) if has_policy else None
     answer = Answer(
         status,
-        human_plan=_in_time(writer.human_plan),
-        policy=writer.policy(solution) if has_policy else None,
-        steps=_in_time(partial(writer.plan, solution)) if has_policy else None,
+        human_plan=plan,
+        policy=policy,
+        steps=steps,
         reason=None if has_policy else "no-plan",
         expanded=expanded,
         bounds=PolicyBounds(solution.lower or ZERO, solution.upper),
@@ -187,11 +190,3 @@ def _least_sum(bounds: PolicyBounds) -> Fraction:
     """A lower bound on the sum of both costs, the human's coming first."""
     lower, upper = bounds.lower, bounds.upper
     return sum(lower, Fraction(0)) if upper is not None and lower[0] == upper[0] else lower[0]
-
-
-def _in_time(write: Callable[[], _T]) -> _T | None:
-    """The result of ``write``; None where the time is up before it knows the prime's choices."""
-    try:
-        return write()
-    except LIMITS:
-        return None

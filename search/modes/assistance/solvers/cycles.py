@@ -26,9 +26,7 @@ def solve_all(graph: Graph, deadline: Deadline) -> None:
     else:
         values, policy = forced(model, graph.rule, graph.choice_value, deadline)
     for state in model:
-        value = values.get(state, graph.rule.infinite)
-        if value > graph.low[state]:
-            graph.low[state] = value
+        graph.low[state] = max(graph.low[state], values.get(state, graph.rule.infinite))
         if state in policy:
             graph.pick[state] = policy[state]
     for reply in deadline.each(graph.replies):
