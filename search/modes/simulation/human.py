@@ -15,6 +15,7 @@ from search.packed.packed_task import PackedTask
 from search.packed.packings import asked_facts
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
+from serendipity.model.task.task import HumanPlan
 from serendipity.model.task.visibility import Visible
 
 
@@ -116,6 +117,10 @@ class Human:
         self.concern = self.packed.own_mask | self.packed.goal.mask
         self.concern |= union(asked_by(self.packed.op(i)) for i in asked)
         self._looks: dict[tuple[int, int], Glance] = {}
+
+    def start(self, plan: HumanPlan) -> Start:
+        """The initial state, which they know, with a plan in mind."""
+        return Start(self.packed.init, self.packed.init, self.intentions.of(plan))
 
     def look(self, expected: int, state: int, intention: Intention, *, settled: bool) -> tuple[int, Glance]:
         """Step 1: what they believe after a look at the true state, and what they decide.

@@ -66,11 +66,6 @@ class HumanInTime(Human):
         waiting = map(self.packed.op, self.packed.idling[:1] if self.packed.prices_waiting else ())
         self._epoch_of_waiting = sum(map(self.weights.team, waiting))
 
-    def look(self, expected: int, state: int, intention: Intention, *, settled: bool) -> tuple[int, Glance]:
-        """See :class:`.Human`; what robots begin may always be news."""
-        belief = self.eyes.look(expected, state)
-        return belief, self.decide(belief, intention)
-
     def unasked(
         self, state: int, epoch: int, belief: int, intention: Intention
     ) -> Iterable[HumanStep] | None:
@@ -96,11 +91,14 @@ class HumanInTime(Human):
         return self._due.after(state, (part,))
 
     def goes_on(self, belief: int, state: int, look: Glance) -> HumanStep:
-        """See :class:`.Human`; whether waiting is paid for is only known when they begin something."""
+        """See :class:`.Human`; what robots begin may always be news, so nothing is settled.
+
+        Whether waiting is paid for is only known when they begin something.
+        """
         own = None if look.best is None else look.intention.op
         if own is not None and own.action in self.packed.idling:
             return HumanStep(NOTHING, self.expects(belief, NOTHING), look.intention.rest, False)
-        return super().goes_on(belief, state, look)
+        return super().goes_on(belief, state, look)._replace(settled=False)
 
     def paid(self, part: JointAction, waited: int) -> tuple[JointAction, int]:
         """See :class:`.Human`."""

@@ -9,7 +9,7 @@ from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, Progress, best_first, solve_space
 from search.engine.paths import plan_steps, whole_plan
 from search.human.individual_planner import FoundPlan
-from search.modes.simulation.human import Human, Start
+from search.modes.simulation.human import Human
 from search.modes.simulation.in_time import HumanInTime
 from search.modes.simulation.simulator import way_on
 from search.modes.simulation.space import Reactive
@@ -140,21 +140,17 @@ class _Call:
         if self.task.due:
             return
         human, guarded = self.human, self.options.no_block is not False
-        found = way_on(self._start(), human, self.known, guarded=guarded)
+        found = way_on(human.start(self.plan), human, self.known, guarded=guarded)
         if found is None or found.node is None or found.node.epoch > self.epochs:
             return
         if found.key < self.best.key and not human.keys.exceeds(found.key, self._most_cost()):
             self.best = found
 
-    def _start(self) -> Start:
-        init = self.human.packed.init
-        return Start(init, init, self.human.intentions.of(self.plan))
-
     def _space(self, *, idle: bool) -> Reactive:
         return Reactive(
             self.human,
             self.human.context.successors(idle=idle),
-            start=self._start(),
+            start=self.human.start(self.plan),
             horizon=self.epochs,
             no_block=self.options.no_block is not False,
             most_cost=None if idle else self._most_cost(),

@@ -51,9 +51,7 @@ def simulate(
     planned = (step.action for step in steps if not _is_own(task, step))
     asked = {*human_plan, *(v for i in planned for v in variants(task, i))}
     human = Human(prepared, options, deadline, human_model=human_model, actions=asked, visible=visible)
-    init = human.packed.init
-    start = Start(init, init, human.intentions.of(human_plan))
-    return Run(start, human, steps).play(horizon)
+    return Run(human.start(human_plan), human, steps).play(horizon)
 
 
 def way_on(start: Start, human: Human, steps: Sequence[Step], *, guarded: bool = False) -> Incumbent | None:
