@@ -148,9 +148,8 @@ class SearchContext:
         if (len(self.task.robots) < 2 and not self.task.due) or self.options.preservation == "state":
             return None
         walks = self.tables.decoupled(self.deadline)
-        if not walks.foldable or walks.touched_by(map(self.packed.op, plan)):
-            return None
-        return walks
+        touched = any(self.packed.mentioned(self.packed.op(i)) & walks.mask for i in plan)
+        return walks if walks.foldable and not touched else None
 
     def folded(self, walks: Decoupled) -> DecoupledSuccessors:
         """:meth:`successors` with walks left out."""

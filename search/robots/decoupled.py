@@ -13,7 +13,7 @@ Glossary: *slot* - index of a robot among ``task.robots``; *idle* - per slot, fo
 epochs a robot has done no deed, as far as it matters.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from heapq import heappop, heappush
 from itertools import count, product
 from typing import NamedTuple
@@ -195,25 +195,17 @@ class Decoupled:
             return None
         return CenterAction(form, form.need_mask & ~self.mask, tuple(at))
 
-    def touched_by(self, ops: Iterable[Operator]) -> bool:
-        """Whether some of the human's ops mention a robot's place."""
-        return any(self._packed.mentioned(op) & self.mask for op in ops)
-
-    def ways(self, slot: int, here: int, there: int) -> list[Way]:
-        """The ways to a place: the fastest, and slower ones that are cheaper; none if no walk leads there."""
-        return self._ways(slot, here).get(there, [])
-
     def farthest(self, slot: int, here: int) -> int:
         """The most epochs from a place to another."""
         most = self._most.get((slot, here))
         if most is None:
-            most = max(ways[-1].epochs for ways in self._ways(slot, here).values())
+            most = max(ways[-1].epochs for ways in self.ways(slot, here).values())
             self._most[slot, here] = most
         return most
 
     def walk(self, slot: int, here: int, there: int, most: int) -> list[tuple[int, int]]:
         """The cheapest walk within a number of epochs: actions, and how long before its end each begins."""
-        ways = self._ways(slot, here)
+        ways = self.ways(slot, here)
         number = max((i for i, way in enumerate(ways[there]) if way.epochs <= most), default=0)
         actions, left = [], 0
         while there != here:
@@ -223,8 +215,8 @@ class Decoupled:
             actions.append((way.action, left))
         return actions[::-1]
 
-    def _ways(self, slot: int, here: int) -> dict[int, list[Way]]:
-        """Per place the ways to it, the faster ones first, the cheaper ones last."""
+    def ways(self, slot: int, here: int) -> dict[int, list[Way]]:
+        """Per place that walks lead to the fastest way, and slower ones that are cheaper, in this order."""
         known = self._from.get((slot, here))
         if known is not None:
             return known
@@ -347,8 +339,8 @@ class DecoupledSuccessors(Successors):
             keep, put, ways = op.keep, op.put, []
             for slot, field in deed.at:
                 here, place = state & field, op.need & field
-                there = walks.ways(slot, here, place)
-                if not there:
+                there = walks.ways(slot, here).get(place)
+                if there is None:
                     break
                 if keep & field:
                     keep, put = keep & ~field, put | place

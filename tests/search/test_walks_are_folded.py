@@ -89,7 +89,7 @@ def test_a_walk_that_is_about_more_than_a_place_is_a_deed(there, back, distances
     packed, walks = tables.packed, tables.decoupled(Deadline())
     a, b = (packed.pack([task.facts.index(name)]) & walks.fields[0] for name in ("at-a", "at-b"))
     assert walks.foldable
-    found = (walks.ways(0, *way) for way in ((a, b), (b, a)))
+    found = (walks.ways(0, here).get(there) for here, there in ((a, b), (b, a)))
     assert tuple(ways[0].epochs if ways else -1 for ways in found) == distances
 
 
