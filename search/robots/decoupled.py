@@ -140,12 +140,9 @@ class Decoupled:
             for slot, robot in enumerate(self._packed.task.robots):
                 if bits is not None and free == f"free {self._packed.task.agents[robot]}":
                     rests[slot] = bits[0]
-        found: list[set[int]] = [set() for _ in self.fields]
-        for fact, bits in enumerate(self._packed.fact_bits):
-            for slot, place in enumerate(self.fields):
-                if bits is not None and bits[0] & (place | rests[slot]):
-                    found[slot].add(fact)
-        return found
+        packed = [(fact, bits[0]) for fact, bits in enumerate(self._packed.fact_bits) if bits is not None]
+        masks = (place | rest for place, rest in zip(self.fields, rests, strict=True))
+        return [{fact for fact, field in packed if field & mask} for mask in masks]
 
     def _is_elsewhere(self, form: Signature) -> bool:
         """Whether ops mention the place of a robot that takes no part."""
