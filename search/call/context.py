@@ -1,6 +1,5 @@
 """The context that all searches of a call share: packed task, key weights, bounds, the human alone."""
 
-from bisect import bisect_left
 from collections.abc import Callable, Collection, Iterable, Sequence
 from functools import cache, cached_property, reduce
 from typing import TYPE_CHECKING
@@ -60,6 +59,7 @@ class SearchContext:
         self.weights = Weights(self.packed, tables.scaling, options, plan)
         self.keys = self.weights.keys
         self._followed: dict[HumanPlan, list[tuple[Operator, JointAction]]] = {}
+        self._successors: dict[tuple[bool, frozenset[int]], Successors] = {}
 
     def for_plan(self, plan: HumanPlan) -> "SearchContext":
         """The context in which ``pi_H`` is known; this one, where that makes no difference."""
@@ -133,15 +133,12 @@ class SearchContext:
         return PrivateDistances(self.interactions, self.bound, self.steps, self.weights, self.deadline)
 
     def successors(self, *, idle: bool = False, barred: Collection[int] = ()) -> Successors:
-        """Action sets under the interference rule; with ``idle`` robots do nothing, else nothing barred."""
-        return Successors(
-            self.packed,
-            self.weights.team,
-            self.deadline,
-            strict=self.options.strict,
-            idle=idle,
-            barred=barred,
-        )
+        """Action sets, kept as they are found; with ``idle`` robots do nothing, else nothing barred."""
+        asked, strict, weight = (idle, frozenset(barred)), self.options.strict, self.weights.team
+        if asked not in self._successors:
+            found = Successors(self.packed, weight, self.deadline, strict=strict, idle=idle, barred=barred)
+            self._successors[asked] = found
+        return self._successors[asked]
 
     def walks(self, plan: HumanPlan) -> Decoupled | None:
         """Robots' walks where they can be folded, and it pays: several robots, or walks that take time."""
@@ -192,10 +189,6 @@ class SearchContext:
     def amount_key(self, amount: int) -> int:
         """An amount of the team's as a key."""
         return self.weights.key_of(amount) if amount < INFINITE_KEY else INFINITE_KEY
-
-    def amount_from(self, limit: int, most: int) -> int:
-        """The least amount of the team's of which the key is not below a limit; ``most`` at most."""
-        return bisect_left(range(most), limit, key=self.amount_key)
 
     @property
     def root(self) -> Node:

@@ -202,6 +202,12 @@ class Weights:
         keys = self.keys
         return keys.of_scaled(amount >> ACTIONS_BITS) + ((amount & _ACTIONS) << keys.action_shift)
 
+    def amount_from(self, limit: int, most: int) -> int:
+        """The least amount of which :meth:`key_of` is not below a limit; ``most`` at most."""
+        cost, rest = divmod(max(limit, 0), self.keys.of_scaled(1))
+        actions = -(-rest >> self.keys.action_shift)
+        return min(most, (cost << ACTIONS_BITS) + min(actions, 1 << ACTIONS_BITS))
+
     def of_own(self, costs: Mapping[int, int]) -> dict[int, int]:
         """Key increments of costs in the unit of :func:`own_weights`, by whatever they are listed."""
         per_cost, action = self._per_cost, self.keys.action_shift

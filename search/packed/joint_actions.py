@@ -33,6 +33,8 @@ def as_option(op: Operator, weight: int) -> JointAction:
 
 def together(a: JointAction, b: JointAction) -> JointAction:
     """Both in one epoch."""
+    if a is NOTHING:
+        return b
     return JointAction(
         a.weight + b.weight,
         a.keep & b.keep,

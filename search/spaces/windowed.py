@@ -231,15 +231,17 @@ class Windowed:
             def promising(option: JointAction, judged: _JudgedNode = judged) -> bool:
                 return self._least(judged, option, sooner) < best.key
 
-            every = successors.beside(part, state, node.idle, promising)
-            sets = successors.with_changers(part, state, self.relevant) if is_last else every
+            if is_last:
+                sets: Iterable[JointAction] = successors.with_changers(part, state, self.relevant)
+            else:
+                sets = successors.beside(part, state, node.idle, promising)
             for option in sets:
                 bound = judged.spent + option.weight + judged.rest
                 if bound >= best.key or self.keys.exceeds(bound, self.most_cost):
                     break
-                child = self._child(judged, option)
-                self._end(child, best)
-                if self._goes_on(node.start, child.epoch, bound, best):
+                self._end(judged, option, best)
+                if not is_last and self._goes_on(node.start, node.epoch + 1, bound, best):
+                    child = self._child(judged, option)
                     bound = self._least(judged, option, child.idle) + self.keys.epoch_weight
                     if bound < best.key and self.labels.add(child.state, child.epoch, child.key, child.idle):
                         yield bound, child
@@ -287,14 +289,14 @@ class Windowed:
             return False
         return bound + self.keys.epoch_weight < best.key
 
-    def _end(self, node: Node, best: Incumbent) -> None:
-        """Offer the plan whose window ends after the node."""
-        left = self.horizon - node.epoch
-        limit = best.key - node.key
-        rest = self.suffix.key(node.state, left, node.start, limit)
-        if rest < limit and not self.keys.exceeds(node.key + rest, self.most_cost):
-            tail = self.suffix.actions(node.state, left, node.start)  # where time may run out
-            best.key, best.node, best.end, best.tail = node.key + rest, node, node.epoch + 1, tail
+    def _end(self, judged: _JudgedNode, option: JointAction, best: Incumbent) -> None:
+        """Offer the plan whose window ends with an epoch."""
+        node, key, epoch = judged.node, judged.spent + option.weight, judged.node.epoch + 1
+        state, left = node.state & option.keep | option.put, self.horizon - epoch
+        key += self.suffix.key(state, left, node.start, best.key - key)
+        if key < best.key and not self.keys.exceeds(key, self.most_cost):
+            tail = self.suffix.actions(state, left, node.start)  # where time may run out
+            best.key, best.node, best.end, best.tail = key, self._child(judged, option), epoch + 1, tail
 
 
 def _sooner(idle: Idle) -> Idle:

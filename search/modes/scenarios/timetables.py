@@ -51,7 +51,8 @@ class Timetable:
     ) -> None:
         self._context, self._steps = context, steps
         self._epochs: Epochs | None = None
-        limits = [context.amount_from(least + (limit - least >> n), MOST_WEIGHT) + _UNIT for n in _HALVES]
+        amount_from = context.weights.amount_from
+        limits = [amount_from(least + (limit - least >> n), MOST_WEIGHT) + _UNIT for n in _HALVES]
         self._limits = [*dict.fromkeys(limits)]
         with suppress(LimitReachedError):
             if steps and limits[0] < MOST_WEIGHT:

@@ -8,7 +8,6 @@ time, then all together.
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache
 
 from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, solve_space
@@ -59,9 +58,7 @@ class Companion:
         self._clock.renew(deadline)
         model = options.human_model
         self.human = Human(prepared, options, self._clock, human_model=model, actions=actions)
-        context = self.human.context
-        self._idle = context.successors(idle=True)
-        self._without = cache(lambda barred: context.successors(barred=barred))
+        self._idle = self.human.context.successors(idle=True)
 
     def under(self, deadline: Deadline) -> Human:
         """The human, whose thinking polls a deadline from now on."""
@@ -102,7 +99,8 @@ class Companion:
         proved = False
         for number, out in enumerate(barred):
             self._clock.renew(deadline.part(1 / (len(barred) - number)))
-            space = Reactive(self.human, self._without(out), start, horizon, keeps=keeps, begins=begins)
+            successors = self.human.context.successors(barred=out)
+            space = Reactive(self.human, successors, start, horizon, keeps=keeps, begins=begins)
             try:
                 solve_space(space, best, self._clock)
                 proved = number == len(barred) - 1

@@ -94,7 +94,7 @@ class ShortWindows:
             if epoch < len(self._steps) and spent < best.key:
                 self._ahead = spent
                 for timeline in self._timelines:
-                    timeline.follow(context.amount_from(best.key - spent, FAR))
+                    timeline.follow(context.weights.amount_from(best.key - spent, FAR))
             base = base & step.keep | step.put
         self._ahead = INFINITE_KEY
 
@@ -139,4 +139,4 @@ def _fit_words(question: ShortWindowQuestion, context: SearchContext) -> bool:
     price, packed = context.weights.scaled_cost, context.packed
     robots = (max(map(price, packed.others)) + 1) * (len(question.plan) + 1) * len(context.task.robots)
     human = sum(map(price, packed.own)) + len(packed.own)
-    return max(robots, human) * ACTION < FAR > context.amount_from(question.best.key, FAR)
+    return max(robots, human) * ACTION < FAR > context.weights.amount_from(question.best.key, FAR)

@@ -97,7 +97,7 @@ class Window:
 
     def _most(self, limit: int) -> int:
         """The amount from which on nothing is of interest, by a limit on keys."""
-        return self._context.amount_from(limit - self._start, FAR)
+        return self._context.weights.amount_from(limit - self._start, FAR)
 
     def _most_paid(self) -> int:
         """An amount that robots together can't pay, as each does at most one thing an epoch."""

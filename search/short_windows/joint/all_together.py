@@ -121,7 +121,7 @@ class AllTogether:
 
     def _amount(self, limit: int) -> int:
         """The least amount of which the key is not below a limit; ``MOST_WEIGHT``: too much."""
-        return self._context.amount_from(limit, MOST_WEIGHT)
+        return self._context.weights.amount_from(limit, MOST_WEIGHT)
 
 
 def epochs_of(context: SearchContext, steps: Iterable[Operator], deadline: Deadline) -> Epochs | None:
