@@ -25,7 +25,6 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
     if planner.is_canonical(state):
         return known
     rest = in_order(operators, known or (), deadline)
-    amounts = [planner.problem.amount(weight) for weight in planner.problem.weights]
     plan: list[int] = []
     refuted: set[int] = set()
     while rest:
@@ -36,7 +35,7 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
                 continue
             deadline.check()
             op = operators[number]
-            after, amount = state & op.keep | op.put, left - amounts[number]
+            after, amount = state & op.keep | op.put, left - planner.amount((number,))
             may_be = amount >= 0 and planner.bound(after, deadline) <= amount
             if may_be and planner.cheapest(after, deadline, amount + 1, before=number) == amount:
                 rest = [number, *in_order(operators, planner.known_plan(after, deadline) or (), deadline)]
@@ -44,7 +43,7 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
             refuted.add(number)
         chosen = operators[rest[0]]
         plan.append(rest.pop(0))
-        state, left = state & chosen.keep | chosen.put, left - amounts[plan[-1]]
+        state, left = state & chosen.keep | chosen.put, left - planner.amount(plan[-1:])
         refuted = {number for number in refuted if _independent(operators[number], chosen)}
     return plan
 

@@ -98,13 +98,13 @@ def _suspects(packed: PackedTask, operators: Sequence[Operator], deadline: Deadl
         return list(operators)
     # Two that set one variable of many values undo each other, so they don't share an epoch.
     wide = sum(field for field in packed.fields if len(packed.values(field)) > 2)
+    told = [(form.agents, form.sets, form.sets & wide, form.need_mask | form.forbids) for form in forms]
     disabled: dict[int, list[int]] = {}
-    for number, a in enumerate(deadline.each(forms, batch=1)):
-        for other, b in enumerate(forms):
-            if a.agents & b.agents or a.sets & b.sets & wide:
-                continue
-            if a.sets & (b.need_mask | b.forbids):
-                disabled.setdefault(number, []).append(other)
+    for number, (busy, sets, undoes, _) in enumerate(told):
+        deadline.tick()
+        others = [i for i, (a, _, w, asks) in enumerate(told) if sets & asks and not (a & busy or w & undoes)]
+        if others:
+            disabled[number] = others
     left = _in_turn(disabled, deadline)
     found = {id(op) for number in left for op in forms[number].ops}
     return [op for op in operators if id(op) in found]

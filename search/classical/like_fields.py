@@ -6,14 +6,14 @@ need but one of them.  Several items that wait in one cupboard for the same tabl
 
 from array import array
 from collections import defaultdict
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 
 from search.classical.problem import ClassicalProblem
 from search.packed.operators import Operator, asked_by, split
 from serendipity.model.resources.deadline import Deadline
 
-Exchange = Sequence[tuple[int, int]]
-"""Numbers of the operators that are exchanged with others, with the numbers of those."""
+Exchange = Mapping[int, int]
+"""By number of the operators that are exchanged with others the numbers of those."""
 
 
 def like_fields(
@@ -70,12 +70,13 @@ class _Likes:
             return False
         a, b = self._fields[first][0], self._fields[second][0]
         shift = b.bit_length() - a.bit_length()
-        exchange = []
+        exchange: dict[int, int] = {}
         for number in {*self._mentioning[first], *self._mentioning[second]}:
-            other = self._numbers.get(self._told(number, a, b, shift))
-            if other is None:
-                return False
-            exchange.append((number, other))
+            if number not in exchange:  # not as the other one of a pair
+                other = self._numbers.get(self._told(number, a, b, shift))
+                if other is None:
+                    return False
+                exchange[number], exchange[other] = other, number
         literals = {tuple(_exchanged(word, a, b, shift) for word in pair) for pair in self._goal.forbidden}
         return literals == {*self._goal.forbidden} and self._allows(exchange)
 

@@ -8,6 +8,7 @@ out to be hard goes to symbolic search for a while.
 import ctypes
 from array import array
 from collections.abc import Callable, Iterable
+from copy import copy
 from math import inf
 from typing import Final
 
@@ -20,14 +21,14 @@ from search.packed.operators import applicable
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
-SLICE: Final = 0.004
+SLICE: Final = 0.001
 """Seconds between two looks at the deadline."""
 
 ROOM: Final = 1 << 24
 """Bytes that may be allocated before memory is asked for again."""
 
-_SOME: Final = 200
-"""Evaluations after which it is worth its time to find out what is alike."""
+_SOME: Final = 100
+"""Evaluations after which it is worth its time to find out what is alike: it takes as long."""
 
 _MUCH_WORK: Final = 100_000_000
 """Evaluations times operators, two to four seconds, after which symbolic search has its turn."""
@@ -111,6 +112,14 @@ class ClassicalPlanner:
         self._canonical: set[int] = set()
         """States of which these are canonical."""
         self.is_open = False
+
+    def anew(self, deadline: Deadline) -> "ClassicalPlanner":
+        """Another one on the same problem, which has learnt nothing yet."""
+        deadline.require(memory_for(self.problem))
+        other = copy(self)
+        other.handle = None
+        other._start()
+        return other
 
     # -- questions
 

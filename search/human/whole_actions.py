@@ -40,6 +40,7 @@ class OwnPlanner:
         self._chains = chains
         self._due = Due(packed, lambda op: weights[op.cost], strict=True)
         self._spent = 0
+        self._canonical: dict[int, tuple[int, ...] | None] = {}
 
     def cheapest(self, state: int, deadline: Deadline, limit: int = INFINITE_KEY) -> int:
         """See :class:`.ClassicalPlanner`."""
@@ -79,7 +80,10 @@ class OwnPlanner:
         """The cheapest plan from a packed state with the smallest actions, as ids of actions."""
         from search.classical.canonical import canonical_plan  # only here: most calls come by without
 
-        return self._plan(state, lambda free: canonical_plan(self.planner, free, deadline))
+        if state not in self._canonical:
+            found = self._plan(state, lambda free: canonical_plan(self.planner, free, deadline))
+            self._canonical[state] = found
+        return self._canonical[state]
 
     def _plan(self, state: int, found: Callable[[int], Iterable[int] | None]) -> tuple[int, ...] | None:
         freed = self._due.finished(state)

@@ -131,7 +131,8 @@ def epochs_of(context: SearchContext, steps: Iterable[Operator], deadline: Deadl
     operators = (*packed.own, *packed.joint, *packed.others, *waiting)
     if kernel is None or len(operators) > _MOST_ACTIONS or len(context.task.agents) > _MOST_AGENTS:
         return None
-    alone = alone_planner(packed, packed.goal, deadline)
+    human = context.tables.human.memory(strict=context.options.strict)
+    alone = human.classical or alone_planner(packed, packed.goal, deadline)
     costs = [context.weights.scaled_cost(op) for op in operators]
     if alone is None or max(costs).bit_length() > _MOST_COST_BITS:
         return None
@@ -143,4 +144,5 @@ def epochs_of(context: SearchContext, steps: Iterable[Operator], deadline: Deadl
     unit = alone.planner.problem.unit * ratio
     if unit.bit_length() > _MOST_COST_BITS:
         return None
-    return Epochs(kernel, context, problem, alone.planner, lost_values(packed), unit, deadline)
+    after = alone.planner.anew(deadline)  # what was learnt would decide between plans of equal rank
+    return Epochs(kernel, context, problem, after, lost_values(packed), unit, deadline)

@@ -208,7 +208,7 @@ def _alike(
     """Classes of fields that are alike to all agents, and to what follows."""
 
     def allows(exchange: Exchange) -> bool:
-        partners = {1 << number: 1 << other for number, other in exchange}
+        partners = {1 << number: 1 << other for number, other in exchange.items()}
         moved = sum(partners)
 
         def exchanged(row: int) -> int:
@@ -218,7 +218,8 @@ def _alike(
                 found, left = found | partners[bit], left ^ bit
             return found
 
-        return all(exchanged(apart[number]) == apart[other] for number, other in exchange)
+        pairs = exchange.items()
+        return all(exchanged(apart[number]) == apart[other] for number, other in pairs if number <= other)
 
     fields = [field for field, _ in after.problem.fields]
     later = {fields[one]: alike[0] for alike in after.alike(deadline) for one in alike}
