@@ -9,6 +9,7 @@ _DISTRIBUTION = "serendipity-planner"
 _AGAIN = f"pip install --force-reinstall --no-deps {_DISTRIBUTION}"
 
 
+@cache
 def require_siblings(*names: str) -> None:
     """Make sure that the top-level packages ``names`` are the ones shipped beside this one, and ours alone.
 

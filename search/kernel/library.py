@@ -105,7 +105,7 @@ def units(source: Path) -> list[Path]:
 
 def source_hash(source: Path) -> str:
     """A checksum of the source and its units; a kernel returns its own by ``kernel_source_hash()``."""
-    import zlib  # cryptography would have to be loaded
+    from binascii import crc32  # zlib takes longer to load, and so does cryptography
 
     read = (unit.name.encode() + b"\n" + unit.read_bytes() for unit in units(source))
-    return format(zlib.crc32(b"\n".join(read)), "08x")
+    return format(crc32(b"\n".join(read)), "08x")

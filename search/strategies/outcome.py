@@ -29,7 +29,7 @@ def _answer_of(call: Call) -> Answer:
         if first is None:
             return Answer("unknown", reason=call.limit)
         return first.alone(call.limit) if is_alone else first.last(call.limit)
-    return _outcome(call, _status(call))
+    return _outcome(call)
 
 
 def helps(call: Call) -> bool:
@@ -68,9 +68,9 @@ def answered(call: Call) -> Incumbent:
     return call.baseline if call.options.windowed and not helps(call) else call.best
 
 
-def _status(call: Call) -> Status:
+def _status(call: Call, answer: Incumbent) -> Status:
     """The status by what is proved; an infinite bound is a proof."""
-    if answered(call).key < INFINITE_KEY:
+    if answer.key < INFINITE_KEY:
         return "optimal" if call.is_over and call.knows_alone and _is_best(call) else "feasible"
     is_proved = (call.is_over and call.is_done) or call.progress.bound >= INFINITE_KEY
     return "infeasible" if is_proved else "unknown"
@@ -85,9 +85,10 @@ def _is_best(call: Call) -> bool:
     return False
 
 
-def _outcome(call: Call, status: Status) -> Answer:
+def _outcome(call: Call) -> Answer:
     helped, keys = helps(call), call.keys
     answer = answered(call)
+    status = _status(call, answer)
     has_plan = answer.key < INFINITE_KEY and status in ("optimal", "feasible")
     cost = keys.cost(answer.key) if has_plan else None
     baseline = keys.cost(call.baseline.key) if call.baseline.key < INFINITE_KEY else None

@@ -101,7 +101,6 @@ class Human:
         self.packed = tables.packed
         self.weights = self.context.weights
         self.keys = self.weights.keys
-        self.bound = self.context.bound
         self.alone = self.context.alone
         self.intentions = Intentions(self.packed, self.keys, self.weights.human)
         self.sees_all = not local

@@ -70,7 +70,7 @@ class Reactive:
         mind = self._number(Mind(self._belief(self.start.belief), self.start.intention, False))
         node = Node(0, 0, init, mind << 1, 0, None, ())
         self._labels.add(self._place(node), 0, 0)
-        yield self.human.bound(init), node
+        yield self.human.context.bound(init), node
 
     def alive(self, node: Node) -> bool:
         """Whether no better node makes this one superfluous."""
@@ -113,7 +113,7 @@ class Reactive:
         settled = step.settled
         alone = state & part.keep | part.put
         # Robots don't change the variables that the bound looks at.
-        rest = human.bound(alone)
+        rest = human.context.bound(alone)
         if node.key + part.weight + rest >= best.key:
             return
         if guarded and not human.sees_all:

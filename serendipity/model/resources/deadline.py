@@ -149,6 +149,8 @@ class Deadline:
         Raises:
             LimitReachedError: they don't.
         """
+        if size < MIB:  # looking at what there is takes as long as filling that much
+            return
         used = resident() if self._most is not None else None
         room = available() if used is None or self._most is None else self._most - used
         if room is not None and size > room:
