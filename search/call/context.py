@@ -77,7 +77,8 @@ class SearchContext:
     def bound(self) -> PatternDatabase:
         """Lower bound on what the human still has to pay for ``G_H``."""
         own = self.tables.human.projection(self.deadline)
-        return PatternDatabase(own.mask, self.weights.of_own(own.distances))
+        keys = map(cache(self.weights.of_own), own.distances.values())  # few of them differ
+        return PatternDatabase(own.mask, dict(zip(own.distances, keys, strict=True)))
 
     @property
     def steps(self) -> PatternDatabase:

@@ -115,7 +115,7 @@ class IndividualPlanner:
         """A sum of weights as a key."""
         if self._prices is None or found >= INFINITE_KEY:
             return found
-        return self._prices.of_own({0: found})[0]
+        return self._prices.of_own(found)
 
     def _least_from(self, state: int, limit: int = INFINITE_KEY) -> int:
         """The least sum of weights from a state; from ``limit`` on any value says "not below"."""

@@ -8,7 +8,7 @@ components in that order.
 Costs are scaled to integers by the least common denominator, so ties are exact.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -208,13 +208,9 @@ class Weights:
         actions = -(-rest >> self.keys.action_shift)
         return min(most, (cost << ACTIONS_BITS) + min(actions, 1 << ACTIONS_BITS))
 
-    def of_own(self, costs: Mapping[int, int]) -> dict[int, int]:
-        """Key increments of costs in the unit of :func:`own_weights`, by whatever they are listed."""
-        per_cost, action = self._per_cost, self.keys.action_shift
-        return {
-            at: (cost >> ACTIONS_BITS) * per_cost + ((cost & _ACTIONS) << action)
-            for at, cost in costs.items()
-        }
+    def of_own(self, cost: int) -> int:
+        """Key increment of a cost in the unit of :func:`own_weights`."""
+        return (cost >> ACTIONS_BITS) * self._per_cost + ((cost & _ACTIONS) << self.keys.action_shift)
 
     def of_walk(self, cost: int, ops: int) -> int:
         """Increment of a robot's walk: its cost in the unit of :func:`own_costs`, its number of ops."""
