@@ -9,6 +9,7 @@ import ctypes
 from array import array
 from collections.abc import Callable, Iterable
 from copy import copy
+from functools import partial
 from math import inf
 from typing import Final
 
@@ -21,7 +22,7 @@ from search.packed.operators import applicable
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 
-SLICE: Final = 0.001
+SLICE: Final = 0.004
 """Seconds between two looks at the deadline."""
 
 ROOM: Final = 1 << 24
@@ -159,7 +160,8 @@ class ClassicalPlanner:
         assert self.is_open, "it was interrupted"
         outcome = RUNNING
         while outcome == RUNNING:
-            outcome = self._allowed(lambda room: kernel.planner_run(planner, SLICE, room), deadline)
+            seconds = SLICE / 4 if self._alike is None else SLICE  # then it begins anew: as soon as may be
+            outcome = self._allowed(partial(kernel.planner_run, planner, seconds), deadline)
             if outcome != RUNNING:
                 break
             deadline.check()
