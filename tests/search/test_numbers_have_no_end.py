@@ -6,7 +6,10 @@ from itertools import pairwise
 import pytest
 
 import serendipity
-from serendipity import Task, UsageError
+from search.call.context import SearchContext
+from search.call.prepared_task import PreparedTask
+from search.packed.cost_vector import ACTIONS_BITS
+from serendipity import Deadline, Options, Task, UsageError
 from serendipity.model.numbers import as_written
 from serendipity.testing import task
 
@@ -72,3 +75,16 @@ def test_denominators_without_end_are_refused_in_one_line() -> None:
     with pytest.raises(UsageError, match="common denominator") as caught:
         serendipity.plan(given)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("mode", ["serendipity", "communication"])
+def test_the_least_amount_of_a_key(mode: str) -> None:
+    given = task(goal="g", actions={"a h": "-> g @ 1/3", "b r": "-> !g @ 5/2"})
+    options = Options(mode=mode, discount="0.7", window_weight="0.01")
+    weights = SearchContext(PreparedTask(given), options, Deadline()).weights
+    last = (1 << ACTIONS_BITS) - 1  # the most actions: one more is a cost more, and none
+    for amount in (0, 1, 17, last, last + 1, (123 << ACTIONS_BITS) + 45, (1 << 60) + last):
+        key = weights.key_of(amount)
+        assert [weights.amount_from(key + more, 1 << 61) for more in (0, 1)] == [amount, amount + 1]
+        assert weights.amount_from(key + 1, amount) == amount
+    assert weights.amount_from(-5, 7) == 0
