@@ -22,7 +22,8 @@ Patch = pytest.MonkeyPatch
 def half_an_answer(patch: Patch) -> None:
     """The incumbent is there before what the human does at its end is."""
 
-    def end(self: Any, node: Any, best: Any) -> None:
+    def end(self: Any, judged: Any, option: Any, best: Any) -> None:
+        node = self._child(judged, option)
         left, limit = self.horizon - node.epoch, best.key - node.key
         rest = self.suffix.key(node.state, left, node.start, limit)
         if rest < limit and not self.keys.exceeds(node.key + rest, self.most_cost):
@@ -36,8 +37,8 @@ def an_infinite_figure(patch: Patch) -> None:
     """An infinite bound is reported, instead of what it proves."""
     original = outcome._status
 
-    def status(call: Any) -> str:
-        found = original(call)
+    def status(call: Any, answer: Any) -> str:
+        found = original(call, answer)
         return found if call.limit is None else found.replace("infeasible", "unknown")
 
     patch.setattr(outcome, "_status", status)
@@ -47,7 +48,7 @@ def feasible_without_a_plan(patch: Patch) -> None:
     """Where a bound has risen, there is said to be a plan."""
     patch.setattr(best_first, "_PATIENCE", 0)  # every rise is reported
     original = outcome._status
-    patch.setattr(outcome, "_status", lambda call: original(call).replace("unknown", "feasible"))
+    patch.setattr(outcome, "_status", lambda *given: original(*given).replace("unknown", "feasible"))
 
 
 def interference_of_an_earlier_call(patch: Patch) -> None:
@@ -82,8 +83,12 @@ def variants_are_actions(patch: Patch) -> None:
         original(self, packed, scales, options, plan)
         self.ids = frozenset(plan or ())
 
+    def alone(self: Any, op: Any) -> int:
+        is_told = self.announces and op.action not in self.ids
+        return int(self.human[op.cost] + (self._announced[op.cost] if is_told else 0))
+
     patch.setattr(Weights, "__init__", init)
-    patch.setattr(Weights, "_is_planned", lambda self, op: op.action in self.ids)
+    patch.setattr(Weights, "alone", alone)
 
 
 FOUND: dict[Callable[[Patch], None], tuple[str, int]] = {
