@@ -2,11 +2,9 @@
 
 from fractions import Fraction
 
-from hypothesis import assume
 from hypothesis import strategies as st
 
-import serendipity
-from serendipity import Condition, GroundAction, Options, Result, Script, Task, Timing, UsageError
+from serendipity import Condition, GroundAction, Script, Task, Timing
 from serendipity.testing.generator.in_time import with_durations
 from serendipity.testing.strategies.tasks import DICE
 
@@ -50,15 +48,6 @@ def rooms(draw: st.DrawFn, *, timed: bool = True) -> Task:
     start = frozenset({_IDS[f"at h p{draw(st.integers(0, 2))}"], _IDS[f"at r p{draw(st.integers(0, 2))}"]})
     actions = tuple(sorted(found, key=lambda each: each.key))
     return Task("rooms", ("h", "r"), 0, _FACTS, start, Condition((_IDS["done"],)), actions)
-
-
-def answered(task: Task, options: Options) -> Result:
-    """The answer to a call; no example where effects can't say what strict interference forbids."""
-    try:
-        return serendipity.plan(task, **{name: getattr(options, name) for name in options.to_dict()})
-    except UsageError as error:
-        assume("where several ask for a fact to be false" not in str(error))
-        raise
 
 
 @st.composite

@@ -20,7 +20,7 @@ from serendipity.testing.oracle import best
 from serendipity.testing.oracle.answers import Solver
 from serendipity.testing.strategies import calls, calls_among_people
 from serendipity.testing.strategies.time import bystander_tasks, calls_in_time
-from tests.facade.over_scenarios import as_brute_force_has_it
+from tests.facade.brute_force import policy_as_brute_force_has_it
 from tests.search.modes.scenarios.strategies import options_over, scenarios
 
 _MODES = ("serendipity", "serendipity", "communication", "composite")
@@ -235,36 +235,8 @@ def test_nobody_pays_in_any_scenario(asked: tuple[Task, list[Any]], data: st.Dat
         options = options.but(risk="mean")
     horizon = int(options.horizon or max(len(one.plan) for one in candidates))
     assume(horizon <= 4 and len(task.actions) * horizon <= 45)
-    answer = as_brute_force_has_it(task, options, candidates, horizon)
-    if answer is None:
-        return
-    assert serendipity.verify(task, answer).verdict != "refuted"
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"mode": "assistance"}, "nobody_pays: is not known of mode 'assistance', nor of humans who replan"),
-        ({"human_model": "observant"}, "nobody_pays: is not known of mode 'assistance'"),
-        ({"mode": "composite", "horizon": "inf"}, "nobody_pays: needs a horizon"),
-        ({"nobody_pays": "yes"}, "nobody_pays: expected true or false, got 'yes'"),
-        ({"leave_free": 3}, "leave_free: expected patterns apart by commas, got 3"),
-    ],
-)
-def test_where_the_rule_is_not_known_says_so(options: dict[str, Any], message: str) -> None:
-    with pytest.raises(UsageError, match=message):
-        serendipity.plan(tea(), **{"nobody_pays": True, **options})
-
-
-def test_it_goes_with_few_options_where_payments_are_counted() -> None:
-    shop = build(
-        init="here",
-        goal="home",
-        robot_goal="parcel",
-        actions={"go h": "here -> home !here", "fetch r": "-> parcel"},
-    )
-    with pytest.raises(UsageError, match="it goes with suffix replan only; nobody_pays=False"):
-        serendipity.plan(shop, nobody_pays=True, suffix="subplan")
+    answer = policy_as_brute_force_has_it(task, options, candidates, horizon)
+    assert answer is None or serendipity.verify(task, answer).verdict != "refuted"
 
 
 @pytest.mark.parametrize(("task", "all_of_it"), [(serendipity.example("room2"), True), (tea(), False)])

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity import PlanError, Result, Script, Task, UsageError
 from serendipity.cli.files.plans import plan_file, timed_plan
-from serendipity.model import Condition, PlanTimes
+from serendipity.model import Condition, Options, PlanTimes
 from serendipity.model.task.plans_in_time import times_of
 from serendipity.testing.builders import task
 from serendipity.testing.call import Call
@@ -120,3 +120,29 @@ def test_robots_own_goals_have_epochs_without_a_horizon() -> None:
     answer = serendipity.plan(slow, mode="composite", horizon="inf")
     assert [(step.epoch, step.action) for step in answer.plan or ()] == [(1, "wash r"), (3, "dry r")]
     assert serendipity.verify(slow, answer).verdict != "refuted"
+
+
+PLAIN = task(goal="done", actions={"do h": " -> done", "help r": " -> done"})
+
+
+def test_waiting_and_a_head_start_are_played() -> None:
+    waiting = serendipity.plan(PLAIN, human_plan=[(3, "do h")])
+    assert serendipity.verify(PLAIN, waiting).verdict == "proved"
+    for answer in (waiting, serendipity.plan(PLAIN, head_start=2)):
+        assert (answer.status, answer.horizon) == ("optimal", 3)
+        played = serendipity.simulate(PLAIN, answer)
+        assert played.realised and [epoch.did for epoch in played.epochs] == [None, None, "do h"]
+
+
+def test_options_of_time_are_written_down_only_where_they_are_in_force() -> None:
+    assert "waiting_cost" not in Options().to_dict()
+    timed = Options(waiting_cost="0.5", head_start=7)
+    assert Options.from_dict(timed.to_dict()) == timed
+
+
+def test_scenarios_may_differ_in_nothing_but_when() -> None:
+    """The robot is through by epoch 1 in both, whoever begins when."""
+    plans = [{"probability": 1, "plan": [[epoch, "do h"]]} for epoch in (2, 3)]
+    answer = serendipity.plan(PLAIN, plans=plans, discount=1)
+    assert (answer.cost, answer.human_cost, answer.horizon) == (0, 1, 3)
+    assert [entry.human_plan_times.starts for entry in answer.goals] == [(2,), (3,)]

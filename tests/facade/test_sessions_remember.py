@@ -1,19 +1,26 @@
-"""A session's answers are never worse than what is left of the last one, whenever a limit comes."""
+"""A session answers what a fresh call on the same state answers, and keeps the human's plan.
 
+Its answers are never worse than what is left of the last one, whenever a limit comes.
+"""
+
+import json
 from collections.abc import Iterator
 from dataclasses import replace
 from random import Random
+from typing import Any
 
 import pytest
 
 import serendipity
-from serendipity import PlanStep, Result, SerendipityError, Session, Task
+from serendipity import InputError, PlanError, PlanStep, Result, SerendipityError, Session, Task, UsageError
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.keywords import Ties
 from serendipity.testing.builders import task
+from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_1, usar
 from serendipity.testing.generator import PlanCall, random_call
 from tests.endings import endings
+from tests.facade.test_sessions_in_time import fresh, same
 
 _FIGURES = ("status", "cost", "objective", "opportunity", "saving", "saving_alone", "lower_bound", "horizon")
 
@@ -151,22 +158,22 @@ def test_goals_that_are_not_known_and_assistance_may_be_asked_about_in_between()
     assert session.human_plan == known
 
 
-def test_a_world_that_is_other_than_planned_is_looked_at_anew() -> None:
+def test_what_is_other_than_planned_is_another_question() -> None:
     session = _begun()
-    session.change({"at k2 r2": False, "at k2 r": True})
-    early = _interrupted(session)
-    assert serendipity.check(session.task, early).refuted is None
-    fresh = serendipity.plan(replace(session.task), human_plan=session.human_plan, discount=0.9)
-    assert session.plan().cost == fresh.cost
-
-
-def test_another_plan_of_the_human_and_another_goal_are_other_questions() -> None:
-    session = _begun()
+    before = session.plan().cost
+    session.change({"at k2 r2": False})
+    assert serendipity.check(session.task, _interrupted(session)).refuted is None
+    alone = session.plan()
+    assert alone.cost > before and same(alone, fresh(session, discount=0.9))
     session.follow(None)
     assert session.plan().status == "optimal"
     session.set_goal(["at h s"])
     assert session.rest is None
     assert session.plan().cost == serendipity.plan(replace(session.task), discount=0.9).cost
+    with pytest.raises(UsageError, match="there is no fact 'at h nowhere'"):
+        session.set_goal(["at h nowhere"])
+    with pytest.raises(UsageError, match="not applicable"):
+        session.execute(["move h d g"])
 
 
 def _shortcut(opening: str) -> Task:
@@ -245,3 +252,108 @@ def test_whenever_time_is_up_help_that_was_begun_is_answered_or_still_there() ->
                 unknown += answer.status == "unknown"
                 assert _value(answer) <= rest + 1e-9 or (answer.status, other.rest) == ("unknown", left), seed
     assert helped > 100 and unknown > 100
+
+
+def test_his_plan_goes_on_behind_his_action_and_waiting_is_none() -> None:
+    session = Session(case_1(), discount=0.6)
+    predicted = session.plan().human_plan
+    session.execute([predicted[0]])
+    assert session.human_plan == predicted[1:]
+    session.execute(["move h a1 a0"])
+    assert session.human_plan is None
+    given = Session(case_1(), human_plan=["noop", *predicted], discount=0.6)
+    given.plan()
+    given.execute([predicted[0]])
+    assert given.human_plan == predicted[1:]
+
+
+def test_a_given_plan_need_not_work_before_what_was_seen_is_told() -> None:
+    predicted = Session(case_1(), discount=0.6).plan().human_plan
+    assert predicted is not None
+    elsewhere = case_1().at(case_1().init - {case_1().facts.index("at h a0")})
+    session = Session(elsewhere, human_plan=predicted, discount=0.6)
+    with pytest.raises(PlanError):
+        session.plan()
+    assert session.human_plan == predicted
+    session.change({"at h a0": True})
+    assert session.human_plan == predicted
+    assert same(session.plan(), fresh(session, discount=0.6))
+    session.change({"at h a0": False})
+    assert session.human_plan is None
+
+
+def begun() -> Session:
+    """A session two epochs after its first answer."""
+    session = Session(serendipity.example("room2"), discount="0.9", time_limit=20)
+    answer = session.plan()
+    for epoch in (1, 2):
+        session.execute(step.action for step in answer.plan or () if step.epoch == epoch)
+    return session
+
+
+def written(session: Session) -> dict[str, Any]:
+    """A snapshot that has been to a file."""
+    read: dict[str, Any] = json.loads(json.dumps(session.snapshot()))
+    return read
+
+
+def test_a_restored_session_goes_on_where_the_other_stood() -> None:
+    session = begun()
+    restored = Session.restore(serendipity.example("room2"), written(session))
+    assert restored.task.init == session.task.init
+    assert (restored.human_plan, restored.rest) == (session.human_plan, session.rest)
+    assert written(restored) == written(session)
+    answer = restored.plan()
+    assert (answer.status, answer.statistics["expanded"]) == ("optimal", 0)
+    assert answer.cost == session.plan().cost
+    assert restored.plan(discount=0).options.time_limit == 20
+
+
+def test_options_of_the_snapshot_give_way() -> None:
+    restored = Session.restore(serendipity.example("room2"), written(begun()), discount=0)
+    assert restored.plan().options.discount == 0
+
+
+def test_a_goal_and_facts_that_were_seen_are_kept() -> None:
+    task = serendipity.example("room2")
+    session = Session(task)
+    session.set_goal(["conducted_triage commx room3"])
+    session.change({"at robot room4": False, "at robot room2": True})
+    restored = Session.restore(task, written(session))
+    assert (restored.task.init, restored.task.goal) == (session.task.init, session.task.goal)
+    assert restored.plan().cost == session.plan().cost
+
+
+def test_a_head_start_of_a_call_is_kept() -> None:
+    task = serendipity.example("office")
+    late = [(epoch + 4, name) for epoch, name in serendipity.plan(task).human_entries or ()]
+    session = Session(task, human_plan=late)
+    session.plan(head_start=3)
+    restored = Session.restore(task, written(session))
+    for _ in range(4):
+        session.execute([])
+        restored.execute([])
+        assert restored.human_plan == session.human_plan
+        assert written(restored) == written(session)
+
+
+def test_what_is_no_snapshot_of_the_task_is_refused() -> None:
+    whole = written(begun())
+    with pytest.raises(InputError, match=r"snapshot: it is of another task"):
+        Session.restore(serendipity.example("parcels"), whole)
+    with pytest.raises(InputError, match=r"snapshot: schema: 'serendipity.session/9' is newer"):
+        Session.restore(serendipity.example("room2"), {**whole, "schema": "serendipity.session/9"})
+    with pytest.raises(serendipity.PlanError, match="human plan, step 1: there is no action 'x' in the task"):
+        Session.restore(serendipity.example("room2"), {**whole, "human_plan": ["x"]})
+    wrong = {"facts": 3, "goal": None, "options": [], "answers": [{}], "predicted": None, "human_plan": 7}
+    for name in ("facts", "goal", "human_plan", "options", "answers"):
+        for bad in ({k: v for k, v in whole.items() if k != name}, {**whole, name: wrong[name]}):
+            with pytest.raises(serendipity.SerendipityError) as caught:
+                Session.restore(serendipity.example("room2"), bad)
+            assert "\n" not in str(caught.value)
+
+
+def test_what_can_not_be_written_is_refused() -> None:
+    task = build(goal="done", actions={"do h": "-> done", "help r": "-> done"})
+    with pytest.raises(UsageError, match="snapshot: visible is no plain value"):
+        Session(task, visible=lambda *_: True).snapshot()

@@ -1,4 +1,4 @@
-"""Files that another distribution has installed among ours are noticed by the lists of what was installed."""
+"""Packages of others by our names, and files among ours, are noticed: by the lists of what was installed."""
 
 import os
 import shutil
@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 OURS = ("serendipity", "search", "verify")
-PROGRAM = "import serendipity\ntry: serendipity.plan\nexcept ImportError as error: print(error)"
+PROGRAM = "import serendipity\ntry: serendipity.plan\nexcept ImportError as error: print(error.name, error)"
 
 
 @pytest.fixture
@@ -38,11 +38,12 @@ def _add(home: Path, name: str, *paths: str) -> None:
     _record(home, name, files)
 
 
-def _run(home: Path, *arguments: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+def _run(*path: Path, words: str = "", cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """The program with these folders to import from, or a command line of ours."""
     return subprocess.run(
-        [sys.executable, *arguments],
-        env=os.environ | {"PYTHONPATH": str(home)},
-        cwd=cwd or home.parent,
+        [sys.executable, *(["-m", "serendipity", words] if words else ["-c", PROGRAM])],
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(map(str, path))},
+        cwd=cwd or path[0].parent,
         capture_output=True,
         text=True,
     )
@@ -50,7 +51,7 @@ def _run(home: Path, *arguments: str, cwd: Path | None = None) -> subprocess.Com
 
 def test_nobody_else_is_no_complaint(installed: Path) -> None:
     (installed / "verify" / "notes.py").touch()  # of nobody's list: the user's own business
-    assert _run(installed, "-c", PROGRAM).stdout == ""
+    assert _run(installed).stdout == ""
 
 
 @pytest.mark.parametrize(
@@ -65,23 +66,23 @@ def test_another_distribution_is_named_with_what_to_do(
     name: str, paths: tuple[str, ...], installed: Path
 ) -> None:
     _add(installed, name, *paths)
-    said = _run(installed, "-c", PROGRAM).stdout
+    _, _, said = _run(installed).stdout.partition(" ")
     assert said.startswith(f"{name} 1.1.1 has put files among those of serendipity-planner in {installed}: ")
     assert f"`pip uninstall {name}`, and then `pip install --force-reinstall" in said
-    done = _run(installed, "-m", "serendipity", "examples")
+    done = _run(installed, words="examples")
     assert (done.returncode, done.stdout, done.stderr) == (2, "", f"Error: {said}")
 
 
 def test_the_command_notices_that_the_package_is_another_ones(installed: Path) -> None:
     _add(installed, "serendipity", "serendipity/__init__.py")
-    done = _run(installed, "-m", "serendipity", "examples")
+    done = _run(installed, words="examples")
     assert done.returncode == 2
     assert done.stderr.startswith("Error: serendipity 1.1.1 has put files among those of serendipity-planner")
 
 
 def test_what_an_uninstaller_took_is_to_be_installed_again(installed: Path) -> None:
     (installed / "verify" / "__init__.py").unlink()
-    done = _run(installed, "-m", "serendipity", "examples")
+    done = _run(installed, words="examples")
     assert done.returncode == 2
     assert done.stderr.endswith("again, `pip install --force-reinstall --no-deps serendipity-planner`\n")
     assert done.stderr.count("\n") == 1
@@ -89,4 +90,21 @@ def test_what_an_uninstaller_took_is_to_be_installed_again(installed: Path) -> N
 
 def test_a_file_in_the_working_folder_does_not_come_before_ours(tmp_path: Path) -> None:
     (tmp_path / "search.py").write_text("raise SystemExit('the stranger ran')")
-    assert _run(ROOT, "-m", "serendipity", "examples", cwd=tmp_path).returncode == 0
+    assert _run(ROOT, words="examples", cwd=tmp_path).returncode == 0
+
+
+@pytest.mark.parametrize("name", ["search", "verify"])
+@pytest.mark.parametrize("kind", ["package", "module", "namespace"])
+def test_a_strangers_package_is_refused_by_name(name: str, kind: str, tmp_path: Path) -> None:
+    folder = tmp_path / name
+    if kind != "module":
+        folder.mkdir()
+    if kind != "namespace":
+        file = folder / "__init__.py" if kind == "package" else folder.with_suffix(".py")
+        file.write_text("raise SystemExit('the stranger ran')")
+    done = _run(tmp_path, ROOT, cwd=tmp_path)
+    if kind == "namespace":  # Python itself prefers our package to a folder without __init__.py
+        assert (done.returncode, done.stdout) == (0, "")
+    else:
+        assert done.stdout.startswith(f"{name} serendipity needs its own package '{name}'")
+        assert str(tmp_path) in done.stdout and "uninstall or rename" in done.stdout

@@ -1,4 +1,7 @@
-"""What is of another type gets one sentence that names it, whatever is called, and no error of Python's."""
+"""Calls that can't be answered, or not yet, say so in one line.
+
+What is of another type gets one sentence that names it, whatever is called, and no error of Python's.
+"""
 
 import inspect
 from collections.abc import Callable
@@ -9,8 +12,85 @@ import numpy as np
 import pytest
 
 import serendipity
-from serendipity import Execution, Options, Result, SerendipityError, Session, Task, UsageError
-from serendipity.testing.builders import task as built
+from serendipity import Execution, Options, Result, Script, SerendipityError, Session, Task, UsageError
+from serendipity.testing.builders import task
+
+PAYING = {"nobody_pays": True}
+NOTICED = {"noticed": True}
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (PAYING | {"mode": "assistance"}, "nobody_pays: is not known of mode 'assistance', nor of humans"),
+        (PAYING | {"human_model": "observant"}, "nobody_pays: is not known of mode 'assistance'"),
+        (PAYING | {"mode": "composite", "horizon": "inf"}, "nobody_pays: needs a horizon"),
+        ({"nobody_pays": "yes"}, "nobody_pays: expected true or false, got 'yes'"),
+        ({"leave_free": 3}, "leave_free: expected patterns apart by commas, got 3"),
+        ({"leave_price": "at *"}, "leave_price: expected patterns such as dirty"),
+        ({"leave_price": "at *=-1"}, r"leave_price: at \*: expected at least 0, got -1"),
+        ({"leave_price": "at *=x"}, r"leave_price: at \*: "),
+        ({"leave_price": 3}, "leave_price: expected patterns with prices"),
+        ({"leave_price": "*=1", "mode": "composite", "horizon": "inf"}, "leave_price: needs a horizon"),
+        ({"max_disturbance": -1}, "max_disturbance: expected a number of at least 0, got -1"),
+        ({"max_disturbance": 1, "mode": "assistance"}, "max_disturbance: is not known of mode 'assistance'"),
+        ({"disturbance": "ask=x"}, "disturbance: ask: "),
+        (NOTICED | {"mode": "composite"}, "noticed: goes with mode serendipity only"),
+        (NOTICED | {"suffix": "subplan"}, "noticed: goes with suffix replan only"),
+    ],
+    ids=str,
+)
+def test_rules_of_help_go_with_some_options_only(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(UsageError, match=message):
+        serendipity.plan(serendipity.example("room2"), **options)
+
+
+WALK = {
+    "go ann": "at_ann_p0 !shut -> at_ann_p1 !at_ann_p0 @ 1",
+    "work ann": "at_ann_p1 -> done @ 5",
+    "work-lit ann": "at_ann_p1 lit_p0 -> done @ 1",
+    "light bot": "!shut -> lit_p0 @ 0",
+    "shut cat": "-> shut @ 0",
+}
+
+
+@pytest.mark.parametrize(
+    ("robot_goal", "moved", "options", "message"),
+    [
+        ("lit_p0", [], PAYING | {"suffix": "subplan"}, "it goes with suffix replan only; nobody_pays=False"),
+        ("", [(1, "!at_ann_p0"), (1, "at_ann_p1")], NOTICED, "noticed: where somebody else moves the human"),
+        (
+            "",
+            [],
+            {"max_disturbance": 0, "interference": "strict"},
+            r"where several ask for a fact to be false \('shut'\) is not known",
+        ),
+    ],
+    ids=str,
+)
+def test_rules_of_help_go_with_some_tasks_only(
+    robot_goal: str, moved: list[tuple[int, str]], options: dict[str, Any], message: str
+) -> None:
+    walk = task(
+        agents="ann bot cat", human="ann", init="at_ann_p0", goal="done", robot_goal=robot_goal, actions=WALK
+    )
+    with pytest.raises(UsageError, match=message):
+        serendipity.plan(walk.with_script(Script(facts=moved)), discount="0.5", window_weight=0, **options)
+
+
+def test_scenarios_in_time_refuse_what_is_not_settled() -> None:
+    one = task(goal="done", actions={"do h": " -> done @ 1 [2]", "help r": " -> done"})
+    goals = [{"name": name, "goal": ["done"]} for name in "ab"]
+    plans = [{"probability": 1, "plan": [[epoch, "do h"]]} for epoch in (1, 2)]
+    with pytest.raises(UsageError, match="noise: where a script or durations count"):
+        serendipity.plan(one, goals=goals, observed=["do h"], noise="miss=0.1")
+    for name, value in {"head_start": 1, "waiting_cost": 1, "suffix": "subplan"}.items():
+        with pytest.raises(UsageError, match=f"{name}: in time, with several goals or plans, only"):
+            serendipity.plan(one, plans=plans, **{name: value})
+    undone = one.with_script(Script(facts=[(4, "!done")]))
+    with pytest.raises(UsageError, match=r"plan 'plan 1' does not last until epoch 4: the goal"):
+        serendipity.plan(undone, plans=plans, horizon=4)
+
 
 WRONG: dict[str, tuple[Callable[[Task], Any], str]] = {
     "no task": (lambda _: serendipity.plan(None), "task: expected a Task"),  # type: ignore[arg-type]
@@ -57,7 +137,7 @@ MORE_OPTIONS = set(Options().to_dict()) - _TRIED
 """They are read as those are."""
 
 
-TASK = built(goal="g", actions={"do h": "!g -> g", "spare r": "!p -> p"})
+TASK = task(goal="g", actions={"do h": "!g -> g", "spare r": "!p -> p"})
 RESULT = serendipity.plan(TASK)
 GOALS = [{"name": "a", "goal": ["g"]}]
 
