@@ -57,6 +57,16 @@ def test_who_could_be_the_human_is_said(pair: tuple[Path, Path], run: Runs) -> N
     assert_one_line(run(f"plan {delivery / 'domain.pddl'} {delivery / 'problem.pddl'}"), *words)
 
 
+@pytest.fixture(scope="module")
+def result() -> str:
+    """A good result of the example room2."""
+    return serendipity.plan(serendipity.example("room2"), discount=0.6).to_json()
+
+
+CLIP = "--clip: expected --adapter pybullet, and a single run"
+OF_ITS_OWN = "--study: has scenarios, conditions and records of its own"
+
+
 @pytest.mark.parametrize(
     ("command", "words"),
     [
@@ -109,10 +119,81 @@ def test_who_could_be_the_human_is_said(pair: tuple[Path, Path], run: Runs) -> N
         ("bench --rooms 4 --seeds 1 --scaling width", ["width"]),
         ("bench --rooms 4 --seeds 1 here --scaling rooms", ["--scaling"]),
         ("bench --rooms 4 --seeds 1 --contenders search,guess", ["guess"]),
+        (
+            "front --example room2 --disturbance nag=1",
+            ["disturbance: expected weights such as ask=1", "'nag=1'"],
+        ),
+        ("front --example room2 --observed goals.txt", ["--observed: goes with --goals only"]),
+        ("front --example room2 -o front.png", ["-o: is for text and data", "--picture front.png"]),
+        ("show --example room2 help.json", ["-o", ".html"]),
+        ("show --example room2 help.json -o help.gif", ["-o", "help.gif"]),
+        ("show --example room2 help.json -o help.html --epoch 3", ["--epoch"]),
+        ("show --example room2 help.json -o help.svg --epoch 99", ["epoch", "99"]),
+        ("show --example room2 help.json -o help.svg --scenario attic", ["scenario", "none", "attic"]),
+        ("show --example room7 help.json -o help.svg", ["help.json", "not applicable"]),
+        ("show --example room2 absent.json -o help.svg", ["absent.json"]),
+        ("show --example room2 help.json -o absent/help.svg", ["-o", "absent"]),
+        ("simulate --example room2 help.json --human-model psychic", ["human_model: expected one of"]),
+        ("simulate --example room2 missing.json", ["can't be read"]),
+        ("simulate help.json domain.pddl", ["expected TASK and then RESULT.json"]),
+        ("execute --example room2 --human recorded", ["expected recorded:FILE, or the FILE behind TASK"]),
+        ("execute --example room2 --human recorded:nowhere", ["nowhere: there is no such file"]),
+        ("execute --example room2 --goals nowhere", ["nowhere: there is no such file"]),
+        ("execute --example room2 --noise wrong=0.1", ["noise: goes with goals only"]),
+        ("execute --example room2 --plans nowhere", ["nowhere: there is no such file"]),
+        (
+            "execute --example room2 --plans nowhere --human-model local",
+            ["human_model: with plans only 'omniscient' is possible"],
+        ),
+        ("execute --example room2 --discount 2", ["discount: expected a number in [0, 1]"]),
+        ("execute --example room2 --format xml", ["--format: expected one of text, json, csv"]),
+        ("execute --example room2 --replay nowhere", ["nowhere: there is no such file"]),
+        ("execute --example room2 --log no/where", ["--log: there is no folder no"]),
+        ("execute --example room2 --person nobody", ["nobody"]),
+        ("execute --example room2 --clip walk.gif", [CLIP]),
+        ("execute --example room2 --clip walk.gif --adapter pybullet --runs 2", [CLIP]),
+        ("execute --example room2 --clip walk.mp4 --adapter pybullet", ["ends in one of .gif, .png, .webp"]),
+        ("execute --example room2 --clip no/where.gif --adapter pybullet", ["--clip: there is no folder no"]),
+        ("recognise --example room2 --goals goals.txt --noise miss", ["some of miss=P,wrong=P, got 'miss'"]),
+        (
+            "recognise --example room2 --goals goals.txt --noise wrong=2",
+            ["wrong: expected a probability"],
+        ),
+        ("recognise --example room2 --goals goals.txt --noise odd=0.1", ["noise: expected some of miss=P,"]),
+        ("learn --example room2 absent.csv", ["absent.csv", "no such file"]),
+        ("learn --example room2 .", ["TASK and then TRACES"]),
+        ("check-task --example room9", ["room9"]),
+        ("serve --port 70000", ["--port: expected a number from 0 to 65535"]),
+        ("serve --host 192.0.2.1 --token-file none", ["none: can't be read"]),
+        ("serve --host 0.0.0.0", ["--host: others can reach 0.0.0.0, so a token is needed"]),
+        ("serve --workers 0", ["--workers: expected at least 1"]),
+        ("serve --queue -1", ["--queue: expected at least 0"]),
+        ("serve --time-limit x", ["time_limit: expected seconds"]),
+        ("serve --time-limit inf", ["time_limit: expected seconds"]),
+        ("play --view x", ["--view: expected one of observant, local"]),
+        ("play --robots-are x", ["--robots-are: expected one of none, silent, announced"]),
+        ("play --discount 2", ["discount: expected a number in [0, 1]"]),
+        ("play --study here --rounds 0", ["--rounds: expected a number from 1 to 50"]),
+        ("play --study here --example room2", [OF_ITS_OWN]),
+        ("play --study here --goals x", [OF_ITS_OWN]),
+        ("play --study here --robots-are none", [OF_ITS_OWN]),
+        ("play --study here --records there", [OF_ITS_OWN]),
+        ("play --report", ["--report: goes with --study"]),
+        ("play --allow-host x", ["--allow-host: goes with --study"]),
+        ("play --labels none.toml", ["none.toml: can't be read"]),
+        ("play --study goals.txt/x", ["--study: "]),
+        ("play --records goals.txt/x", ["--records: "]),
+        ("play --goals none.txt", ["none.txt: "]),
+        ("play --example nowhere", ["example: expected one of"]),
+        ("play --port -1", ["--port: expected a number"]),
     ],
 )
-def test_wrong_usage(command: str, words: list[str], run: Runs) -> None:
+def test_wrong_usage(command: str, words: list[str], result: str, run: Runs, tmp_path: Path) -> None:
+    files = {"goals.txt": "1: conducted_triage commx room1\n", "help.json": result}
+    for name, text in files.items():
+        Path(name).write_text(text)
     assert_one_line(run(command), *words)
+    assert {path.name: path.read_text() for path in tmp_path.iterdir() if path.is_file()} == files
 
 
 Answer = dict[str, object]

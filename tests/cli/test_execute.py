@@ -3,8 +3,6 @@
 import json
 from pathlib import Path
 
-import pytest
-
 from tests.cli.conftest import Runs, assert_one_line
 
 CALL = "execute --example room2 --discount 0.6"
@@ -57,27 +55,6 @@ def test_a_record_may_stand_behind_the_task(run: Runs) -> None:
         for words in ("recorded record", "recorded:record")
     )
     assert first == second and first.startswith("epoch 1: commx waits\n")
-
-
-@pytest.mark.parametrize(
-    ("arguments", "complaint"),
-    [
-        ("--human recorded", "expected recorded:FILE, or the FILE behind TASK"),
-        ("--human recorded:nowhere", "nowhere: there is no such file"),
-        ("--goals nowhere", "nowhere: there is no such file"),
-        ("--noise wrong=0.1", "noise: goes with goals only"),
-        ("--plans nowhere", "nowhere: there is no such file"),
-        ("--plans nowhere --human-model local", "human_model: with plans only 'omniscient' is possible"),
-        ("--discount 2", "discount: expected a number in [0, 1]"),
-        ("--format xml", "--format: expected one of text, json, csv"),
-        ("--replay nowhere", "nowhere: there is no such file"),
-        ("--log no/where", "--log: there is no folder no"),
-        ("--person nobody", "nobody"),
-    ],
-)
-def test_wrong_input_is_one_line(run: Runs, arguments: str, complaint: str) -> None:
-    told = run(f"execute --example room2 {arguments}")
-    assert told.code == 2 and complaint in told.err and told.err.count("\n") == 1
 
 
 def test_a_person_who_is_not_named_is_asked_for_by_the_commands_own_option(run: Runs) -> None:

@@ -271,42 +271,6 @@ def test_wrong_labels_are_one_line(text: str, said: str, tmp_path: Path) -> None
 # -- the command
 
 
-@pytest.mark.parametrize(
-    ("words", "start"),
-    [
-        (["--view", "x"], "--view: expected one of observant, local"),
-        (["--robots-are", "x"], "--robots-are: expected one of none, silent, announced"),
-        (["--discount", "2"], "discount: expected a number in [0, 1]"),
-        (["--study", "here", "--rounds", "0"], "--rounds: expected a number from 1 to 50"),
-        (
-            ["--study", "here", "--example", "room2"],
-            "--study: has scenarios, conditions and records of its own",
-        ),
-        (["--study", "here", "--goals", "x"], "--study: has scenarios, conditions and records of its own"),
-        (["--study", "here", "--robots-are", "none"], "--study: has scenarios, conditions and records"),
-        (["--study", "here", "--records", "there"], "--study: has scenarios, conditions and records"),
-        (["--report"], "--report: goes with --study"),
-        (["--allow-host", "x"], "--allow-host: goes with --study"),
-        (["--labels", "none.toml"], "none.toml: can't be read"),
-        (["--study", "{file}/x"], "--study: "),
-        (["--records", "{file}/x"], "--records: "),
-        (["--goals", "none.txt"], "none.txt: "),
-        (["--example", "nowhere"], "example: expected one of"),
-        (["--port", "-1"], "--port: expected a number"),
-    ],
-)
-def test_wrong_words_are_one_line(
-    words: list[str], start: str, tmp_path: Path, capsys, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "file").write_text("")
-    given = [word.replace("{file}", str(tmp_path / "file")) for word in words]
-    assert main(["play", "--quiet", *given]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith(f"Error: {start}")
-    assert said.count("\n") == 1
-
-
 @pytest.mark.long
 def test_what_was_played_outlives_a_server_that_is_killed() -> None:
     with serving(command="play") as server:

@@ -112,20 +112,3 @@ def test_without_bullet_one_line_says_what_to_install(room2: Task, monkeypatch: 
     monkeypatch.setitem(sys.modules, "pybullet", None)
     with pytest.raises(UsageError, match=r"need pybullet: pip install serendipity-planner\[robot\]"):
         physics.Stage(room2)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "complaint"),
-    [
-        ("--clip walk.gif", "--clip: expected --adapter pybullet, and a single run"),
-        (
-            "--clip walk.gif --adapter pybullet --runs 2",
-            "--clip: expected --adapter pybullet, and a single run",
-        ),
-        ("--clip walk.mp4 --adapter pybullet", "clip: expected a name that ends in one of .gif, .png, .webp"),
-        ("--clip no/where.gif --adapter pybullet", "--clip: there is no folder no"),
-    ],
-)
-def test_wrong_input_is_one_line(run: Runs, arguments: str, complaint: str) -> None:
-    result = run(f"execute --example room2 {arguments}")
-    assert result.code == 2 and complaint in result.err and result.err.count("\n") == 1
