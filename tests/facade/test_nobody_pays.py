@@ -21,6 +21,7 @@ from serendipity.testing.oracle.answers import Solver
 from serendipity.testing.strategies import calls, calls_among_people
 from serendipity.testing.strategies.time import bystander_tasks, calls_in_time
 from tests.facade.brute_force import policy_as_brute_force_has_it
+from tests.search.exact_answers import proved
 from tests.search.modes.scenarios.strategies import options_over, scenarios
 
 _MODES = ("serendipity", "serendipity", "communication", "composite")
@@ -46,13 +47,6 @@ def tea() -> Task:
     wants = Condition((kitchen.facts.index("drunk"),))
     kitchen = replace(kitchen, own_goals=((carol, wants),), known_variables=kitchen.variables)
     return kitchen.with_script(Script(people={"c": [(3, "wait-for-it c"), (4, "drink c")]}))
-
-
-def proved(task: Task, **options: Any) -> Result:
-    answer = serendipity.plan(task, **options)
-    certificate = serendipity.verify(task, answer)
-    assert certificate.verdict == "proved", certificate
-    return answer
 
 
 def brings(answer: Result) -> list[str]:
@@ -184,8 +178,7 @@ def as_brute_force(call: Call) -> None:
         return
     assert figures(answer) == figures(expected)
     assert serendipity.check(call.task, answer).refuted is None
-    verdict = serendipity.verify(call.task, answer).verdict
-    assert verdict == "proved"
+    assert serendipity.verify(call.task, answer).verdict == "proved"
 
 
 def all_agree(call: Call) -> None:

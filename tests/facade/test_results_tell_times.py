@@ -18,6 +18,7 @@ from serendipity.model.task.plans_in_time import times_of
 from serendipity.testing.builders import task
 from serendipity.testing.call import Call
 from serendipity.testing.strategies.time import calls_in_time
+from tests.search.exact_answers import proved
 
 DAY = {
     "walk h": "bed -> !bed / door @ 3 [2]",
@@ -126,9 +127,7 @@ PLAIN = task(goal="done", actions={"do h": " -> done", "help r": " -> done"})
 
 
 def test_waiting_and_a_head_start_are_played() -> None:
-    waiting = serendipity.plan(PLAIN, human_plan=[(3, "do h")])
-    assert serendipity.verify(PLAIN, waiting).verdict == "proved"
-    for answer in (waiting, serendipity.plan(PLAIN, head_start=2)):
+    for answer in (proved(PLAIN, human_plan=[(3, "do h")]), serendipity.plan(PLAIN, head_start=2)):
         assert (answer.status, answer.horizon) == ("optimal", 3)
         played = serendipity.simulate(PLAIN, answer)
         assert played.realised and [epoch.did for epoch in played.epochs] == [None, None, "do h"]

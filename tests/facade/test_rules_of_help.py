@@ -21,6 +21,7 @@ from serendipity.testing.oracle import best
 from serendipity.testing.strategies.time import tasks_in_time
 from tests.facade.brute_force import RULES, proved_as_brute_force_has_it
 from tests.facade.rooms import rooms, rooms_in_time
+from tests.search.exact_answers import proved
 
 _ASKED = {
     "discount": st.sampled_from(["0.5", "0.9", "1"]),
@@ -149,8 +150,7 @@ def test_who_has_left_their_plan_goes_on_with_what_they_begin(ties: str) -> None
     ways = {"walk h": "-> b !a @ 3", "go h": "b -> c !b [2]", "end h": "c -> d", "jump h": "k -> c"}
     help_ = {"carry h r": "-> b !a", "open r": "-> k"}
     carried = build(agents="h r", human="h", init="a", goal="d", actions=ways | help_)
-    answer = serendipity.plan(carried, leave_free="nothing", noticed=True, ties=ties)
-    assert (answer.cost, serendipity.verify(carried, answer).verdict) == (3, "proved")
+    assert proved(carried, leave_free="nothing", noticed=True, ties=ties).cost == 3
 
 
 def test_who_passes_by_is_in_nobodys_way() -> None:
@@ -166,9 +166,7 @@ def test_who_passes_by_is_in_nobodys_way() -> None:
     asked = {"discount": "0", "window_weight": 0, "max_disturbance": 0}
     costs = {}
     for interference in ("paper", "strict"):
-        answer = serendipity.plan(task, **asked, interference=interference)
-        assert serendipity.verify(task, answer).verdict == "proved"
-        costs[interference] = answer.cost
+        costs[interference] = proved(task, **asked, interference=interference).cost
     assert costs == {"paper": 2, "strict": 3}
 
 
@@ -223,12 +221,10 @@ def test_what_a_given_plan_wastes_is_told_where_something_is_put_back(mode: str)
             "back r": "away -> home !away @ 0",
         },
     )
-    answer = serendipity.plan(
-        task, mode=mode, human_plan=["wait h", "wait h", "long h"], leave_price="home=2, *=0.5"
-    )
+    plan = ["wait h", "wait h", "long h"]
+    answer = proved(task, mode=mode, human_plan=plan, leave_price="home=2, *=0.5")
     assert answer.statistics["left"] == {"open": 0.5}
     assert (answer.cost, answer.saving, answer.saving_alone) == (2.5, 6.5, 1)
-    assert serendipity.verify(task, answer).verdict == "proved"
 
 
 def messy() -> Task:
@@ -246,15 +242,12 @@ def messy() -> Task:
 
 def test_what_the_human_would_do_alone_has_no_price() -> None:
     """They gain 1 alone, whatever they leave then; help that costs 8.7 is no match for that."""
-    options = Options(discount="1", window_weight=0, leave_price="mess=3, *=0.5")
-    answer = serendipity.plan(
-        messy(), human_plan=["long h"], discount="1", window_weight=0, leave_price="mess=3, *=0.5"
-    )
+    asked = {"discount": "1", "window_weight": 0, "leave_price": "mess=3, *=0.5"}
+    answer = proved(messy(), human_plan=["long h"], **asked)
     assert (answer.cost, answer.opportunity, answer.saving_alone) == (9, False, 1)
     plan = (next(i for i, action in enumerate(messy().actions) if action.name == "long h"),)
-    expected = best(messy(), options, plan)
+    expected = best(messy(), Options(**asked), plan)
     assert (expected.cost, expected.opportunity, expected.saving_alone) == (9, False, 1)
-    assert serendipity.verify(messy(), answer).verdict == "proved"
 
 
 def test_a_price_that_makes_help_a_tie_is_proved() -> None:
@@ -272,8 +265,7 @@ def test_a_price_that_makes_help_a_tie_is_proved() -> None:
     )
     asked = {"discount": "0.9", "window_weight": 0, "leave_price": "*=0.3"}
     for mode in ("composite", "communication", "serendipity"):
-        answer = serendipity.plan(built, mode=mode, **asked)
+        answer = proved(built, mode=mode, **asked)
         assert (answer.cost, answer.saving, answer.opportunity) == (4, 0, False)
-        assert serendipity.verify(built, answer).verdict == "proved"
         for told in (replace(answer, saving=0.5), replace(answer, opportunity=True)):
             assert serendipity.verify(built, told).verdict == "refuted"
