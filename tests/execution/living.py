@@ -6,6 +6,7 @@ from typing import Any
 
 from serendipity.execution import Execution, LogLine, Omniscient, Person, log_lines, moment_of, replay
 from serendipity.model import Condition, Task
+from serendipity.testing.oracle import human_plans
 from verify.base.optimal_plans import OptimalPlans
 
 MOST_EPOCHS = 60
@@ -29,6 +30,15 @@ def lived(run: Execution, person: Person, most: int = MOST_EPOCHS) -> Execution:
 def told(task: Task, **settings: Any) -> Execution:
     """The same with somebody who keeps to the robots' plan."""
     return lived(Execution(task, told=True, **{"discount": "0.9", **settings}), Omniscient(task))
+
+
+def arrives(task: Task, run: Execution, person: Person) -> None:
+    """Go on to the goal; nobody pays more than alone, and no bystander is disturbed."""
+    plan = next(human_plans(task), None)
+    lived(run, person)
+    if plan is not None:
+        assert run.done and run.human_cost <= task.cost_of(plan)
+        assert not any(missed.why == "broken" for passed in run.passed for missed in passed.unfinished)
 
 
 def verdicts(run: Execution) -> list[str]:

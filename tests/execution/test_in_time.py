@@ -1,8 +1,8 @@
 """Executions in time: actions go on, a script goes by, and nobody pays for help (semantics 10.6)."""
 
 import json
-from collections.abc import Sequence
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 from random import Random
 
@@ -13,11 +13,12 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.execution import Execution, log_lines, moment_of, person_of
 from serendipity.model import Condition, InputError, Script, Task
-from serendipity.robot import Epoch, Report, Simulated
+from serendipity.robot import Report, Simulated
 from serendipity.testing.builders import Builder
 from serendipity.testing.oracle import human_plans
 from serendipity.testing.strategies.time import tasks_in_time
-from tests.execution.living import lived, lived_short_of_a_robot, replayed, verdicts
+from tests.execution.living import arrives, lived_short_of_a_robot, replayed, verdicts
+from tests.execution.test_adapters import Scripted
 
 DISCOUNTS = st.sampled_from(["0", "0.5", "0.9", "1"])
 SEEDS = st.integers(0, 2**32)
@@ -27,37 +28,28 @@ def _without_robot_goals(task: Task) -> Task:
     return task.with_goal(task.goal, Condition())
 
 
-def _arrives(task: Task, run: Execution, human: str = "observant", dice: Random | None = None) -> None:
-    """Go on to the goal; nobody pays more than alone, and no bystander is disturbed."""
-    plan = next(human_plans(task), None)
-    lived(run, person_of(task, human, dice))
-    if plan is None:
-        return
-    assert run.done and run.human_cost <= task.cost_of(plan)
-    assert not any(missed.why == "broken" for passed in run.passed for missed in passed.unfinished)
-    if human == "omniscient":
-        assert run.cost <= task.cost_of(plan)
-
-
 @pytest.mark.long
 @given(tasks_in_time(), DISCOUNTS)
 def test_who_follows_the_plan_that_robots_expect_never_pays_more(task: Task, discount: str) -> None:
     task = _without_robot_goals(task)
-    _arrives(task, Execution(task, discount=discount))
+    arrives(task, Execution(task, discount=discount), person_of(task))
 
 
 @pytest.mark.long
 @given(tasks_in_time(), DISCOUNTS, SEEDS)
 def test_who_follows_any_optimal_plan_never_pays_more(task: Task, discount: str, seed: int) -> None:
     task = _without_robot_goals(task)
-    _arrives(task, Execution(task, discount=discount), dice=Random(seed))
+    arrives(task, Execution(task, discount=discount), person_of(task, dice=Random(seed)))
 
 
 @pytest.mark.long
 @given(tasks_in_time(), DISCOUNTS)
 def test_who_is_told_and_the_team_never_pay_more(task: Task, discount: str) -> None:
     task = _without_robot_goals(task)
-    _arrives(task, Execution(task, discount=discount, told=True), "omniscient")
+    run = Execution(task, discount=discount, told=True)
+    arrives(task, run, person_of(task, "omniscient"))
+    for plan in islice(human_plans(task), 1):
+        assert run.cost <= task.cost_of(plan)
 
 
 @pytest.mark.long
@@ -78,7 +70,7 @@ def test_the_days_of_the_guide_happen(name: str, team: int, hers: int, human: st
     assert "goes on with" in told and "helps:" in told
 
 
-def _two_days() -> Builder:
+def _box(script: Script | None = None) -> Task:
     """Ann needs a box that she may carry up in 4 epochs, or that a robot brings within 3."""
     made = Builder(("ann", "bot", "carol"))
     made.named("carry ann", (0,), "below free / below / ", "above !below", "4", 4)
@@ -87,34 +79,13 @@ def _two_days() -> Builder:
     made.named("block ann", (0,), "free", "!free", "0")
     made.named("sweep carol", (2,), "free / free /", "clean", "1", 3)
     made.named("leave carol", (2,), "clean", "gone", "1")
-    return made
-
-
-def _box(script: Script | None = None) -> Task:
-    built = _two_days().task("below free", "above")
+    built = made.task("below free", "above")
     return built if script is None else built.with_script(script)
 
 
-class _Reporting:
-    """Robots that report, epoch by epoch, what they are told to."""
-
-    def __init__(self, outcomes: Sequence[str]) -> None:
-        self.outcomes = list(outcomes)
-        self.asked: list[tuple[str, int]] = []
-
-    def execute(self, epoch: Epoch) -> list[Report]:
-        if not epoch.orders:
-            return []
-        (order,) = epoch.orders
-        self.asked.append((order.action, order.epochs))
-        return [Report(self.outcomes.pop(0))]  # type: ignore[arg-type]
-
-    def close(self) -> None:
-        """Nothing is held."""
-
-
-def _brought(adapter: _Reporting | None = None) -> Execution:
-    """A run in which the robot brings the box, and Ann is told so."""
+def _brought(*outcomes: str) -> Execution:
+    """A run in which the robot brings the box, as it reports, and Ann is told so."""
+    adapter = Scripted(*map(Report, outcomes)) if outcomes else None  # type: ignore[arg-type]
     return Execution(_box(), discount="0.5", told=True, mode="communication", adapter=adapter)
 
 
@@ -132,21 +103,19 @@ def test_an_action_ends_when_its_time_is_over() -> None:
 
 
 def test_who_is_late_ends_later() -> None:
-    adapter = _Reporting(["running", "running", "running", "running", "done"])
-    run = _to_the_end(_brought(adapter))
-    assert len(run.passed) == 5 and adapter.asked == [("bring bot", 3)] * 5
+    run = _to_the_end(_brought("running", "running", "running", "running", "done"))
+    orders = [each.order for passed in run.passed for each in passed.reports]
+    assert [(order.action, order.epochs) for order in orders] == [("bring bot", 3)] * 5
     assert [missed.why for passed in run.passed for missed in passed.unfinished] == ["running"] * 2
 
 
 def test_who_is_early_waits_for_the_end() -> None:
-    adapter = _Reporting(["done"])
-    run = _to_the_end(_brought(adapter))
-    assert len(run.passed) == 3
+    run = _to_the_end(_brought("done"))
+    assert [len(passed.reports) for passed in run.passed] == [1, 0, 0]
 
 
 def test_what_fails_has_no_more_effect_and_robots_begin_again() -> None:
-    adapter = _Reporting(["running", "failed", "running", "running", "done"])
-    run = _to_the_end(_brought(adapter))
+    run = _to_the_end(_brought("running", "failed", "running", "running", "done"))
     assert len(run.passed) == 5 and run.cost == 2
 
 
@@ -194,7 +163,7 @@ def test_nobody_pays_for_robots_own_goals(task: Task, discount: str, seed: int, 
     fact = Random(seed).randrange(len(task.facts))
     task = task.with_goal(task.goal, Condition((), (fact,)) if seed % 2 else Condition((fact,)))
     dice = Random(seed) if human == "drawn" else None
-    _arrives(task, Execution(task, discount=discount), dice=dice)
+    arrives(task, Execution(task, discount=discount), person_of(task, dice=dice))
 
 
 def test_robots_finish_goals_of_their_own_when_the_person_is_there() -> None:

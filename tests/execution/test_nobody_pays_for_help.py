@@ -1,11 +1,14 @@
-"""Whatever robots do: a person who replans on sight reaches the goal and never pays more than alone."""
+"""Whatever robots do: a person who replans on sight reaches the goal and never pays more than alone.
+
+And robots know what that person does next.
+"""
 
 from random import Random
 
 from hypothesis import given
 from hypothesis import strategies as st
 
-from serendipity.execution import Execution, Replanner
+from serendipity.execution import Execution, Replanner, moment_of
 from serendipity.model import Task
 from serendipity.robot import Simulated
 from serendipity.testing.strategies import tasks, usar_tasks
@@ -48,3 +51,16 @@ def test_whose_robots_fail_and_drop_out(task: Task, discount: str, seed: int) ->
 def test_whose_goal_robots_do_not_know(task: Task, seed: int) -> None:
     goals = other_goals(task, Random(seed))
     live(task, Execution(task, discount="0.9", goals=goals), Replanner(task))
+
+
+@given(
+    st.one_of(tasks(), usar_tasks()), st.sampled_from(["observant", "local"]), st.sampled_from(["0.5", "0.9"])
+)
+def test_who_is_expected_to_do_what_they_do(task: Task, human_model: str, discount: str) -> None:
+    """Whatever was changed behind their back."""
+    run, person = Execution(task, discount=discount, human_model=human_model), Replanner(task, human_model)
+    while not run.done and run.epoch < 40:
+        plan, expected = run.decided.plan, run.decided.expected
+        passed = run.step(person.choose(moment_of(run)))
+        if plan is not None:
+            assert passed.human == (None if expected is None else expected.action)
