@@ -44,12 +44,13 @@ def opened(browser: Any) -> Iterator[Opened]:
     pages = []
 
     def opens(server: Server, width: int = 1440, height: int = 900, at: str = "") -> Any:
+        def elsewhere(url: str) -> list[str]:
+            return [] if server.url[7:] in url or url.startswith("data:") else [url]
+
         page = browser.new_page(viewport={"width": width, "height": height})
         page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
         page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.on(
-            "request", lambda asked: None if server.url[7:] in asked.url else complaints.append(asked.url)
-        )
+        page.on("request", lambda asked: complaints.extend(elsewhere(asked.url)))
         page.goto(server.url + at)
         pages.append(page)
         return page

@@ -1,19 +1,24 @@
-"""Clients that take their time, against a server in this process with little patience."""
+"""Clients that take their time, and pages that do not listen: they hold nobody up."""
 
+import asyncio
+import json
 import socket
 import threading
 import time
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 import uvicorn
-from fastapi import FastAPI
+from fastapi import FastAPI, WebSocketDisconnect
 from starlette.middleware import Middleware
 
 from serendipity.live.guards import connections
 from serendipity.live.guards.connections import ImpatientProtocol
 from serendipity.live.guards.middleware import BodyLimits
+from serendipity.live.play.application import _Pages
 from serendipity.live.service.answering import HANDLERS
+from serendipity.model import UsageError
 
 HEAD = "POST / HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n"
 
@@ -76,3 +81,52 @@ def test_nobody_is_waited_for_without_end(port: int, said: str, answer: bytes) -
 def test_which_addresses_only_this_machine_reaches(host: str, local: bool) -> None:
     assert connections.loopback(host) is local
     assert ("localhost" in connections.hosts(host)) is (local or host in ("0.0.0.0", "::"))
+
+
+class Room:
+    def view(self) -> dict[str, Any]:
+        return {}
+
+    def do(self, message: dict[str, Any]) -> dict[str, Any]:
+        if message["do"] == "refuse":
+            raise UsageError("no")
+        return {"kind": "answer"}
+
+
+class Socket:
+    """A page that says some things, and takes so many."""
+
+    def __init__(self, says: list[str], takes: int) -> None:
+        self.says = says
+        self.takes = takes
+        self.told: list[str] = []
+
+    async def accept(self) -> None:
+        pass
+
+    async def receive_text(self) -> str:
+        if not self.says:
+            raise WebSocketDisconnect
+        return json.dumps({"do": self.says.pop(0)})
+
+    async def send_json(self, message: dict[str, Any]) -> None:
+        if len(self.told) == self.takes:
+            await asyncio.Event().wait()
+        self.told.append(message["kind"])
+
+
+@pytest.mark.parametrize("asks", ["ask", "refuse"])
+def test_a_page_that_does_not_listen_holds_nobody_up(asks: str) -> None:
+    async def both() -> list[str]:
+        pages = _Pages(Room())  # type: ignore[arg-type]
+        deaf = asyncio.create_task(pages.serve(Socket([asks], takes=1)))  # type: ignore[arg-type]
+        await asyncio.sleep(0.1)
+        other = Socket(["ask", "refuse", "ask"], takes=9)
+        try:
+            async with asyncio.timeout(5):
+                await pages.serve(other)  # type: ignore[arg-type]
+        finally:
+            deaf.cancel()
+        return other.told
+
+    assert asyncio.run(both()) == ["view", "answer", "refused", "answer"]

@@ -9,6 +9,7 @@ import pytest
 import serendipity
 from serendipity.cli.app import main
 from serendipity.scenarios.examples import DATA
+from tests.live.conftest import Opened
 from tests.live.server import Server
 
 ROOM2 = {"example": "room2"}
@@ -159,3 +160,16 @@ def test_a_plan_with_times(server: Server) -> None:
     assert server.post("/plan", asked).json()["cost"] == 35
     wrong = server.post("/plan", {**asked, "human_plan": [[1, 2, 3]]})
     assert wrong.status_code == 422 and "human_plan" in wrong.json()["error"]
+
+
+@pytest.mark.browser
+def test_the_interface_is_described_and_can_be_tried_in_a_browser(server: Server, opened: Opened) -> None:
+    page = opened(server, at="/docs")
+    page.wait_for_selector(".opblock")
+    assert page.locator(".opblock").count() == 17
+    plan = "#operations-calls-plan_plan_post"
+    page.click(f"{plan} button.opblock-summary-control")
+    page.click(f"{plan} .try-out__btn")
+    page.fill(f"{plan} textarea", '{"task": {"example": "room2"}, "options": {"discount": 0.6}}')
+    page.click(f"{plan} .execute")
+    page.wait_for_selector(f'{plan} .live-responses-table :text("12.6")')
