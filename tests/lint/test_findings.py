@@ -17,7 +17,7 @@ from serendipity.testing.builders import task as built
 from serendipity.testing.strategies import tasks
 from serendipity.testing.strategies.time import bystander_tasks, scripted_tasks
 from tests.pddl.texts import action, domain, pair, problem
-from tests.show.test_wards import DATA
+from tests.show.conftest import WARDS
 
 Rules = Callable[..., dict[str, str]]
 
@@ -217,7 +217,7 @@ def test_requirements(
 
 
 def test_a_newcomers_domain() -> None:
-    files = (DATA / "domain.pddl", DATA / "problem.pddl")
+    files = (WARDS / "domain.pddl", WARDS / "problem.pddl")
     task = serendipity.load_pddl(*files, "eva", ["carta", "cartb"])
     report = serendipity.check_task(task, [files])
     assert {finding.rule: finding.level for finding in report.findings} == {

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
@@ -9,6 +10,8 @@ import serendipity
 from serendipity.model import Task
 from serendipity.pictures import Scene, build_scene
 from serendipity.testing import cases
+
+WARDS = Path(__file__).parent / "data" / "wards"
 
 
 def ground(task: Task) -> Task:

@@ -1,7 +1,10 @@
-"""A task that is written as a problem and read again has the optima that it had."""
+"""A task that is written as a problem and read again has the optima that it had.
+
+And what is read means what the problem says: optima are those that the library's own simulator finds.
+"""
 
 import pytest
-from unified_planning.engines import PlanGenerationResultStatus
+from unified_planning.engines import PlanGenerationResultStatus, SequentialPlanValidator
 from unified_planning.model.multi_agent import MultiAgentProblem
 
 import serendipity
@@ -10,6 +13,8 @@ from serendipity.testing.builders import task as build
 from serendipity.testing.generator.calls import random_call
 from serendipity.up import from_problem, to_plan, to_problem
 from serendipity.up.engine import SerendipityEngine
+from tests.up.oracle import least_cost
+from tests.up.problems import SINGLE
 
 OPTIONS: tuple[dict[str, object], ...] = (
     {"mode": "composite", "horizon": "inf"},
@@ -65,3 +70,24 @@ def test_names_that_look_alike_are_kept_apart() -> None:
     )
     again = from_problem(to_problem(task), **names(task))
     assert serendipity.plan(again, mode="composite", horizon="inf").cost == 2
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_optima_are_those_of_the_simulator(name: str) -> None:
+    problem = SINGLE[name]()
+    result = SerendipityEngine().solve(problem)
+    assert result.status == PlanGenerationResultStatus.SOLVED_OPTIMALLY
+    verdict = SequentialPlanValidator().validate(problem, result.plan)
+    assert verdict, verdict
+    (cost,) = verdict.metric_evaluations.values()
+    assert cost == least_cost(problem) == float(result.metrics["cost"])
+    (again,) = SerendipityEngine().validate(problem, result.plan).metric_evaluations.values()
+    assert again == cost
+
+
+def test_what_is_out_of_reach_is_proved_so() -> None:
+    problem = SINGLE["costs"]()
+    problem.clear_actions()
+    result = SerendipityEngine().solve(problem)
+    assert result.status == PlanGenerationResultStatus.UNSOLVABLE_PROVEN
+    assert result.plan is None
