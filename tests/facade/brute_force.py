@@ -14,10 +14,16 @@ from serendipity.testing.oracle.scenarios import best_policy
 from tests.search.modes.scenarios.test_in_time import library
 
 _FREE = st.sampled_from([None, None, "at *"])
+_SILENT = {"suffix": st.just("replan"), "preservation": st.just("kernel")}
 RULES: dict[str, st.SearchStrategy[dict[str, Any]]] = {
-    "noticed": st.fixed_dictionaries({"noticed": st.just(True), "leave_free": _FREE}).map(
-        {"suffix": "replan", "preservation": "kernel"}.__or__
+    "nobody pays": st.fixed_dictionaries(
+        {
+            "nobody_pays": st.sampled_from([None, True]),
+            "leave_free": st.sampled_from([None, "nothing", "at *", "*0*"]),
+            **_SILENT,
+        }
     ),
+    "noticed": st.fixed_dictionaries({"noticed": st.just(True), "leave_free": _FREE, **_SILENT}),
     "disturbance": st.fixed_dictionaries(
         {
             "max_disturbance": st.sampled_from([0, "0.5", 1, 2, 3]),

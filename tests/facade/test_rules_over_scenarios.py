@@ -39,7 +39,7 @@ def in_rooms(draw: st.DrawFn) -> tuple[Task, list[Candidate]]:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("rule", sorted(RULES))
+@pytest.mark.parametrize("rule", RULES)
 @given(st.one_of(in_rooms(), in_rooms(), scenarios()), st.data())
 @settings(max_examples=25)
 def test_answers_are_those_of_brute_force(
@@ -48,7 +48,7 @@ def test_answers_are_those_of_brute_force(
     task, candidates = asked
     assume(len(candidates) > 1)
     options = data.draw(options_over(candidates)).but(**data.draw(RULES[rule]))
-    if (options.suffix, options.preservation) == ("replan", "kernel"):
+    if rule != "nobody pays" and (options.suffix, options.preservation) == ("replan", "kernel"):
         options = options.but(nobody_pays=data.draw(st.sampled_from([None, None, True])))
     horizon = int(options.horizon or max(len(one.plan) for one in candidates))
     assume(horizon <= 4 and len(task.actions) * horizon <= 60)
