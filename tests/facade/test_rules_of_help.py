@@ -19,8 +19,7 @@ from serendipity.testing.builders import Builder
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies.time import tasks_in_time
-from tests.facade.brute_force import RULES, proved_as_brute_force_has_it
-from tests.facade.rooms import rooms, rooms_in_time
+from tests.facade.rules import RULES, proved_as_brute_force_has_it, rooms, rooms_in_time
 from tests.search.exact_answers import proved
 
 _ASKED = {

@@ -15,8 +15,7 @@ from serendipity import Condition, Options, Result, Task, Window
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import human_plans
 from serendipity.testing.oracle.scenarios import best_policy
-from tests.facade.brute_force import RULES, policy_as_brute_force_has_it
-from tests.facade.rooms import rooms
+from tests.facade.rules import RULES, policy_as_brute_force_has_it, rooms
 from tests.facade.test_rules_of_help import messy
 from tests.search.exact_answers import proved
 from tests.search.modes.scenarios.strategies import options_over, scenarios
