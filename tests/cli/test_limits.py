@@ -1,8 +1,12 @@
-"""Every command that works for long keeps its limits: with what it knows, or with one line."""
+"""Every command that works for long keeps its limits: with what it knows, or with one line.
+
+A process that is asked to end says so in one line and gives its best answer, at any moment and signal.
+"""
 
 import ast
 import json
 import re
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -12,9 +16,13 @@ from typing import Any
 import pytest
 
 import serendipity
+from serendipity.cli import entry
+from serendipity.cli.exit_codes import ExitCode
 from serendipity.cli.options import limits, naming
 from serendipity.cli.options.limits import during
-from serendipity.model import Deadline, LimitReachedError, Task
+from serendipity.cli.process.interrupts import cancelling
+from serendipity.cli.process.signals import SIGNALS
+from serendipity.model import Deadline, LimitReachedError
 from tests.cli.conftest import Runs, assert_one_line
 from tests.cli.test_exit_codes import anytime
 
@@ -109,18 +117,14 @@ def test_one_deadline_covers_reading_planning_and_checking(
 
         return noted
 
-    monkeypatch.setattr(naming.TaskName, "load", lambda name, deadline, **_: _load(name, deadline, met))
+    load = noting("load", serendipity.example)
+    monkeypatch.setattr(naming.TaskName, "load", lambda _, deadline, **__: load("room2", deadline=deadline))
     monkeypatch.setattr(serendipity, "plan_anytime", noting("plan", serendipity.plan_anytime))
     monkeypatch.setattr(serendipity, "check", noting("check", serendipity.check))
     assert run("plan --example room2 --discount 0.6 --time-limit 60 --memory-limit 99999").code == 0
     left = [met[name] for name in ("load", "plan", "check")]
     assert all(seconds is not None and 0 < seconds <= 60 for seconds in left)
     assert left[0] > left[2]  # type: ignore[operator]
-
-
-def _load(name: naming.TaskName, deadline: Deadline | None, met: dict[str, float | None]) -> Task:
-    met["load"] = deadline.left()
-    return serendipity.example("room2", deadline=deadline)
 
 
 def test_limits_are_among_the_options_of_a_result(run: Runs) -> None:
@@ -174,3 +178,98 @@ def imported_in_functions(room: Path) -> Iterator[str]:
                         yield from (alias.name for alias in node.names)
                     elif isinstance(node, ast.ImportFrom) and node.module:
                         yield node.module
+
+
+WORKING = """
+import sys
+from dataclasses import replace
+import serendipity
+from serendipity.cli import entry
+
+best = serendipity.plan(serendipity.example("room2"), discount=0.6)
+
+def anytime(task, *, cancelled, **options):
+    yield replace(best, status="feasible")
+    assert cancelled.wait(60)
+    yield replace(best, status="feasible")
+
+serendipity.plan_anytime = anytime
+sys.argv = "serendipity plan --example room2 --progress json -o answer.json".split()
+entry.run()
+"""
+
+LOADING = """
+import builtins, os, sys
+from serendipity.cli import entry
+
+real = builtins.__import__
+
+def interrupted(name, *others):
+    if name == "typer":
+        os.kill(os.getpid(), int(sys.argv.pop()))
+    return real(name, *others)
+
+builtins.__import__ = interrupted
+entry.run()
+"""
+
+
+SWALLOWED = """
+import sys, time
+from serendipity.cli import app, entry
+
+def main():
+    try:
+        import interrupted
+    except BaseException:  # as libraries do where a module is optional
+        sys.exit("swallowed")
+    time.sleep(60)
+
+app.main = main
+entry.run()
+"""
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_a_signal_while_planning_writes_the_incumbent(number: signal.Signals, tmp_path: Path) -> None:
+    running = subprocess.Popen(
+        [sys.executable, "-c", WORKING], cwd=tmp_path, stderr=subprocess.PIPE, text=True, bufsize=1
+    )
+    while '"answer"' not in running.stderr.readline():
+        assert running.poll() is None
+    running.send_signal(number)
+    _, told = running.communicate(timeout=60)
+    assert running.returncode == ExitCode.INTERRUPTED
+    assert told.splitlines()[-1] == "Interrupted."
+    assert "Traceback" not in told
+    assert json.loads((tmp_path / "answer.json").read_text())["cost"] == 12.6
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_a_signal_while_loading_is_one_line(number: signal.Signals) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", LOADING, str(int(number))], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (ExitCode.INTERRUPTED, "", "Interrupted.\n")
+
+
+def test_no_library_takes_a_signal_for_a_missing_module(tmp_path: Path) -> None:
+    (tmp_path / "interrupted.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n")
+    program = [sys.executable, "-c", SWALLOWED]
+    done = subprocess.run(program, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode != 0
+    assert "swallowed" not in done.stderr
+    assert "KeyboardInterrupt" in done.stderr
+
+
+def test_the_first_signal_cancels_and_the_second_interrupts() -> None:
+    with cancelling() as cancelled:
+        signal.raise_signal(signal.SIGINT)
+        assert cancelled.is_set()
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_the_code_of_the_start_is_the_documented_one() -> None:
+    assert entry.INTERRUPTED == ExitCode.INTERRUPTED

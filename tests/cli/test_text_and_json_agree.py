@@ -1,15 +1,23 @@
-"""Explanations, simulations and fronts as text and as JSON, which says what it was made of."""
+"""Reports as text and as JSON, which says what it was made of; rows as CSV, JSON lines and Parquet."""
 
 import json
 import math
+import sys
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import serendipity
+from serendipity.evaluation.benchmark.contenders import Outcome
+from serendipity.evaluation.benchmark.rows import Row, as_table, read_rows
 from serendipity.model.json_text import json_text
+from serendipity.model.table import Table
+from serendipity.writing.rows import FORMATS
+from serendipity.writing.rows import written as written_as
 from tests.cli.conftest import Runs, assert_one_line
+from tests.writing.reading import rows_of
 
 
 def test_an_explanation_says_the_same_in_both(run: Runs) -> None:
@@ -94,3 +102,92 @@ def test_it_reads_as_it_was(value: dict[str, object]) -> None:
 def test_what_is_no_json_is_not_written(value: object, error: type[Exception]) -> None:
     with pytest.raises(error):
         json_text({"a": value})
+
+
+def saved(run: Runs, command: str, table: Table) -> dict[str, list[tuple[object, ...]]]:
+    """The rows of a command in each format that can be written here."""
+    found = {}
+    for form in FORMATS:
+        done = run(f"{command} -o rows.{form}")
+        if form == "parquet" and "Parquet needs" in done.err:
+            continue
+        assert (done.code, done.err) == (0, "")
+        content = Path(f"rows.{form}").read_bytes()
+        found[form] = rows_of(content if form == "parquet" else content.decode(), form, table)
+    return found
+
+
+def test_interruptions(run: Runs) -> None:
+    report = serendipity.interruptions(serendipity.example("room2"), discount=0.6)
+    written = saved(run, "interruptions --example room2 --discount 0.6", report.table())
+    empty = [tuple(None if cell == "" else cell for cell in row) for row in report.table().rows]
+    assert written.pop("csv") == empty
+    assert all(rows == list(report.table().rows) for rows in written.values())
+    told = report.to_dict()["windows"]
+    assert [row[0] for row in report.table().rows] == [window["window"]["start"] for window in told]
+
+
+def test_recognise(run: Runs) -> None:
+    Path("goals").write_text("1: conducted_triage commx room1\n1: conducted_triage commx room2\n")
+    found = serendipity.recognise(serendipity.example("room2"), "goals")
+    written = saved(run, "recognise --example room2 --goals goals", found.table())
+    assert all(rows == list(found.table().rows) for rows in written.values())
+    assert [row[4] for row in found.table().rows] == [goal.posterior for goal in found.goals]
+
+
+def test_execute(run: Runs) -> None:
+    command = "execute --example room2 --discount 0.6 --human noisy:0.2 --runs 3 --seed 4"
+    runs = serendipity.execute(serendipity.example("room2"), "noisy:0.2", discount=0.6, runs=3, seed=4)
+    clock = list(runs.table().columns).index("slowest")
+    for rows in saved(run, command, runs.table()).values():
+        without = [row[:clock] + row[clock + 1 :] for row in rows]
+        assert without == [row[:clock] + row[clock + 1 :] for row in runs.table().rows]
+
+
+def test_reproduce(run: Runs) -> None:
+    serendipity.generate_usar("suite/test1", preset="room2")
+    command = "reproduce suite --modes serendipity,individual --discounts 0.6,1/3 --journal done"
+    run(f"{command} -o all.json")
+    told = [tuple(row.values()) for row in json.loads(Path("all.json").read_text())["rows"]]
+    table = serendipity.reproduce(
+        "suite", modes=["serendipity", "individual"], discounts=["0.6", "1/3"], journal="done"
+    ).table()
+    assert list(table.rows) == told
+    written = saved(run, command, table)
+    assert written.pop("csv") == [(*row[:7], round(row[7], 6), *row[8:]) for row in told]
+    assert all(rows == told for rows in written.values())
+
+
+def test_bench_of_a_suite(run: Runs) -> None:
+    said = [
+        Outcome("optimal", 12.6, lower_bound=12.6, seconds=0.25, reason="+1"),
+        Outcome("unknown", None, reason="=time-limit, first"),
+    ]
+    asked = {"domain": "d", "task": "t", "human": "h", "robots": "r1 r2", "alone": True, "discount": 0.9}
+    rows = [Row(**asked, mode="individual", contender="search", outcome=each) for each in said]
+    table = as_table(rows)
+    Path("suite.csv").write_text(str(written_as(table, "csv")))
+    for found in saved(run, "bench suite.csv --quiet", table).values():
+        assert found == list(table.rows)
+    assert read_rows(Path("rows.csv")) == rows
+
+
+@pytest.mark.parametrize("command", ["interruptions", "execute"])
+def test_rows_go_to_stdout_but_parquet_does_not(command: str, run: Runs) -> None:
+    done = run(f"{command} --example room2 --format jsonl")
+    assert all(isinstance(json.loads(line), dict) for line in done.out.splitlines())
+    assert_one_line(run(f"{command} --example room2 --format parquet"), "--format: parquet", "-o FILE")
+
+
+@pytest.mark.parametrize(
+    "words", ["execute --example room2", "reproduce suite", "bench", "recognise --goals none none"]
+)
+def test_parquet_without_a_library_is_one_line(
+    words: str, run: Runs, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("polars", "pyarrow"):
+        monkeypatch.setitem(sys.modules, name, None)
+    assert_one_line(
+        run(f"{words} -o rows.parquet"), "Parquet needs polars or pyarrow", "serendipity-planner[data]"
+    )
+    assert not Path("rows.parquet").exists()

@@ -68,41 +68,29 @@ def serving(
     *arguments: str, command: str = "serve", env: dict[str, str] | None = None, seconds: float = 120
 ) -> Iterator[Server]:
     """A server on a free port, in a folder of its own; it is killed after so many seconds."""
+    port = [] if "--port" in arguments else ["--port", "0"]
     with TemporaryDirectory() as folder:
-        yield from _serving(folder, *arguments, command=command, env=env, seconds=seconds)
-
-
-def _serving(
-    folder: str, *arguments: str, command: str, env: dict[str, str] | None, seconds: float
-) -> Iterator[Server]:
-    process = subprocess.Popen(
-        [
-            sys.executable,
-            "-m",
-            "serendipity",
-            command,
-            *([] if "--port" in arguments else ["--port", "0"]),
-            *arguments,
-        ],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        cwd=folder,
-        env={**os.environ, **(env or {})},
-    )
-    watchdog = threading.Timer(seconds, process.kill)
-    watchdog.start()
-    try:
-        line = process.stdout.readline()
-        found = re.search(r"http://\S+?:\d+", line)
-        assert found is not None, (line, process.stderr and process.stderr.read())
-        with httpx.Client(base_url=found[0], timeout=30) as client:
-            yield Server(found[0], process, client, Path(folder))
-    finally:
-        watchdog.cancel()
-        process.kill()
-        process.wait()
-        for stream in (process.stdout, process.stderr):
-            if stream is not None:
-                stream.close()
+        process = subprocess.Popen(
+            [sys.executable, "-m", "serendipity", command, *port, *arguments],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=folder,
+            env={**os.environ, **(env or {})},
+        )
+        watchdog = threading.Timer(seconds, process.kill)
+        watchdog.start()
+        try:
+            line = process.stdout.readline()
+            found = re.search(r"http://\S+?:\d+", line)
+            assert found is not None, (line, process.stderr and process.stderr.read())
+            with httpx.Client(base_url=found[0], timeout=30) as client:
+                yield Server(found[0], process, client, Path(folder))
+        finally:
+            watchdog.cancel()
+            process.kill()
+            process.wait()
+            for stream in (process.stdout, process.stderr):
+                if stream is not None:
+                    stream.close()

@@ -72,15 +72,11 @@ def newer(name: str, folder: Path) -> Path:
     content = (WRITTEN / name).read_bytes()
     text = (gzip.decompress(content) if name.endswith(".gz") else content).decode()
     kind = {"run": "execution", "proof": "proof", "journal": "journal"}.get(name.split(".")[0], "result")
-    lines = [_with(line, {"schema": f"serendipity.{kind}/2", "more": 1}) for line in _objects(text, name)]
+    objects = map(json.loads, text.splitlines() if name.endswith(".jsonl") else [text])
+    lines = [_with(each, {"schema": f"serendipity.{kind}/2", "more": 1}) for each in objects]
     path = folder / name.removesuffix(".gz")
     path.write_text("\n".join(lines) + "\n")
     return path
-
-
-def _objects(text: str, name: str) -> list[dict[str, Any]]:
-    lines = text.splitlines() if name.endswith(".jsonl") else [text]
-    return [json.loads(line) for line in lines]
 
 
 def _with(value: dict[str, Any], more: dict[str, Any]) -> str:

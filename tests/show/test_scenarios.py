@@ -13,7 +13,7 @@ import pytest
 from hypothesis import assume, given
 
 import serendipity
-from serendipity.model import GroundAction, Result, Script, Task, UsageError
+from serendipity.model import GroundAction, Result, Script, UsageError
 from serendipity.pictures import Scene, build_scene, draw
 from serendipity.pictures.map.names import ems
 from serendipity.pictures.picture.drawing import Group, Polyline, Rect, Shape, Text
@@ -119,7 +119,8 @@ def test_the_frame_of_the_shown_epoch_stands_behind_words(watching: Result, room
 
 def test_bars_in_time_stand_below_the_clock_and_are_as_long_as_actions() -> None:
     task = serendipity.example("morning")
-    plan = serendipity.plan(task, discount="0.9").human_plan_times.entries(names_of(task))
+    alone = serendipity.plan(task, mode="individual")
+    plan = alone.human_plan_times.entries(alone.human_plan)
     later = [(epoch + 4, action) for epoch, action in plan]
     library = [{"probability": 1, "plan": one} for one in (plan, later)]
     answer = serendipity.plan(task, plans=library, discount="0.9")
@@ -129,10 +130,6 @@ def test_bars_in_time_stand_below_the_clock_and_are_as_long_as_actions() -> None
     bars = [next(s.width for s in act.shapes if isinstance(s, Rect)) for act in acts]
     durations = [step.duration for history in scene.histories for step in history.robots]
     assert len({bar // 10 for bar in bars}) == len(set(durations)) > 1
-
-
-def names_of(task: Task) -> tuple[str, ...]:
-    return serendipity.plan(task, mode="individual").human_plan or ()
 
 
 def require_apart(scene: Scene, *parts: tuple[int, int | None]) -> None:
