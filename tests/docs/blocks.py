@@ -44,6 +44,10 @@ class Block:
     slow: bool
 
 
+def path_of(page: Path) -> str:
+    return str(page.relative_to(ROOT))
+
+
 def blocks(page: Path) -> Iterator[Block]:
     """The blocks of a page, in order."""
     for found in _FENCE.finditer(page.read_text(encoding="utf-8")):

@@ -1,4 +1,7 @@
-"""Links between pages lead somewhere, all pages are in the navigation, all commands in the reference."""
+"""Links between pages lead somewhere, all pages are in the navigation, all commands in the reference.
+
+Pages name files and rooms that are there, all rooms are on the map, and prose can be read as a diff.
+"""
 
 import importlib.util
 import re
@@ -11,8 +14,9 @@ import pytest
 
 import serendipity
 from serendipity.cli.on_demand import NAMES
-from tests.docs.blocks import OTHERS, PAGES, ROOT, prose
+from tests.docs.blocks import OTHERS, PAGES, ROOT, path_of, prose
 
+READ = [*PAGES, *OTHERS]
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
 
@@ -27,7 +31,7 @@ def test_anchors_are_those_of_markdown() -> None:
     assert anchor("3.1 Serendipity: windows") == "31-serendipity-windows"
 
 
-@pytest.mark.parametrize("page", [*PAGES, *OTHERS], ids=lambda page: str(page.relative_to(ROOT)))
+@pytest.mark.parametrize("page", READ, ids=path_of)
 def test_links_lead_somewhere(page: Path) -> None:
     for link in LINK.findall(prose(page)):
         if link.startswith(("https://", "http://")):
@@ -93,3 +97,38 @@ def test_all_commands_are_in_the_reference(hooks: ModuleType) -> None:
     assert shown == {*NAMES}
     assert "--discount D" in page
     assert "<!--" not in page
+
+
+WIDTH = 120
+FILE = re.compile(r"`([\w.-]+(?:/[\w.-]+)*\.(?:py|c|h|md))`")
+PACKAGES = ("serendipity", "search", "verify")
+
+
+@pytest.fixture(scope="module")
+def files() -> list[str]:
+    """Every file that a page may name."""
+    folders = (*PACKAGES, "tests", "benchmarks", "docs")
+    paths = [*ROOT.glob("*.*"), *(path for folder in folders for path in (ROOT / folder).rglob("*.*"))]
+    return [f"/{path.relative_to(ROOT)}" for path in paths]
+
+
+@pytest.mark.parametrize("page", READ, ids=path_of)
+def test_files_that_are_named_are_there(page: Path, files: list[str]) -> None:
+    for named in FILE.findall(prose(page)):
+        assert any(file.endswith(f"/{named}") for file in files), named
+
+
+def test_the_map_names_every_room() -> None:
+    text = prose(ROOT / "docs" / "design.md")
+    for package in PACKAGES:
+        for room in (path.parent.name for path in (ROOT / package).glob("*/__init__.py")):
+            named = f"`{package}.{room}`" if package == "serendipity" else f"`{room}`"
+            assert named in text, named
+
+
+@pytest.mark.parametrize("page", READ, ids=path_of)
+def test_prose_is_wrapped(page: Path) -> None:
+    """Tables and code can't be."""
+    for line in prose(page).splitlines():
+        wide = len(line) > WIDTH and not line.lstrip().startswith(("|", "#", "!["))
+        assert not wide, line
