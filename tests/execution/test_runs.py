@@ -73,6 +73,13 @@ def test_a_summary_counts_runs() -> None:
     assert len(list(runs.summary_lines())) == 4
 
 
+def test_a_goal_is_recognised_at_some_epoch() -> None:
+    task = serendipity.example("room2")
+    goals = [{"name": room, "goal": [f"conducted_triage commx {room}"]} for room in ("room1", "room8")]
+    (row,) = serendipity.execute(task, goals=goals, discount="0.9").rows
+    assert row.known is not None and 1 < row.known < row.epochs and row.wrong == 0
+
+
 def test_a_recorded_person_does_what_is_written_and_then_goes_on() -> None:
     task = serendipity.example("room2")
     record = ["noop", "move commx room13 hall8", "move_reverse commx hall8 hall7"]
