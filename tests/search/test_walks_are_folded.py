@@ -10,6 +10,7 @@ from search.call.context import SearchContext
 from serendipity.model import Window
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing import builders
+from tests.verify.claims import verdicts
 
 OPTIONS = (
     {"discount": "0.9"},
@@ -39,9 +40,9 @@ def test_answers_are_those_of_a_search_that_walks_step_by_step(buildings, monkey
     monkeypatch.setattr(SearchContext, "walks", _step_by_step)
     stepwise = [serendipity.plan(task, **options) for task, options in product(buildings, OPTIONS)]
     for (task, _), one, other in zip(product(buildings, OPTIONS), folded, stepwise, strict=True):
-        verdicts = {claim.claim: claim.verdict for claim in serendipity.check(task, one).claims}
-        assert "refuted" not in verdicts.values(), verdicts
-        assert verdicts["replay"] == "proved"
+        found = verdicts(serendipity.check(task, one))
+        assert "refuted" not in found.values(), found
+        assert found["replay"] == "proved"
         assert (one.objective, one.cost, one.window) == (other.objective, other.cost, other.window)
         assert len(one.plan) == len(other.plan)
     assert sum(answer.opportunity for answer in folded) >= 6

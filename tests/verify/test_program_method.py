@@ -8,6 +8,7 @@ import pytest
 import serendipity
 from serendipity.model import Claim, Options, Result, Task
 from serendipity.testing.cases import case_1, case_4, case_8, case_10
+from tests.verify.claims import claim_of
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
 from verify.programs import effort
@@ -17,7 +18,7 @@ from verify.solvers.mip import SOLVERS, SolverOutcome, optimise
 def _proved(task: Task, answer: Result, name: str, **options: Any) -> Claim:
     certificate = certify(task, answer, method="program", **options)
     assert certificate.verdict == "proved"
-    return next(claim for claim in certificate.claims if claim.claim == name)
+    return claim_of(certificate, name)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -44,7 +45,7 @@ def test_a_solver_is_asked_where_reachability_would_do(
     task: Task, options: dict[str, Any], name: str
 ) -> None:
     answer = serendipity.plan(task, **options)
-    by_reachability = next(claim for claim in certify(task, answer).claims if claim.claim == name)
+    by_reachability = claim_of(certify(task, answer), name)
     claim = _proved(task, answer, name)
     assert (by_reachability.method, by_reachability.solver_calls, by_reachability.size) == ("program", 0, {})
     assert claim.solver_calls >= 1
@@ -56,7 +57,7 @@ def test_calls_of_all_claims_add_up() -> None:
     task = case_4()
     answer = serendipity.plan(task, discount="0.9", mode="communication", communication_weight="0.5")
     certificate = certify(task, answer, method="program")
-    optimal = next(claim for claim in certificate.claims if claim.claim == "optimal")
+    optimal = claim_of(certificate, "optimal")
     assert certificate.solver_calls == optimal.solver_calls == 2
     assert certificate.size == {"variables": optimal.size["columns"], "constraints": optimal.size["rows"]}
 
@@ -72,6 +73,5 @@ def test_what_a_limit_leaves_is_no_counter_example(monkeypatch: pytest.MonkeyPat
         )
 
     monkeypatch.setattr(effort, "optimise", stopped)
-    certificate = certify(task, answer, method="program")
-    optimal = next(claim for claim in certificate.claims if claim.claim == "optimal")
+    optimal = claim_of(certify(task, answer, method="program"), "optimal")
     assert (optimal.verdict, optimal.counterexample) == ("undecided", None)

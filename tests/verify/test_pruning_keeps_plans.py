@@ -9,6 +9,7 @@ from hypothesis import given, settings
 import serendipity
 from serendipity.model import Result, Task
 from serendipity.testing.strategies import Call, calls
+from tests.verify.claims import claim_of
 from tests.verify.test_ip_equals_brute_force import check
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
@@ -53,7 +54,7 @@ def answer(building: Task) -> Result:
 
 def test_two_robots_that_hand_on_are_proved_without_a_solver(building: Task, answer: Result) -> None:
     certificate = certify(building, answer, method="pruned")  # no turns, which depend on the clock
-    optimal = next(claim for claim in certificate.claims if claim.claim == "optimal")
+    optimal = claim_of(certificate, "optimal")
     assert (optimal.verdict, optimal.solver_calls) == ("proved", 0)
     assert "closed by reachability" in optimal.reason
     assert optimal.method == "program"

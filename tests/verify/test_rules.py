@@ -16,7 +16,8 @@ from serendipity.testing.generator import random_call
 from serendipity.testing.oracle import Alone as OracleAlone
 from serendipity.testing.oracle import Moment
 from serendipity.testing.oracle.epochs import after
-from serendipity.testing.strategies import tasks
+from serendipity.testing.strategies import family_tasks, tasks
+from tests.verify.claims import verdicts
 from tests.verify.doctored import RULE_BROKEN
 from tests.verify.valid import VALID, Given, helped, idle
 from verify.base.individual import IndividualOptimum
@@ -107,7 +108,7 @@ def test_rules_stand_in_the_order_of_their_claims() -> None:
 
 
 @pytest.mark.parametrize("many", [0, 1_000])
-@given(task=tasks(), data=st.data())
+@given(task=tasks() | family_tasks(), data=st.data())
 def test_his_optimal_cost_alone_equals_the_oracle(many: int, task: Task, data: st.DataObject) -> None:
     """From a random state that a few arbitrary actions lead to, whenever it is asked what is in reach."""
     state = task.init
@@ -115,9 +116,13 @@ def test_his_optimal_cost_alone_equals_the_oracle(many: int, task: Task, data: s
         ready = [action for action in task.actions if action.applicable(state)]
         if ready:
             state = after(state, [data.draw(st.sampled_from(ready))])
+    worth = OracleAlone(task).worth(Moment(state))
     with limited(many_own_states=many):
-        worth = OracleAlone(task).worth(Moment(state))
-        assert IndividualOptimum(task).optimum(state) == (None if worth is None else (worth[0], worth[2]))
+        alone = IndividualOptimum(task)
+        assert alone.optimum(state) == (None if worth is None else (worth[0], worth[2]))
+        weight = alone.weight(state)
+        for most in (10**15,) if weight is None else (weight - 1, weight):
+            assert IndividualOptimum(task).within(state, most) == (most == weight)
 
 
 def test_a_goal_out_of_reach_is_told_without_listing_states() -> None:
@@ -134,11 +139,11 @@ def test_what_is_too_hard_for_a_rule_is_not_proved() -> None:
     built = helped()
     with limited(own_states=0):
         report = check(built.task, built.result)
-        verdicts = {claim.claim: claim.verdict for claim in certify(built.task, built.result).claims}
+        found = verdicts(certify(built.task, built.result))
     assert (report.ok, report.stopped) == (True, None)
     assert report.undecided == {"window": "the human's own problem is too large"}
-    assert verdicts["window"] == "undecided"
-    assert verdicts["replay"] == "proved"
+    assert found["window"] == "undecided"
+    assert found["replay"] == "proved"
 
 
 def test_an_end_of_pi_h_may_be_done_in_other_variants(monkeypatch: pytest.MonkeyPatch) -> None:

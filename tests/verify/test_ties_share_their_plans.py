@@ -14,6 +14,7 @@ from serendipity.model.answers.result_parts import TiedAnswer
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_4
 from serendipity.testing.generator.calls import random_call
+from tests.verify.claims import claim_of
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.plan_graph import OptimalPlanGraph
 from verify.calls.answer import answer
@@ -112,7 +113,7 @@ def test_many_plans_are_one_search(ties: str, method: str, most: int) -> None:
     task = errands(5)
     result = serendipity.plan(task, ties=ties, discount="0.5")
     certificate = certify(task, result, method=method)
-    best = next(claim for claim in certificate.claims if claim.claim == "optimal")
+    best = claim_of(certificate, "optimal")
     assert (certificate.verdict, best.method) == ("proved", "exhaustive")
     assert best.solver_calls <= 1  # whether anything helps at all
     assert best.size["states"] < most  # 120 plans, 32 states of the human's
@@ -159,7 +160,7 @@ def test_robust_rests_on_the_plan_that_is_left_alone() -> None:
     certificate = certify(task, result, method="program")
     assert result.ties is not None
     assert (certificate.verdict, certificate.solver_calls) == ("proved", len(result.ties))
-    assert "none is dearer" in next(c for c in certificate.claims if c.claim == "no_opportunity").reason
+    assert "none is dearer" in claim_of(certificate, "no_opportunity").reason
 
 
 @pytest.mark.long

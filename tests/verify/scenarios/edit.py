@@ -1,4 +1,4 @@
-"""Changes to answers as JSON, and what the verifier says of them."""
+"""Changes to answers, and to anything else in JSON, and what the verifier says of them."""
 
 import json
 from collections.abc import Callable
@@ -7,7 +7,7 @@ from typing import Any
 import serendipity
 from serendipity.model import Certificate, Claim, Result, Task
 
-Edit = Callable[[dict[str, Any]], None]
+Edit = Callable[[dict[str, Any]], object]
 
 
 def edit(path: str, value: object) -> Edit:
@@ -23,12 +23,26 @@ def edit(path: str, value: object) -> Edit:
     return change
 
 
+def together(*edits: Edit) -> Edit:
+    """One change after the other."""
+
+    def change(answer: dict[str, Any]) -> None:
+        for one in edits:
+            one(answer)
+
+    return change
+
+
+def edited(answer: Result, *changes: Edit) -> Result:
+    """What is read from an answer with these changes."""
+    said = json.loads(json.dumps(answer.to_dict()))
+    together(*changes)(said)
+    return Result.from_dict(said)
+
+
 def certified(task: Task, answer: Result, *changes: Edit) -> Certificate:
     """What the verifier says of an answer with these changes."""
-    said = json.loads(json.dumps(answer.to_dict()))
-    for change in changes:
-        change(said)
-    return serendipity.verify(task, Result.from_dict(said))
+    return serendipity.verify(task, edited(answer, *changes))
 
 
 def assert_refuted(certificate: Certificate, claim: str, words: str = "") -> Claim:

@@ -1,8 +1,6 @@
 """Answers over goals are proved by code of the verifier's own; doctored ones are refuted."""
 
 import json
-from collections.abc import Callable
-from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -19,14 +17,13 @@ from tests.cli.conftest import Runs
 from tests.recognition.test_noise import HELPED
 from tests.search.modes.goals.strategies import FIXED_OPTIONS, literals, rivals
 from tests.search.modes.goals.test_worked_cases import helped, workshop
-from tests.verify.scenarios.edit import assert_refuted, edit
+from tests.verify.claims import claim_of, verdicts
+from tests.verify.scenarios.edit import Edit, assert_refuted, certified, edit, edited, together
 from verify.base.optimal_plans import OptimalPlans
 from verify.limits import limited
 from verify.scenarios.beliefs import compiled
 
-
-def _verdicts(certificate: Certificate) -> dict[str, tuple[str, str]]:
-    return {claim.claim: (claim.verdict, claim.reason) for claim in certificate.claims}
+TASK = workshop("!q -> z @ 5")
 
 
 @pytest.mark.long
@@ -47,26 +44,23 @@ def test_every_answer_is_proved(
     certificate = serendipity.verify(task, answer)
     assert certificate.verdict == "proved", (answer, certificate)
     wanted = "optimal" if answer.opportunity else "no_opportunity"
-    assert _verdicts(certificate)["infeasible" if answer.cost is None else wanted][0] == "proved"
+    assert verdicts(certificate)["infeasible" if answer.cost is None else wanted] == "proved"
 
 
 def test_observations_become_a_counter() -> None:
     """With z's action seen, p costs 10: it has to be done on the way; without it, 5."""
-    task = workshop("!q -> z @ 5")
-    p = Condition((task.facts.index("p"),))
+    p = Condition((TASK.facts.index("p"),))
     costs = {}
     for embed in (True, False):
-        own = compiled(task, p, ["keep h"], Deadline(), embed=embed)
+        own = compiled(TASK, p, ["keep h"], Deadline(), embed=embed)
         worth = OptimalPlans(own).alone.optimum(own.init)
         costs[embed] = None if worth is None else worth[0]
     assert costs == {True: 10, False: 5}
 
 
-def _answer() -> tuple[Task, dict[str, Any]]:
-    task = workshop("!q -> z @ 5")
-    answer = helped(task, 1, 1)
-    assert serendipity.verify(task, answer).verdict == "proved"
-    return task, deepcopy(answer.to_dict())
+def _said(*changes: Edit) -> Certificate:
+    """What the verifier says of the answer with these changes."""
+    return certified(TASK, helped(TASK, 1, 1), *changes)
 
 
 def _left_alone(answer: dict[str, Any]) -> None:
@@ -90,71 +84,57 @@ def _shared_help(answer: dict[str, Any]) -> None:
     answer["plan"].append({"epoch": 2, "agents": ["h"], "action": "prepare h", "cost": 1.0})
 
 
-DOCTORED: dict[str, tuple[Callable[[dict[str, Any]], None], str, str]] = {
-    "a prior": (edit("statistics.recognition.goals.0.prior", 0.6), "replay", "priors do not add up"),
-    "noise": (
-        edit("statistics.recognition.noise", {"miss": 0.1, "wrong": 0.1}),
-        "replay",
-        "likeliest reading",
-    ),
-    "a posterior": (edit("statistics.recognition.goals.0.posterior", 0.6), "replay", "posterior is 0.5"),
-    "a likelihood": (edit("statistics.recognition.goals.0.likelihood", 0.5), "replay", "likelihood is 1"),
-    "a cost of recognition": (
-        edit("statistics.recognition.goals.0.cost_with_observed", 4.0),
-        "replay",
-        "cost with the observations is 5.0",
-    ),
-    "a plan of recognition": (
-        edit("statistics.recognition.goals.0.plan", ["prepare h", "do1 h"]),
-        "replay",
-        "not the canonical one",
-    ),
-    "an observation made up": (
-        edit("statistics.recognition.observed", ["keep h"]),
-        "replay",
-        "cost with the observations is 10.0",
-    ),
-    "a strange observation": (edit("statistics.recognition.observed", ["lift r"]), "replay", "does alone"),
-    "explained denied": (edit("statistics.recognition.explained", False), "replay", "explained is true"),
-    "an unknown fact": (edit("statistics.recognition.goals.0.goal", ["x"]), "replay", "no fact 'x'"),
-    "a field lost": (
-        edit("statistics.recognition.goals.0.prior", None),
-        "replay",
-        "prior: expected a finite number",
-    ),
-    "no recognition": (edit("statistics.recognition", None), "replay", "recognition: expected an object"),
-    "goals of another form": (edit("statistics.goals", {}), "replay", "goals: expected a list"),
-    "another plan of his": (edit("statistics.goals.1.human_plan", ["do1 h"]), "replay", "human_plan"),
-    "an action too late": (edit("statistics.goals.0.plan.0.epoch", 2), "replay", "precondition"),
-    "an action lost": (edit("statistics.goals.1.plan", lambda old: old[1:]), "replay", "goal does not hold"),
-    "help for one goal only": (_only_for_one, "replay", "robots do not do the same"),
-    "his action in the plan": (_shared_help, "replay", "what robots do without the human"),
-    "an opportunity denied": (_left_alone, "no_opportunity", "cost 4, objective 1004"),
+SAID, FIRST = "statistics.recognition", "statistics.recognition.goals.0"
+
+DOCTORED: dict[str, tuple[Edit, str]] = {
+    "a prior": (edit(f"{FIRST}.prior", 0.6), "priors do not add up"),
+    "noise": (edit(f"{SAID}.noise", {"miss": 0.1, "wrong": 0.1}), "likeliest reading"),
+    "a posterior": (edit(f"{FIRST}.posterior", 0.6), "posterior is 0.5"),
+    "a likelihood": (edit(f"{FIRST}.likelihood", 0.5), "likelihood is 1"),
+    "a cost of recognition": (edit(f"{FIRST}.cost_with_observed", 4.0), "cost with the observations is 5.0"),
+    "a plan of recognition": (edit(f"{FIRST}.plan", ["prepare h", "do1 h"]), "not the canonical one"),
+    "an observation made up": (edit(f"{SAID}.observed", ["keep h"]), "cost with the observations is 10.0"),
+    "a strange observation": (edit(f"{SAID}.observed", ["lift r"]), "does alone"),
+    "explained denied": (edit(f"{SAID}.explained", False), "explained is true"),
+    "an unknown fact": (edit(f"{FIRST}.goal", ["x"]), "no fact 'x'"),
+    "a field lost": (edit(f"{FIRST}.prior", None), "prior: expected a finite number"),
+    "no recognition": (edit(SAID, None), "recognition: expected an object"),
+    "goals of another form": (edit("statistics.goals", {}), "goals: expected a list"),
+    "another plan of his": (edit("statistics.goals.1.human_plan", ["do1 h"]), "human_plan"),
+    "an action too late": (edit("statistics.goals.0.plan.0.epoch", 2), "precondition"),
+    "an action lost": (edit("statistics.goals.1.plan", lambda old: old[1:]), "goal does not hold"),
+    "help for one goal only": (_only_for_one, "robots do not do the same"),
+    "his action in the plan": (_shared_help, "what robots do without the human"),
 }
+
+
+def test_right_answers_are_proved() -> None:
+    assert _said().verdict == "proved"
 
 
 @pytest.mark.parametrize("way", DOCTORED)
 def test_doctored_answers_are_refuted(way: str) -> None:
-    task, answer = _answer()
-    doctor, claim, words = DOCTORED[way]
-    doctor(answer)
-    assert_refuted(serendipity.verify(task, Result.from_dict(answer)), claim, words)
+    change, words = DOCTORED[way]
+    assert_refuted(_said(change), "replay", words)
+
+
+def test_help_that_is_denied_is_found() -> None:
+    assert_refuted(_said(_left_alone), "no_opportunity", "cost 4, objective 1004")
 
 
 def test_a_plan_that_is_broken() -> None:
     """Lifting in epoch 1 makes the second action of the human's plan for z inapplicable."""
-    task = workshop("ready !q -> z @ 4")
-    answer = deepcopy(helped(workshop("!q -> z @ 5"), 1, 1).to_dict())
-    entry = answer["statistics"]["goals"][1]
-    entry["human_plan"] = ["prepare h", "keep h"]
-    entry["plan"] = [
+    theirs = ["prepare h", "keep h"]
+    steps = [
         {"epoch": 1, "agents": ["r"], "action": "lift r", "cost": 1.0},
         {"epoch": 1, "agents": ["h"], "action": "prepare h", "cost": 1.0},
         {"epoch": 2, "agents": ["h"], "action": "keep h", "cost": 4.0},
     ]
-    answer["statistics"]["recognition"]["goals"][1]["plan"] = ["prepare h", "keep h"]
+    entry = together(edit("statistics.goals.1.human_plan", theirs), edit("statistics.goals.1.plan", steps))
+    known = edit(f"{SAID}.goals.1.plan", theirs)
     words = "scenario 'z': precondition (semantics 2): epoch 2: 'keep h': precondition: 'q' is true"
-    assert_refuted(serendipity.verify(task, Result.from_dict(answer)), "replay", words)
+    task = workshop("ready !q -> z @ 4")
+    assert_refuted(certified(task, helped(TASK, 1, 1), entry, known), "replay", words)
 
 
 def test_dearer_help_is_not_the_best() -> None:
@@ -173,69 +153,54 @@ def test_dearer_help_is_not_the_best() -> None:
 
 
 def test_rules_alone() -> None:
-    task, answer = _answer()
-    verdicts = _verdicts(serendipity.check(task, Result.from_dict(answer)))
-    assert {name: verdict for name, (verdict, _) in verdicts.items()} == {
+    answer = helped(TASK, 1, 1)
+    assert verdicts(serendipity.check(TASK, answer)) == {
         "replay": "proved",
         "cost": "proved",
         "window": "proved",
         "optimal": "not_in_scope",
         "lower_bound": "not_in_scope",
     }
-    answer["cost"] = 1.0
-    assert serendipity.check(task, Result.from_dict(answer)).verdict == "refuted"
+    assert serendipity.check(TASK, edited(answer, edit("cost", 1.0))).verdict == "refuted"
 
 
 def test_one_goal_is_section_3() -> None:
-    task = workshop("!q -> z @ 5")
-    answer = helped(task, 1, 0)
-    assert serendipity.verify(task, answer).verdict == "proved"
-    doctored = deepcopy(answer.to_dict())
-    doctored["statistics"]["goals"][0]["cost"] = 1.0
-    refuted = serendipity.verify(task, Result.from_dict(doctored)).refuted
-    assert refuted.reason == "scenario 'p': the entry is not the answer"
+    answer = helped(TASK, 1, 0)
+    assert certified(TASK, answer).verdict == "proved"
+    doctored = certified(TASK, answer, edit("statistics.goals.0.cost", 1.0))
+    assert doctored.refuted.reason == "scenario 'p': the entry is not the answer"
 
 
 def test_nobody_reaches_anything() -> None:
     task = workshop("nothing -> z")
     answer = serendipity.plan(task, goals=[{"goal": ["z"]}, {"goal": ["nothing"]}])
     assert (answer.status, answer.reason) == ("infeasible", "no-human-plan")
-    assert _verdicts(serendipity.verify(task, answer))["infeasible"][0] == "proved"
-    possible = deepcopy(answer.to_dict())
-    for name in ("recognition", "goals"):
-        possible["statistics"][name] = helped(workshop("!q -> z @ 5"), 1, 1).to_dict()["statistics"][name]
-    assert serendipity.verify(workshop("!q -> z @ 5"), Result.from_dict(possible)).verdict == "refuted"
+    assert verdicts(serendipity.verify(task, answer))["infeasible"] == "proved"
+    possible = helped(TASK, 1, 1).to_dict()["statistics"]
+    goals = edit("statistics.goals", possible["goals"])
+    assert certified(TASK, answer, goals, edit(SAID, possible["recognition"])).verdict == "refuted"
 
 
 def test_limits_leave_it_undecided() -> None:
-    task, doctored = _answer()
-    answer = helped(task, 1, 1)
-    assert _verdicts(serendipity.verify(task, answer, time_limit=0))["optimal"][0] == "undecided"
-    _left_alone(doctored)  # what each goal by itself allows does not settle it
-    with limited(policies=0):
-        certificate = serendipity.verify(task, Result.from_dict(doctored))
-    assert _verdicts(certificate)["no_opportunity"] == (
-        "undecided",
-        "more than 0 groups of scenarios and what they do",
-    )
+    late = serendipity.verify(TASK, helped(TASK, 1, 1), time_limit=0)
+    assert verdicts(late)["optimal"] == "undecided"
+    with limited(policies=0):  # what each goal by itself allows does not settle it
+        found = claim_of(_said(_left_alone), "no_opportunity")
+    said = "more than 0 groups of scenarios and what they do"
+    assert (found.verdict, found.reason) == ("undecided", said)
 
 
 def test_bounds_of_unfinished_answers() -> None:
-    task, answer = _answer()
-    answer |= {"status": "feasible", "lower_bound": 1003.0}
-    assert serendipity.verify(task, Result.from_dict(answer)).verdict == "proved"
-    _left_alone(answer)
-    answer["lower_bound"] = 4.0
-    assert serendipity.verify(task, Result.from_dict(answer)).verdict == "proved"
-    answer["lower_bound"] = 4.5
-    assert _verdicts(serendipity.verify(task, Result.from_dict(answer)))["lower_bound"][0] == "refuted"
+    feasible = edit("status", "feasible")
+    assert _said(feasible, edit("lower_bound", 1003.0)).verdict == "proved"
+    assert _said(feasible, _left_alone, edit("lower_bound", 4.0)).verdict == "proved"
+    too_high = _said(feasible, _left_alone, edit("lower_bound", 4.5))
+    assert verdicts(too_high)["lower_bound"] == "refuted"
 
 
 def test_another_human_is_bad_input() -> None:
-    task, answer = _answer()
-    answer["human"] = "r"
     with pytest.raises(InputError, match="another task"):
-        serendipity.verify(task, Result.from_dict(answer))
+        _said(edit("human", "r"))
 
 
 def test_command_line(run: Runs) -> None:
@@ -277,10 +242,7 @@ def test_posteriors_of_dear_tasks_are_certified(unit: int) -> None:
     goals = [{"name": name, "goal": [name], "prior": prior} for name, prior in (("left", 7), ("right", 0.3))]
     for observed in (["left hum"], ["right hum"], ["look hum"], ["look hum", "back hum"]):
         answer = serendipity.plan(dear, goals=goals, observed=observed, discount="0.9", beta=0.37)
-        assert (
-            serendipity.verify(dear, Result.from_dict(json.loads(json.dumps(answer.to_dict())))).verdict
-            == "proved"
-        )
+        assert certified(dear, answer).verdict == "proved"
 
 
 def test_nothing_observed_with_noise() -> None:
@@ -288,9 +250,8 @@ def test_nothing_observed_with_noise() -> None:
     ways = {"a h": "-> p @ 2", "b h": "-> p @ 2", "end h": "-> z", "lift r": "-> z"}
     task = build(goal="p", actions=ways)
     goals = [{"name": name, "goal": [name]} for name in "pz"]
-    assert (
-        serendipity.verify(task, serendipity.plan(task, goals=goals, noise="wrong=0.1")).verdict == "proved"
-    )
+    answer = serendipity.plan(task, goals=goals, noise="wrong=0.1")
+    assert serendipity.verify(task, answer).verdict == "proved"
 
 
 @pytest.mark.long
@@ -306,21 +267,20 @@ def test_posteriors_with_noise_are_worked_out_again(
     his = sorted({action.name for action in task.actions if action.participants == (task.human,)})
     seen = data.draw(st.lists(st.sampled_from(his), max_size=3)) if his else []
     answer = serendipity.plan(task, goals=goals, observed=seen, noise=noise, discount="0.5")
-    read = Result.from_dict(json.loads(json.dumps(answer.to_dict())))
-    assert serendipity.verify(task, read).verdict == "proved", answer
+    assert certified(task, answer).verdict == "proved", answer
 
 
-_NOISY: dict[str, tuple[Callable[[dict[str, Any]], None], str]] = {
-    "another rate": (edit("statistics.recognition.noise.wrong", 0.3), "the likelihood is 0.3"),
-    "no probability": (edit("statistics.recognition.noise.miss", 2.0), "expected probabilities"),
-    "no noise": (edit("statistics.recognition.noise", None), "no errors without any"),
-    "one more wrong": (edit("statistics.recognition.goals.0.errors.wrong", 2), "likeliest reading"),
-    "one more missed": (edit("statistics.recognition.goals.0.errors.missed", 1), "likeliest reading"),
-    "a cheaper reading": (edit("statistics.recognition.goals.0.errors.cost", 1.0), "likeliest reading"),
-    "no reading": (edit("statistics.recognition.goals.0.errors", None), "likeliest reading"),
-    "another plan": (edit("statistics.recognition.goals.0.plan", ["go h a c"]), "likeliest reading"),
-    "no plan at all": (edit("statistics.recognition.goals.0.plan", ["go h a b"]), "goal does not hold"),
-    "a posterior": (edit("statistics.recognition.goals.0.posterior", 0.5), "posterior is 0.9"),
+_NOISY: dict[str, tuple[Edit, str]] = {
+    "another rate": (edit(f"{SAID}.noise.wrong", 0.3), "the likelihood is 0.3"),
+    "no probability": (edit(f"{SAID}.noise.miss", 2.0), "expected probabilities"),
+    "no noise": (edit(f"{SAID}.noise", None), "no errors without any"),
+    "one more wrong": (edit(f"{FIRST}.errors.wrong", 2), "likeliest reading"),
+    "one more missed": (edit(f"{FIRST}.errors.missed", 1), "likeliest reading"),
+    "a cheaper reading": (edit(f"{FIRST}.errors.cost", 1.0), "likeliest reading"),
+    "no reading": (edit(f"{FIRST}.errors", None), "likeliest reading"),
+    "another plan": (edit(f"{FIRST}.plan", ["go h a c"]), "likeliest reading"),
+    "no plan at all": (edit(f"{FIRST}.plan", ["go h a b"]), "goal does not hold"),
+    "a posterior": (edit(f"{FIRST}.posterior", 0.5), "posterior is 0.9"),
     "a plan of a scenario": (edit("statistics.goals.0.human_plan", ["go h a c"]), "human_plan"),
 }
 
@@ -329,10 +289,9 @@ _NOISY: dict[str, tuple[Callable[[dict[str, Any]], None], str]] = {
 def test_doctored_posteriors_with_noise_are_refuted(way: str) -> None:
     """Two of three observations speak for c, one for e."""
     seen, goals = ["go h a b", "go h d e", "go h b c"], [{"name": f, "goal": [f]} for f in "ce"]
-    answer = deepcopy(serendipity.plan(HELPED, goals=goals, observed=seen, noise="wrong=0.1").to_dict())
-    doctor, words = _NOISY[way]
-    doctor(answer)
-    assert_refuted(serendipity.verify(HELPED, Result.from_dict(answer)), "replay", words)
+    answer = serendipity.plan(HELPED, goals=goals, observed=seen, noise="wrong=0.1")
+    change, words = _NOISY[way]
+    assert_refuted(certified(HELPED, answer, change), "replay", words)
 
 
 def test_noisy_goals_out_of_reach_are_not_told() -> None:

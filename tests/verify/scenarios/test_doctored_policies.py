@@ -7,7 +7,7 @@ import pytest
 import serendipity
 from serendipity.model import Result
 from serendipity.testing.builders import task as build
-from tests.verify.scenarios.edit import Edit, assert_refuted, certified, edit
+from tests.verify.scenarios.edit import Edit, assert_refuted, certified, edit, together
 from tests.verify.scenarios.studio import TWO_ROADS, helped, studio, two_roads
 
 P, Z = "statistics.goals.0", "statistics.goals.1"
@@ -16,14 +16,6 @@ P, Z = "statistics.goals.0", "statistics.goals.1"
 def _step(epoch: int, action: str, cost: float) -> dict[str, Any]:
     agents = action.split()[1:]
     return {"epoch": epoch, "agents": agents, "action": action, "cost": cost}
-
-
-def _all(*edits: Edit) -> Edit:
-    def change(answer: dict[str, Any]) -> None:
-        for one in edits:
-            one(answer)
-
-    return change
 
 
 def _without(action: str, plan: str) -> Edit:
@@ -38,28 +30,28 @@ def _figures(cost: float, objective: float, saving: float, human: float, robot: 
     """The figures of the whole, and a bound that goes with them."""
     said = {"cost": cost, "objective": objective, "lower_bound": objective, "saving": saving}
     shares = edit("agent_costs", {"h": human, "r": robot})
-    return _all(*(edit(name, value) for name, value in said.items()), shares)
+    return together(*(edit(name, value) for name, value in said.items()), shares)
 
 
-_ALONE_P = _all(
+_ALONE_P = together(
     edit(f"{P}.window", None),
     edit(f"{P}.plan", [_step(1, "begin_p h", 1.0), _step(2, "do_p h", 5.0)]),
     edit(f"{P}.cost", 6.0),
 )
-_ALONE_Z = _all(
+_ALONE_Z = together(
     edit(f"{Z}.window", None),
     edit(f"{Z}.plan", [_step(1, "begin_z h", 1.0), _step(2, "do_z h", 5.0)]),
     edit(f"{Z}.cost", 6.0),
 )
-_IDLE = _all(_ALONE_P, _ALONE_Z, edit("plan", []), edit("opportunity", False))
-_JOINT_ALONE = _all(  # nobody thinks of power, so p is left alone
+_IDLE = together(_ALONE_P, _ALONE_Z, edit("plan", []), edit("opportunity", False))
+_JOINT_ALONE = together(  # nobody thinks of power, so p is left alone
     _ALONE_P, _without("power r", f"{Z}.plan"), edit(f"{Z}.cost", 4.0), edit("plan", [])
 )
 
 DOCTORED: dict[str, dict[str, tuple[Edit, str]]] = {
     "replay": {
         "power for one only": (
-            _all(_without("power r", f"{Z}.plan"), edit(f"{Z}.cost", 4.0)),
+            together(_without("power r", f"{Z}.plan"), edit(f"{Z}.cost", 4.0)),
             "epoch 1: robots do not do the same in 'p' and 'z', which are not told apart",
         ),
         "power later for one": (edit(f"{Z}.plan.1.epoch", 3), "epoch 1: robots do not do the same"),
@@ -76,7 +68,7 @@ DOCTORED: dict[str, dict[str, tuple[Edit, str]]] = {
         "the joint action in the plan": (_with("plan", _step(2, "together h r", 3.0)), "without the human"),
         "a probability": (edit(f"{P}.probability", 0.75), "the probability is 0.5"),
         "both probabilities": (
-            _all(edit(f"{P}.probability", 0.75), edit(f"{Z}.probability", 0.25)),
+            together(edit(f"{P}.probability", 0.75), edit(f"{Z}.probability", 0.25)),
             "the probability is 0.5",
         ),
         "a scenario left out": (edit("statistics.goals", lambda old: old[:1]), "to consider are p, z"),
@@ -101,7 +93,7 @@ DOCTORED: dict[str, dict[str, tuple[Edit, str]]] = {
         "a reason": (edit("reason", "no-plan"), "with a reason"),
         "infeasible": (edit("status", "infeasible"), "leaving the human alone is always an answer"),
         "another beginning": (
-            _all(_with(f"{P}.plan", _step(1, "begin_z h", 1.0)), _without("begin_p h", f"{P}.plan")),
+            together(_with(f"{P}.plan", _step(1, "begin_z h", 1.0)), _without("begin_p h", f"{P}.plan")),
             "precondition",
         ),
     },
@@ -109,12 +101,12 @@ DOCTORED: dict[str, dict[str, tuple[Edit, str]]] = {
         "a window before the help": (edit(f"{P}.window", {"start": 1, "end": 2}), "robot-in-suffix"),
         "a window after the plan": (edit(f"{P}.window", {"start": 3, "end": 4}), "window-range"),
         "a window beyond the horizon": (
-            _all(edit(f"{Z}.window", {"start": 2, "end": 5}), _figures(4.5, 2004.5, 1.5, 2.25, 2.25)),
+            together(edit(f"{Z}.window", {"start": 2, "end": 5}), _figures(4.5, 2004.5, 1.5, 2.25, 2.25)),
             "window-range",
         ),
         "joint after the window": (edit(f"{Z}.window", {"start": 1, "end": 2}), "robot-in-suffix"),
         "a dear suffix": (
-            _all(
+            together(
                 edit(f"{P}.plan.3", _step(3, "do_p h", 5.0)),
                 edit(f"{P}.cost", 8.0),
                 _figures(6.5, 1006.5, -0.5, 4.25, 2.25),
@@ -144,7 +136,7 @@ DOCTORED: dict[str, dict[str, tuple[Edit, str]]] = {
     "lower_bound": {"a bound": (edit("lower_bound", 1004.0), "the objective 1004.5")},
     "optimal": {
         "a longer window, summed up": (
-            _all(
+            together(
                 edit(f"{P}.window", {"start": 2, "end": 4}),
                 edit("objective", 1504.5),
                 edit("lower_bound", 1504.5),
@@ -152,13 +144,13 @@ DOCTORED: dict[str, dict[str, tuple[Edit, str]]] = {
             "a better policy: cost 4.5, objective 1004.5",
         ),
         "help for one only": (
-            _all(_JOINT_ALONE, _figures(5.0, 1005.0, 1.0, 4.25, 0.75)),
+            together(_JOINT_ALONE, _figures(5.0, 1005.0, 1.0, 4.25, 0.75)),
             "a better policy: cost 4.5, objective 1004.5",
         ),
     },
     "no_opportunity": {
         "help denied": (
-            _all(_IDLE, _figures(6.0, 6.0, 0.0, 6.0, 0.0)),
+            together(_IDLE, _figures(6.0, 6.0, 0.0, 6.0, 0.0)),
             "a better policy: cost 4.5, objective 1004.5",
         )
     },
@@ -189,7 +181,7 @@ def test_what_is_found_is_proved_and_no_other_cost(
 
 @pytest.mark.parametrize(("risk", "idle"), [("worst", 6.0), ("regret", 2.0)])
 def test_help_that_is_denied_at_any_risk(risk: str, idle: float) -> None:
-    change = _all(_IDLE, _figures(idle, idle, 0.0, 6.0, 0.0))
+    change = together(_IDLE, _figures(idle, idle, 0.0, 6.0, 0.0))
     assert_refuted(certified(studio(), helped(risk=risk), change), "no_opportunity")
 
 
@@ -214,7 +206,7 @@ def test_the_counterexample_is_what_robots_do_until_they_see_more() -> None:
 
 @pytest.mark.parametrize(("bound", "verdict"), [(1004.5, "proved"), (900.0, "proved"), (1004.6, "refuted")])
 def test_bounds_of_unfinished_answers(bound: float, verdict: str) -> None:
-    worse = _all(
+    worse = together(
         DOCTORED["optimal"]["help for one only"][0], edit("status", "feasible"), edit("lower_bound", bound)
     )
     certificate = certified(studio(), helped(), worse)
@@ -254,7 +246,7 @@ def test_one_plan_with_a_goal_of_its_own() -> None:
 
 LIBRARIES: dict[str, tuple[Edit, str]] = {
     "a share": (edit(f"{P}.probability", 0.5), "the probabilities do not add up to 1"),
-    "no share": (_all(edit(f"{P}.probability", 0.0), edit(f"{Z}.probability", 1.0)), "above 0"),
+    "no share": (together(edit(f"{P}.probability", 0.0), edit(f"{Z}.probability", 1.0)), "above 0"),
     "one name": (edit(f"{P}.name", "b"), "two scenarios have one name"),
     "no plan": (edit(f"{P}.human_plan", None), "expected a plan"),
     "half a plan": (edit(f"{P}.human_plan", ["go_a h", "rest h"]), "human-plan"),

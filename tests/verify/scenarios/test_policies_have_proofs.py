@@ -1,7 +1,6 @@
 """That no policy is better is written down as a program, which anybody can check."""
 
 import json
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 
 import serendipity
+from tests.verify.scenarios.edit import Edit, edit, together
 from tests.verify.scenarios.studio import helped, studio
 from tests.verify.scenarios.three_ways import Asked, agreed, calls_over_scenarios, is_small
 
@@ -42,20 +42,17 @@ def test_posteriors_of_many_digits_have_proofs(tmp_path: Path) -> None:
         assert name == "all policies over 2 scenarios, 3 epochs, probabilities in parts of 1000000000"
 
 
-def _without(family: str) -> Callable[[dict[str, Any]], None]:
-    def change(program: dict[str, Any]) -> None:
-        program["rows"] = [row for row in program["rows"] if row["family"] != family]
-        program["tree"] = {"multipliers": []}
-
-    return change
+def _without(family: str) -> Edit:
+    kept = edit("rows", lambda rows: [row for row in rows if row["family"] != family])
+    return together(kept, edit("tree", {"multipliers": []}))
 
 
-_DOCTORED: dict[str, tuple[str, Callable[[dict[str, Any]], Any]]] = {
-    "another limit": ("mean", lambda program: program.update(limit=program["limit"] - 1)),
+_DOCTORED: dict[str, tuple[str, Edit]] = {
+    "another limit": ("mean", edit("limit", lambda limit: limit - 1)),
     "robots that know": ("mean", _without("semantics 11: robots")),
     "seeing what is not there": ("mean", _without("semantics 11: what is seen")),
     "not all count": ("worst", _without("semantics 11: the greatest counts")),
-    "other probabilities": ("mean", lambda program: program["objective"][0].__setitem__(1, 10**6)),
+    "other probabilities": ("mean", edit("objective.0.1", 10**6)),
 }
 
 
