@@ -14,6 +14,7 @@ from serendipity.model.answers.result_parts import TiedAnswer
 from serendipity.testing.builders import task as build
 from serendipity.testing.by_hand import moved, result, step, with_steps
 from serendipity.testing.cases import case_7, case_8, case_9
+from serendipity.testing.crosscheck.doctored import without_plan
 from tests.verify.edits.corpus import walk
 from tests.verify.untrue import UNTRUE
 from tests.verify.valid import (
@@ -49,6 +50,10 @@ def _renamed(name: str, **fields: Any) -> Callable[[Result], Result]:
         return with_steps(given, (index, replace(old, **fields)))
 
     return change
+
+
+def _infeasible(given: Result) -> Result:
+    return without_plan(given, "infeasible", "no-plan-within-horizon")
 
 
 def _dropped(name: str) -> Callable[[Result], Result]:
@@ -107,15 +112,6 @@ def _unfinished() -> Given:
     return Given(epochs.task, epochs.result())
 
 
-_NOTHING: dict[str, Any] = {
-    **dict.fromkeys(("plan", "cost", "objective", "window", "saving", "saving_alone")),
-    "status": "infeasible",
-    "reason": "no-plan-within-horizon",
-    "opportunity": False,
-    "agent_costs": {},
-}
-"""That there is no answer."""
-
 RULE_BROKEN: dict[str, tuple[str, Callable[[], Given]]] = {
     "another human": ("mode-and-human", lambda: _set(helped, human="rob")),
     "mode changed after the fact": ("mode-and-human", lambda: _set(helped, mode="communication")),
@@ -129,7 +125,7 @@ RULE_BROKEN: dict[str, tuple[str, Callable[[], Given]]] = {
     "infeasible with a plan": ("status-and-plan", lambda: _set(helped, status="infeasible")),
     "a robot at work at the end": ("at-rest", _unfinished),
     "no cost": ("status-and-plan", lambda: _set(helped, cost=None)),
-    "infeasible though pi_H is an answer": ("infeasible", lambda: _set(helped, **_NOTHING)),
+    "infeasible though pi_H is an answer": ("infeasible", lambda: _change(helped, _infeasible)),
     "a reason beside a plan": ("reason", lambda: _set(helped, reason="no-human-plan")),
     "infeasible for another reason": ("reason", _no_reason),
     "ties without their answers": ("ties", lambda: _options(helped, ties="robust")),

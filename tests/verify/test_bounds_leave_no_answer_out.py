@@ -11,6 +11,7 @@ from serendipity.testing.builders import task as build
 from serendipity.testing.by_hand import result
 from serendipity.testing.cases import case_4
 from serendipity.testing.countdown import Countdown
+from serendipity.testing.crosscheck.doctored import without_plan
 from serendipity.testing.generator import random_call
 from tests.verify.valid import CASE_4_PI_H
 
@@ -48,11 +49,8 @@ def test_robots_that_see_to_their_own_goals_are_an_answer(method: str) -> None:
     task = build(goal="!p", robot_goal="q", actions={"do h": "-> p", "set r": "-> q @ 2"})
     right = serendipity.plan(task, horizon=1)
     assert (right.status, right.cost, right.window) == ("optimal", 2.0, None)
-    nothing: dict[str, Any] = dict.fromkeys(("plan", "cost", "objective", "saving", "saving_alone"))
-    nothing |= {"agent_costs": {}, "realised": {}}
     for bound, verdict in ((2.0, "proved"), (2.5, "refuted")):
-        early = replace(right, status="unknown", reason="time-limit", lower_bound=bound, **nothing)
-        assert _verdict(task, early, method) == verdict
+        assert _verdict(task, without_plan(right, "unknown", "time-limit", bound), method) == verdict
 
 
 @pytest.mark.long
@@ -64,7 +62,6 @@ def test_bounds_of_what_is_unknown_hold_whichever_optimal_plan_the_human_is_on(
     """Beside one optimal plan help costs 6.2, beside the other nothing helps: 8."""
     task = case_4()
     least = {"expected": 7.1}.get(ties, 6.2)
-    nothing = dict.fromkeys(("plan", "cost", "objective", "saving", "saving_alone", "ties"))
     for human_plan in {
         tie.human_plan for tie in serendipity.plan(task, discount="0.9", ties=ties).ties or ()
     }:
@@ -72,8 +69,7 @@ def test_bounds_of_what_is_unknown_hold_whichever_optimal_plan_the_human_is_on(
             task, dict(enumerate(human_plan, start=1)), human_plan=human_plan, discount="0.9", ties=ties
         )
         for bound, verdict in ((least, "proved"), (least + 0.5, "refuted")):
-            early = replace(given, status="unknown", reason="time-limit", lower_bound=bound, **nothing)
-            early = replace(early, agent_costs={}, realised={}, opportunity=False)
+            early = without_plan(given, "unknown", "time-limit", bound)
             assert _verdict(task, early, method) in (verdict, "undecided")
 
 

@@ -6,21 +6,18 @@ import pytest
 from hypothesis import given
 
 import serendipity
-from serendipity.model import Certificate, Claim, InputError, LimitReachedError, Options, UsageError
+from serendipity.model import InputError, LimitReachedError, Options, UsageError
 from serendipity.testing.by_hand import result
 from serendipity.testing.cases import case_4, case_10
 from serendipity.testing.strategies import Call, calls
+from tests.verify.claims import claim_of
+from tests.verify.denied import denied
 from tests.verify.doctored import ANOTHER_TASK, DOCTORED
 from tests.verify.untrue import dearer, solved
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
 from verify.programs.effort import METHODS
-
-
-def _claim(certificate: Certificate, name: str) -> Claim:
-    return next(claim for claim in certificate.claims if claim.claim == name)
-
 
 # -- true results
 
@@ -49,7 +46,7 @@ def test_what_pi_h_is_does_not_hold_up_a_certificate(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(OptimalPlans, "canonical", endless)
     certificate = certify(case_4(), answer)
     assert certificate.verdict == "proved"
-    assert "pi_H is" not in _claim(certificate, "replay").reason
+    assert "pi_H is" not in claim_of(certificate, "replay").reason
 
 
 def test_no_answer_in_time_is_not_refuted() -> None:
@@ -65,7 +62,7 @@ def test_no_answer_in_time_is_not_refuted() -> None:
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("name", DOCTORED)
-def test_doctored_results_are_refuted_by_the_right_claim(name: str, method: str) -> None:
+def test_doctored_results_are_refuted_by_the_rightclaim_of(name: str, method: str) -> None:
     doctored = DOCTORED[name]
     task, answer = doctored.make()
     if name in ANOTHER_TASK:
@@ -85,17 +82,12 @@ def test_every_opportunity_that_is_denied_is_refuted(call: Call) -> None:
         return
     if not helped.opportunity or call.task.robot_goal:
         return
-    assert helped.human_plan is not None
-    plan = dict(enumerate(helped.human_plan, start=1))
-    denied = result(call.task, plan, human_plan=helped.human_plan, **call.keywords())
-    denied = replace(denied, horizon=helped.horizon, saving_alone=helped.saving_alone)
-    certificate = certify(call.task, denied)
-    assert certificate.verdict == "refuted"
+    assert certify(call.task, denied(call.task, helped)).verdict == "refuted"
 
 
 def test_a_better_plan_is_shown() -> None:
     task, doctored = dearer()
-    optimal = _claim(certify(task, doctored), "optimal")
+    optimal = claim_of(certify(task, doctored), "optimal")
     assert optimal.counterexample is not None
     assert "cost 8.5, objective 1008.5, window [4, 5)" in optimal.reason
 
@@ -105,7 +97,7 @@ def test_every_encoding_shows_a_better_plan(encoding: str) -> None:
     task = case_10()
     options = {"mode": "composite", "discount": "0.5", "horizon": 2}
     doctored = result(task, {1: "do1 h"}, human_plan=("do1 h",), **options)
-    optimal = _claim(certify(task, doctored, encoding=encoding), "optimal")
+    optimal = claim_of(certify(task, doctored, encoding=encoding), "optimal")
     assert optimal.counterexample is not None
     assert [step.action for step in optimal.counterexample] == ["lift r1 r2", "do2 h"]
     assert optimal.reason == "a better plan: cost 3, objective 3"
@@ -128,5 +120,5 @@ def test_claims_out_of_scope_say_why() -> None:
     for doctored, names in ((observant, ["window"]), (replace(answer, cost=1.0), ["optimal"])):
         certificate = certify(case_4(), doctored)
         for name in names:
-            claim = _claim(certificate, name)
+            claim = claim_of(certificate, name)
             assert (claim.verdict, bool(claim.reason)) == ("not_in_scope", True)

@@ -1,6 +1,5 @@
 """Costs, discounts and weights may be any rationals: whatever they are, false claims are not proved."""
 
-from dataclasses import replace
 from itertools import combinations_with_replacement, pairwise
 from random import Random
 from typing import Any
@@ -8,9 +7,10 @@ from typing import Any
 import pytest
 
 import serendipity
-from serendipity.model import Result, Task
+from serendipity.model import Task
 from serendipity.testing.builders import task as build
-from serendipity.testing.by_hand import result
+from serendipity.testing.crosscheck.doctored import without_plan
+from tests.verify.denied import denied
 from verify.base.small_numbers import OrderOfSums
 from verify.limits import limited
 
@@ -34,12 +34,6 @@ HELPED: list[tuple[Task, dict[str, Any]]] = [
 ]
 
 
-def false_denial(task: Task, right: Result, **options: Any) -> Result:
-    """The answer that nothing helps."""
-    lie = result(task, {1: "do h"}, human_plan=("do h",), **options)
-    return replace(lie, options=right.options)
-
-
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("number", range(len(HELPED)))
 def test_help_is_not_denied(number: int, method: str) -> None:
@@ -48,11 +42,11 @@ def test_help_is_not_denied(number: int, method: str) -> None:
     right = serendipity.plan(task, **options)
     assert right.opportunity
     honest = serendipity.verify(task, right, method=method).verdict
-    denied = serendipity.verify(task, false_denial(task, right, **options), method=method).verdict
+    false = serendipity.verify(task, denied(task, right), method=method).verdict
     if method == "program" and number in (4, 6):  # it may have too many digits for a solver
-        assert honest != "refuted" and denied != "proved"
+        assert honest != "refuted" and false != "proved"
     else:
-        assert (honest, denied) == ("proved", "refuted")
+        assert (honest, false) == ("proved", "refuted")
 
 
 @pytest.mark.long
@@ -63,7 +57,7 @@ def test_help_is_not_denied(number: int, method: str) -> None:
 def test_where_words_are_too_small_nothing_false_is_proved(number: int, sizes: dict[str, int]) -> None:
     task, options = HELPED[number]
     right = serendipity.plan(task, horizon=2, **options)
-    lie = false_denial(task, right, horizon=2, **options)
+    lie = denied(task, right)
     with limited(**sizes, many_moves=0, many_actions=0):
         for method in METHODS:
             assert serendipity.verify(task, lie, method=method).verdict != "proved"
@@ -75,7 +69,7 @@ def test_a_proof_is_written_and_checked_of_small_numbers(tmp_path: Any) -> None:
     right = serendipity.plan(task, discount="0.5", horizon=2)
     assert serendipity.verify(task, right, proof=file).verdict == "proved"
     assert serendipity.check_proof(file, task, right).verdict == "accepted"
-    lie = false_denial(task, right, discount="0.5", horizon=2)
+    lie = denied(task, right)
     assert serendipity.check_proof(file, task, lie).verdict == "rejected"
 
 
@@ -96,8 +90,7 @@ def test_what_is_dear_is_possible(dear: str, small: str, options: dict[str, Any]
     task = build(agents="h r", human="h", goal="g", actions=actions)
     right = serendipity.plan(task, **options)
     reason = "no-plan" if options["horizon"] == "inf" else "no-plan-within-horizon"
-    none = {"plan": None, "cost": None, "objective": None, "lower_bound": None, "saving": None}
-    lie = replace(right, status="infeasible", reason=reason, agent_costs={}, realised={}, **none)
+    lie = without_plan(right, "infeasible", reason)
     methods = METHODS[:2] if options["horizon"] == "inf" else METHODS
     for method in methods:
         assert serendipity.verify(task, right, method=method).verdict == "proved"
@@ -115,7 +108,7 @@ def test_a_limit_on_cost_is_none_on_communication(method: str) -> None:
     assert (right.cost, right.objective, right.opportunity) == (2, 4, True)
     with limited(few_states=1, methods=("-programs",)):
         assert serendipity.verify(task, right, method=method).verdict != "refuted"
-        lie = false_denial(task, right, **options)
+        lie = denied(task, right)
         assert serendipity.verify(task, lie, method=method).verdict == "refuted"
 
 

@@ -7,6 +7,7 @@ import pytest
 
 import serendipity
 from serendipity.model import Certificate, Claim
+from serendipity.testing.crosscheck.doctored import without_plan
 from tests.verify.edits.corpus import corpus
 from verify.base.obligations import BEST, NEEDED, complete, kind_of, needed
 
@@ -68,7 +69,5 @@ def test_a_bound_without_an_answer_is_a_claim(mode: str, bound: float, verdict: 
     """It was left undecided, for breaking a rule that it does not break."""
     task = serendipity.example("room2")
     answer = serendipity.plan(task, mode=mode)
-    nothing = dict.fromkeys(("plan", "window", "cost", "objective", "saving", "saving_alone"))
-    nothing |= {"agent_costs": {}, "realised": {}, "opportunity": False, "reason": "time-limit"}
-    unknown = replace(answer, status="unknown", lower_bound=bound, **nothing)
+    unknown = without_plan(answer, "unknown", "time-limit", bound)
     assert serendipity.verify(task, unknown).verdict == verdict

@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 
 import serendipity
-from serendipity.model import LimitReachedError, Result, Task
+from serendipity.model import Deadline, LimitReachedError, ProofCheck, Result, Task
 from serendipity.testing.cases import case_1
 from serendipity.testing.countdown import Countdown
+from tests.endings import endings
 from tests.verify.proofs.samples import sample
 from verify.proofs import checker
 
@@ -29,15 +30,14 @@ def proved(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Task, Result
 @pytest.mark.parametrize("reason", ["time-limit", "memory-limit", "cancelled"])
 def test_whenever_it_comes(proved: tuple[Path, Task, Result], reason: str, once: bool) -> None:
     """``once``: as memory may be free again when somebody looks at it afterwards."""
-    looks, decided = 0, False
-    while not decided:
-        deadline = Countdown(looks, lambda: LimitReachedError(reason), once=once)
-        try:
-            assert serendipity.check_proof(*proved, deadline=deadline).accepted
-            decided = not deadline.ran_out
-        except LimitReachedError as limit:
-            assert limit.reason == reason
-        looks = max(looks + 1, looks * 3 // 2)
+
+    def examine(deadline: Deadline) -> ProofCheck:
+        return serendipity.check_proof(*proved, deadline=deadline)
+
+    *early, last = endings(examine, lambda: LimitReachedError(reason), sparser=2, once=once)
+    assert last.accepted
+    for found in early:
+        assert found.reason == reason if isinstance(found, LimitReachedError) else found.accepted
 
 
 def test_time_that_is_kept_for_the_end(proved: tuple[Path, Task, Result]) -> None:

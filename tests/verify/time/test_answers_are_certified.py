@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.model import Condition, Result, Task, Timing, UsageError
 from serendipity.model.keywords import Ties
-from serendipity.model.numbers import figure
 from serendipity.testing.builders import task as build
 from serendipity.testing.call import Call
 from serendipity.testing.crosscheck.doctored import without_plan
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies.time import calls_in_time
 from tests.facade import test_results_tell_times as times
+from tests.verify.denied import denied
 from verify.certificate.certify import certify
 from verify.limits import limited
 
@@ -84,38 +84,10 @@ def test_doing_nothing_is_refuted_where_brute_force_helps(call: Call, method: st
     optimum = best(call.task, call.options, call.human_plan)
     if not optimum.opportunity or call.task.robot_goal or result.saving_alone:
         return
-    idle = doing_nothing(call.task, result)
-    certificate = certify(call.task, idle, method=method)
+    certificate = certify(call.task, denied(call.task, result), method=method)
     assert certificate.verdict == "refuted", (optimum, certificate)
     refuted = next(claim for claim in certificate.claims if claim.verdict == "refuted")
     assert refuted.counterexample is not None, refuted
-
-
-def doing_nothing(task: Task, result: Result) -> Result:
-    """The claim that nothing helps: ``pi_H``, its cost, and a bound that meets it."""
-    names, times = result.human_plan or (), result.human_plan_times
-    ids = task.plan_from_names(result.human_entries or ())
-    starts = task.starts_of(ids) if times is None else times.starts
-    steps = tuple(
-        serendipity.PlanStep(
-            start, (task.agents[task.human],), name, figure(task.actions[i].cost), task.actions[i].duration
-        )
-        for start, name, i in zip(starts, names, ids, strict=True)
-    )
-    assert result.human_cost is not None
-    cost = result.human_cost
-    others = dict.fromkeys(task.agents, 0.0)
-    return replace(
-        result,
-        opportunity=False,
-        cost=cost,
-        saving=0.0,
-        objective=cost,
-        lower_bound=cost,
-        window=None,
-        plan=steps,
-        agent_costs={**others, task.agents[task.human]: cost},
-    )
 
 
 def closing() -> Task:

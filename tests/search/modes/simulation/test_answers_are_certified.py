@@ -15,16 +15,14 @@ from serendipity.testing.cases import case_1, case_4
 from serendipity.testing.oracle.reactions import best_reaction
 from tests.search.exact_answers import proved
 from tests.search.modes.simulation.strategies import Reaction, reactions
+from tests.verify.claims import claim_of, verdicts
+from tests.verify.denied import denied
 from verify.base.optimal_plans import OptimalPlans
 from verify.calls.call import ExaminedCall
 from verify.certificate.reactions import cheapest_reaction
 from verify.limits import limited
 
 MODELS = ["observant", "local"]
-
-
-def _verdicts(certificate: Certificate) -> dict[str, str]:
-    return {claim.claim: claim.verdict for claim in certificate.claims}
 
 
 def _certified(task: Task, **options: object) -> tuple[Result, Certificate]:
@@ -41,7 +39,7 @@ def test_every_answer_is_proved(human_model: str) -> None:
         names = [case.task.actions[i].name for i in case.human_plan] if case.given else None
         result, certificate = _certified(case.task, human_plan=names, **case.options.to_dict())
         assert certificate.verdict == "proved", (result, certificate)
-        claims = _verdicts(certificate)
+        claims = verdicts(certificate)
         wanted = "optimal" if result.opportunity else "no_opportunity"
         assert claims["infeasible" if result.status == "infeasible" else wanted] == "proved"
 
@@ -66,25 +64,18 @@ def test_what_is_played_is_what_brute_force_finds(human_model: str) -> None:
 def test_worked_cases() -> None:
     result, certificate = _certified(case_1(), discount="0.9", human_model="observant")
     assert (result.cost, certificate.verdict) == (8.4, "proved")
-    optimal = next(claim for claim in certificate.claims if claim.claim == "optimal")
+    optimal = claim_of(certificate, "optimal")
     assert optimal.reason.startswith("no joint plan costs less than 8.4, whatever the human does")
     for ties in ("robust", "expected", "optimistic"):
         _, certificate = _certified(case_4(), discount="0.9", human_model="local", ties=ties)
         assert certificate.verdict == "proved", certificate
 
 
-def _help_denied(right: Result, task: Task) -> Result:
-    """The same call, answered that nothing helps."""
-    plan = dict(enumerate(right.human_plan or (), start=1))
-    idle = result(task, plan, human_plan=right.human_plan, discount="0.9", horizon=right.horizon)
-    return replace(idle, options=right.options, saving=0.0, realised=dict.fromkeys(right.realised, True))
-
-
 @pytest.mark.parametrize("human_model", MODELS)
 def test_help_that_is_denied_is_found(human_model: str) -> None:
     task = case_1()
     result = serendipity.plan(task, discount="0.9", human_model=human_model)
-    certificate = serendipity.verify(task, _help_denied(result, task))
+    certificate = serendipity.verify(task, denied(task, result))
     refuted = certificate.refuted
     assert refuted.claim == "no_opportunity"
     assert refuted.reason.startswith("an opportunity: cost 8.4")
@@ -115,7 +106,7 @@ def test_dearer_help_is_not_the_best() -> None:
     for answer in early:
         assert serendipity.verify(task, answer).verdict == "proved"  # its bound is one
         bold = replace(answer, lower_bound=4.5)
-        assert _verdicts(serendipity.verify(task, bold))["lower_bound"] == "refuted"
+        assert verdicts(serendipity.verify(task, bold))["lower_bound"] == "refuted"
 
 
 def test_infeasible_is_examined() -> None:
@@ -131,7 +122,7 @@ def test_infeasible_is_examined() -> None:
         horizon=1,
         reason="no-plan-within-horizon",
     )
-    assert _verdicts(serendipity.verify(task, denied))["infeasible"] == "refuted"
+    assert verdicts(serendipity.verify(task, denied))["infeasible"] == "refuted"
 
 
 def test_limits_leave_it_undecided() -> None:
@@ -139,7 +130,7 @@ def test_limits_leave_it_undecided() -> None:
     result = serendipity.plan(task, discount="0.9", human_model="observant")
     with limited(moments=3):
         only_played = serendipity.verify(task, result, method="exhaustive")
-    assert _verdicts(only_played)["optimal"] == "undecided"
+    assert verdicts(only_played)["optimal"] == "undecided"
 
 
 @pytest.mark.parametrize(
