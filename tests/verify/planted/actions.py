@@ -1,6 +1,6 @@
 """Bugs in the rules of actions: what is applicable, what it does, what may share an epoch."""
 
-from collections.abc import Callable
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -12,7 +12,7 @@ from search.packed.packed_task import PackedGoal, PackedTask
 from search.packed.successor_generator import Successors
 from serendipity.model.task import actions
 from serendipity.model.task.actions import GroundAction, conflicting
-from tests.verify.planted.bug import Bug, always, replaced, wrapped
+from tests.verify.planted.bug import Bug, Change, always, asked, replaced, returning, wrapped
 
 
 def _without_double_deletes(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
@@ -22,14 +22,6 @@ def _without_double_deletes(a: GroundAction, b: GroundAction, *, strict: bool) -
 
 def _without_adds(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
     return conflicting(replace(a, add=()), replace(b, add=()), strict=strict)
-
-
-def _never_strict(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
-    return conflicting(a, b, strict=False)
-
-
-def _always_strict(a: GroundAction, b: GroundAction, *, strict: bool) -> bool:
-    return conflicting(a, b, strict=True)
 
 
 def _disables_by_deleting(a: GroundAction, b: GroundAction) -> bool:
@@ -44,10 +36,6 @@ def _packed_without_deletes(original: Any, self: Any, action_id: int) -> Any:
         if bits is not None and fact in self.boolean:
             deleted |= bits[0]
     return op._replace(keep=op.keep | deleted)
-
-
-def _positive_only(original: Any, self: Any, positive: Any, negative: Any) -> Any:
-    return original(self, positive, ())
 
 
 def _first_two(original: Any, self: Any, positive: Any, negative: Any) -> Any:
@@ -65,23 +53,12 @@ def _only_indexed(self: Any, state: int) -> list[Any]:
     return found
 
 
-def _changed_only(self: Any) -> Any:
-    return self.changed_by(self.own)
+def _at_most_one(sets: Iterable[Any]) -> list[Any]:
+    return [chosen for chosen in sets if len(chosen.actions) <= 1]
 
 
-def _one_robot(original: Any, self: Any, state: int) -> list[Any]:
-    return [chosen for chosen in original(self, state) if len(chosen.actions) <= 1]
-
-
-def _idle(original: Any, self: Any, first: Any, state: int) -> tuple[Any, ...]:
-    return (first,)
-
-
-def _without(deed: str) -> Callable[..., Any]:
-    def deeds(original: Any, action: GroundAction) -> Any:
-        return [found for found in original(action) if found[0] != deed]
-
-    return deeds
+def _without(deed: str) -> Change:
+    return returning(lambda deeds: [found for found in deeds if found[0] != deed])
 
 
 BUGS = (
@@ -93,8 +70,8 @@ BUGS = (
     ),
     Bug(actions, "conflicting", "two actions may delete the same fact", replaced(_without_double_deletes)),
     Bug(actions, "conflicting", "one may delete what another adds", replaced(_without_adds)),
-    Bug(actions, "conflicting", "strict interference is ignored", replaced(_never_strict)),
-    Bug(actions, "conflicting", "interference is always strict", replaced(_always_strict)),
+    Bug(actions, "conflicting", "strict interference is ignored", asked(strict=always(False))),
+    Bug(actions, "conflicting", "interference is always strict", asked(strict=always(True))),
     Bug(actions, "disables", "negative preconditions are forgotten", replaced(_disables_by_deleting)),
     Bug(
         operators,
@@ -103,7 +80,12 @@ BUGS = (
         replaced(lambda op, state: state & op.need_mask == op.need),
     ),
     Bug(PackedTask, "_pack_action", "deletes of single facts are lost", wrapped(_packed_without_deletes)),
-    Bug(PackedTask, "_literals", "negative conditions are lost", wrapped(_positive_only)),
+    Bug(
+        PackedTask,
+        "_literals",
+        "negative conditions are lost",
+        wrapped(lambda pack, task, need, _: pack(task, need, ())),
+    ),
     Bug(PackedTask, "_literals", "a third condition is lost", wrapped(_first_two)),
     Bug(packed_task, "relevant_to_goals", "deleting is of no use", wrapped(_useful_by_adding)),
     Bug(PackedTask, "compatible", "all may", replaced(always(True))),
@@ -119,15 +101,15 @@ BUGS = (
         PackedTask,
         "own_mask",
         "the key of the cache leaves out what they only ask for",
-        replaced(property(_changed_only)),
+        replaced(property(lambda self: self.changed_by(self.own))),
     ),
     Bug(PackedTask, "outside", "there are none", replaced(property(always(0)))),
-    Bug(Successors, "with_robots", "nothing, ever", wrapped(_idle)),
-    Bug(Successors, "robots", "one robot at a time", wrapped(_one_robot)),
+    Bug(Successors, "with_robots", "nothing, ever", wrapped(lambda _, __, first, ___: (first,))),
+    Bug(Successors, "robots", "one robot at a time", returning(_at_most_one)),
     Bug(Successors, "joint", "never offered", replaced(always([]))),
     Bug(Due, "fits", "it always does", replaced(always(True))),
     Bug(Successors, "sequential", "every set can", replaced(always(True))),
     Bug(team, "circles", "there are none", replaced(always(()))),
-    Bug(parallelise, "_deeds", "an agent may act twice in an epoch", wrapped(_without("acts"))),
-    Bug(parallelise, "_deeds", "what somebody deletes does not matter", wrapped(_without("deletes"))),
+    Bug(parallelise, "_deeds", "an agent may act twice in an epoch", _without("acts")),
+    Bug(parallelise, "_deeds", "what somebody deletes does not matter", _without("deletes")),
 )

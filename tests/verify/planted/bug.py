@@ -74,3 +74,29 @@ def wrapped(around: Callable[..., Any]) -> Change:
         return broken
 
     return change
+
+
+def afterwards(**fields: Callable[[Any], Any]) -> Change:
+    """A constructor after which fields of its object become what is made of it."""
+
+    def around(original: Any, self: Any, *arguments: Any, **keywords: Any) -> Any:
+        found = original(self, *arguments, **keywords)
+        for name, value in fields.items():
+            setattr(self, name, value(self))
+        return found
+
+    return wrapped(around)
+
+
+def returning(other: Callable[[Any], Any]) -> Change:
+    """A function or method that returns something else instead of what it finds."""
+    return wrapped(lambda original, *arguments, **keywords: other(original(*arguments, **keywords)))
+
+
+def asked(**others: Callable[[Any], Any]) -> Change:
+    """A function or method whose keyword arguments are others than those given."""
+
+    def around(original: Any, *arguments: Any, **keywords: Any) -> Any:
+        return original(*arguments, **keywords | {name: say(keywords[name]) for name, say in others.items()})
+
+    return wrapped(around)

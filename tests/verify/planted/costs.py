@@ -7,24 +7,17 @@ from search.engine.dominance import ParetoFront
 from search.human.individual_planner import PlanGraph
 from search.human.plan_suffix import PlanSuffix
 from search.human.suffix_rules import Replan
-from search.packed.cost_vector import INFINITE_KEY, Weights
+from search.packed.cost_vector import INFINITE_KEY, CostLayout, Weights
 from search.packed.packed_task import PackedGoal
-from tests.verify.planted.bug import Bug, always, replaced, wrapped
+from tests.verify.planted.bug import Bug, afterwards, always, replaced, wrapped
 
 
-def _free_windows(original: Any, self: Any, *arguments: Any) -> None:
-    original(self, *arguments)
-    self.keys = replace(self.keys, epoch_weight=1 << self.keys.length_shift)
+def _free_windows(weights: Weights) -> CostLayout:
+    return replace(weights.keys, epoch_weight=1 << weights.keys.length_shift)
 
 
-def _undiscounted(original: Any, self: Any, *arguments: Any) -> None:
-    original(self, *arguments)
-    self.robots = self.human
-
-
-def _discount_for_all(original: Any, self: Any, *arguments: Any) -> None:
-    original(self, *arguments)
-    self.human = self.robots
+def _any_state(suffix: Any) -> list[PackedGoal] | None:
+    return suffix._expected and [PackedGoal(0, 0, ()) for _ in suffix._expected]
 
 
 def _unannounced(self: Any, op: Any) -> Any:
@@ -44,16 +37,6 @@ def _whatever_robots_want(self: Any, state: int, epochs: int, start: int, limit:
 
 def _all_steps(original: Any, self: Any, state: int, epochs: int, start: int, limit: int) -> Any:
     return original(self, state, len(self._first), start, limit)
-
-
-def _any_goal(original: Any, self: Any, *arguments: Any) -> None:
-    original(self, *arguments)
-    self._goals = self._goals[:1]
-
-
-def _any_state(original: Any, self: Any, *arguments: Any) -> None:
-    original(self, *arguments)
-    self._expected = self._expected and [PackedGoal(0, 0, ()) for _ in self._expected]
 
 
 def _by_key_alone(self: Any, labels: Any, epoch: int, key: int, idle: Any) -> bool:
@@ -79,9 +62,9 @@ def _largest(self: Any) -> Any:
 
 
 BUGS = (
-    Bug(Weights, "__init__", "epochs of the window are free", wrapped(_free_windows)),
-    Bug(Weights, "__init__", "robots get no discount", wrapped(_undiscounted)),
-    Bug(Weights, "__init__", "the human is discounted too", wrapped(_discount_for_all)),
+    Bug(Weights, "__init__", "epochs of the window are free", afterwards(keys=_free_windows)),
+    Bug(Weights, "__init__", "robots get no discount", afterwards(robots=lambda weights: weights.human)),
+    Bug(Weights, "__init__", "the human is discounted too", afterwards(human=lambda weights: weights.robots)),
     Bug(Weights, "team", "communication is free", replaced(_unannounced)),
     Bug(ParetoFront, "_covered", "later but cheaper dominates", replaced(_by_key_alone)),
     Bug(ParetoFront, "_covered", "earlier but dearer dominates", replaced(_by_epoch_alone)),
@@ -90,7 +73,12 @@ BUGS = (
     Bug(Replan, "key", "it may pass T", wrapped(_any_length)),
     Bug(Replan, "key", "the robots' goal is forgotten", replaced(_whatever_robots_want)),
     Bug(PlanSuffix, "key", "it may pass T", wrapped(_all_steps)),
-    Bug(PlanSuffix, "__init__", "the robots' goal is forgotten", wrapped(_any_goal)),
-    Bug(PlanSuffix, "__init__", "any state is preserved", wrapped(_any_state)),
+    Bug(
+        PlanSuffix,
+        "__init__",
+        "the robots' goal is forgotten",
+        afterwards(_goals=lambda suffix: suffix._goals[:1]),
+    ),
+    Bug(PlanSuffix, "__init__", "any state is preserved", afterwards(_expected=_any_state)),
     Bug(PlanGraph, "canonical", "the last in string order", replaced(_largest)),
 )

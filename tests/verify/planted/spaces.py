@@ -10,7 +10,7 @@ from search.spaces.fixed_human_plan import FixedHumanPlan
 from search.spaces.unrestricted import Unrestricted
 from search.spaces.windowed import AnyOfPlan, InLayers, Windowed
 from search.strategies import human_plan, outcome, windows
-from tests.verify.planted.bug import Bug, always, replaced, wrapped
+from tests.verify.planted.bug import Bug, always, asked, replaced, returning, wrapped
 
 
 def _unchecked(self: Any, epoch: int, state: int) -> Iterable[Any]:
@@ -37,24 +37,6 @@ def _later_start(original: Any, self: Any, node: Any) -> Iterator[tuple[int, Any
         yield bound, opened._replace(start=opened.start + 1)
 
 
-def _longer(original: Any, self: Any, **keywords: Any) -> None:
-    original(self, **{**keywords, "max_window": keywords["max_window"] + 1})
-
-
-def _one_epoch(original: Any, self: Any, **keywords: Any) -> None:
-    original(self, **{**keywords, "max_window": 1})
-
-
-def _shorter_horizon(original: Any, self: Any, **keywords: Any) -> None:
-    horizon = keywords["horizon"]
-    original(self, **{**keywords, "horizon": horizon and horizon - 1})
-
-
-def _longer_horizon(original: Any, self: Any, **keywords: Any) -> None:
-    horizon = keywords["horizon"]
-    original(self, **{**keywords, "horizon": None if horizon is None else horizon + 1})
-
-
 def _only_from_the_start(original: Any, self: Any, node: Any) -> Iterator[tuple[int, Any]]:
     if node.epoch == 0:
         yield from original(self, node)
@@ -65,14 +47,6 @@ def _late_end(original: Any, self: Any, node: Any, best: Any) -> None:
     original(self, node, best)
     if best.node is not known:
         best.end -= 1
-
-
-def _own_goal(original: Any, self: Any, **keywords: Any) -> None:
-    original(self, **{**keywords, "goals": keywords["goals"][:1]})
-
-
-def _first_is_best(original: Any, *arguments: Any) -> Iterator[Any]:
-    yield from islice(original(*arguments), 1)
 
 
 def _never_dear(self: Any, key: int, most_cost: int | None) -> bool:
@@ -98,15 +72,20 @@ BUGS = (
     Bug(Windowed, "_open", "it is said to start an epoch later", wrapped(_later_start)),
     Bug(Windowed, "_open", "in epoch 1 only", wrapped(_only_from_the_start)),
     Bug(Windowed, "_end", "it is said to end an epoch earlier", wrapped(_late_end)),
-    Bug(Windowed, "__init__", "max_window: an epoch more", wrapped(_longer)),
-    Bug(Windowed, "__init__", "max_window: always 1", wrapped(_one_epoch)),
-    Bug(Windowed, "__init__", "horizon: an epoch less", wrapped(_shorter_horizon)),
-    Bug(Windowed, "__init__", "horizon: an epoch more", wrapped(_longer_horizon)),
+    Bug(Windowed, "__init__", "max_window: an epoch more", asked(max_window=lambda most: most + 1)),
+    Bug(Windowed, "__init__", "max_window: always 1", asked(max_window=always(1))),
+    Bug(Windowed, "__init__", "horizon: an epoch less", asked(horizon=lambda last: last and last - 1)),
+    Bug(Windowed, "__init__", "horizon: an epoch more", asked(horizon=lambda last: last and last + 1)),
     Bug(CostLayout, "exceeds", "it never does", replaced(_never_dear)),
     Bug(CostLayout, "exceeds", "the limit itself does", replaced(_dear_at_the_limit)),
-    Bug(Unrestricted, "__init__", "the robots' goal is forgotten", wrapped(_own_goal)),
-    Bug(FixedHumanPlan, "__init__", "the robots' goal is forgotten", wrapped(_own_goal)),
-    Bug(windows, "best_first", "the first plan found is called optimal", wrapped(_first_is_best)),
+    Bug(Unrestricted, "__init__", "the robots' goal is forgotten", asked(goals=lambda goals: goals[:1])),
+    Bug(FixedHumanPlan, "__init__", "the robots' goal is forgotten", asked(goals=lambda goals: goals[:1])),
+    Bug(
+        windows,
+        "best_first",
+        "the first plan found is called optimal",
+        returning(lambda found: islice(found, 1)),
+    ),
     Bug(outcome, "helps", "a tie is one", replaced(_ties_help)),
     Bug(outcome, "helps", "nothing is one", replaced(always(False))),
     Bug(human_plan, "_is_dearer", "it is taken for optimal", replaced(always(False))),

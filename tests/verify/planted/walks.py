@@ -3,11 +3,10 @@
 from typing import Any
 
 from search.robots.decoupled import Decoupled, DecoupledSuccessors
-from tests.verify.planted.bug import Bug, always, replaced, wrapped
+from tests.verify.planted.bug import Bug, always, replaced, returning, wrapped
 
 
-def _short_cut(original: Any, self: Any, slot: int, here: int, there: int) -> int:
-    ways = original(self, slot, here, there)
+def _short_cut(ways: Any) -> Any:
     return [
         way._replace(epochs=way.epochs - 1, cost=way.cost - way.cost // way.epochs) if way.epochs > 1 else way
         for way in ways
@@ -18,14 +17,10 @@ def _take_no_time(original: Any, self: Any, idle: Any, joint_action: Any, state:
     return original(self, idle, joint_action._replace(agents=0), state)
 
 
-def _stays(original: Any, self: Any, node: Any) -> Any:
-    return list(original(self, node))[1:]
-
-
 BUGS = (
-    Bug(Decoupled, "ways", "a step shorter", wrapped(_short_cut)),
+    Bug(Decoupled, "ways", "a step shorter", returning(_short_cut)),
     Bug(Decoupled, "ways", "nothing is in reach", replaced(always([]))),
     Bug(DecoupledSuccessors, "rested", "what they do takes no time", wrapped(_take_no_time)),
     Bug(Decoupled, "touched_by", "never", replaced(always(False))),
-    Bug(Decoupled, "steps", "a walk is left out", wrapped(_stays)),
+    Bug(Decoupled, "steps", "a walk is left out", returning(lambda steps: list(steps)[1:])),
 )
