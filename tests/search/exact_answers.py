@@ -1,31 +1,54 @@
 """Calls asked of the planner, and of brute force or of the verifier."""
 
-from typing import Any
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any, TypeVar
 
 import serendipity
-from serendipity import Options, Result, Task, UsageError
+from serendipity import Options, PlanError, Result, Task, UsageError
+from serendipity.model.numbers import as_written
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
-from serendipity.testing.oracle.answers import Optimum
 from verify.calls.solve import solve
 
+T = TypeVar("T")
 
-def exact_and_planned(call: Call) -> tuple[Optimum, Result] | None:
-    """The optimum and the planner's answer; None where the call has no horizon, or too many ties."""
+
+def _or_refused(asked: Callable[[], T]) -> T | str:
+    """What comes of a call, or what is wrong with it."""
     try:
-        optimum = best(call.task, call.options, call.human_plan)
-    except UsageError:
-        return None
-    return optimum, serendipity.plan(call.task, human_plan=call.human_plan_names, **call.keywords())
+        return asked()
+    except PlanError:
+        return "human plan"
+    except UsageError as error:
+        return str(error).partition(":")[0]
 
 
-def same_cost(call: Call) -> None:
-    """Assert that status and cost are those of brute force, where that answers the call."""
-    both = exact_and_planned(call)
-    if both is not None:
-        optimum, answer = both
-        expected = None if optimum.cost is None else float(optimum.cost)
-        assert (answer.status, answer.cost) == (optimum.status, expected)
+def _exact(value: float | None) -> Fraction | None:
+    return None if value is None else as_written(value)
+
+
+def assert_answered(call: Call) -> None:
+    """Assert that every figure of an answer is that of brute force, or that both refuse the call."""
+    result = _or_refused(
+        lambda: serendipity.plan(call.task, human_plan=call.human_entries, **call.keywords())
+    )
+    optimum = _or_refused(lambda: best(call.task, call.options, call.human_plan))
+    if isinstance(result, str) or isinstance(optimum, str):
+        assert result == optimum
+        return
+    assert result.status == optimum.status
+    assert _exact(result.cost) == optimum.cost
+    assert result.opportunity == optimum.opportunity or call.options.ties == "expected"
+    if call.options.ties == "expected" or optimum.cost is None:
+        return
+    assert _exact(result.objective) == optimum.objective
+    assert result.window == optimum.window
+    assert _exact(result.saving) == optimum.saving
+    if optimum.saving_alone is not None:
+        assert _exact(result.saving_alone) == optimum.saving_alone
+    assert len(result.plan) == optimum.actions
+    assert result.lower_bound == result.objective
 
 
 def proved(task: Task, **options: Any) -> Result:

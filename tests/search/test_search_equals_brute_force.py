@@ -10,57 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-import serendipity
 from search.call.context import SearchContext
-from serendipity import Result, Task, UsageError
-from serendipity.model.numbers import as_written
-from serendipity.testing.oracle import Optimum, best
+from serendipity import Task
 from serendipity.testing.strategies import Call, calls, family_tasks, oddly_priced_tasks, tasks
-
-
-def _answer(call: Call) -> Result | str:
-    return _or_error(lambda: serendipity.plan(call.task, human_plan=call.human_plan_names, **call.keywords()))
-
-
-def _or_error(compute: Callable[[], Result]) -> Result | str:
-    try:
-        return compute()
-    except UsageError as error:
-        return str(error).split(":")[0]
-
-
-def _expected(call: Call) -> Optimum | str:
-    try:
-        return best(call.task, call.options, call.human_plan)
-    except UsageError as error:
-        return str(error).split(":")[0]
-
-
-def _assert_answered(call: Call) -> None:
-    result, optimum = _answer(call), _expected(call)
-    if isinstance(result, str) or isinstance(optimum, str):
-        assert result == optimum
-    else:
-        _assert_equal(result, optimum, call)
-
-
-def _assert_equal(result: Result, optimum: Optimum, call: Call) -> None:
-    assert result.status == optimum.status
-    assert _exact(result.cost) == optimum.cost
-    assert result.opportunity == optimum.opportunity or call.options.ties == "expected"
-    if call.options.ties == "expected" or optimum.cost is None:
-        return
-    assert _exact(result.objective) == optimum.objective
-    assert result.window == optimum.window
-    assert _exact(result.saving) == optimum.saving
-    if optimum.saving_alone is not None:
-        assert _exact(result.saving_alone) == optimum.saving_alone
-    assert len(result.plan) == optimum.actions
-    assert result.lower_bound == result.objective
-
-
-def _exact(value: float | None) -> Fraction | None:
-    return None if value is None else as_written(value)
+from tests.search.exact_answers import assert_answered
 
 
 @pytest.mark.parametrize("of", [tasks, family_tasks, oddly_priced_tasks])
@@ -68,7 +21,7 @@ def _exact(value: float | None) -> Fraction | None:
 def test_search_equals_brute_force(mode: str, of: Callable[[], SearchStrategy[Task]]) -> None:
     @given(calls(modes=(mode,), of=of()))
     def law(call: Call) -> None:
-        _assert_answered(call)
+        assert_answered(call)
 
     law()
 
@@ -105,6 +58,6 @@ def test_with_costs_however_far_apart(
 
     @given(extreme())
     def law(call: Call) -> None:
-        _assert_answered(replace(call, options=call.options.but(strategies="-few-nodes")))
+        assert_answered(replace(call, options=call.options.but(strategies="-few-nodes")))
 
     law()
