@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity.cli.app import main
 from serendipity.model import Certificate, Claim, SerendipityError
 from serendipity.testing.crosscheck import FalseCertificates, false_certificates
 from serendipity.testing.generator.calls import random_call
 from serendipity.testing.oracle.truth import Truth, UnknownTruthError
+from tests.cli.conftest import Runs
 
 METHODS = {"auto", "auto, paper", "exhaustive", "program", "proof"}
 MODES = {"individual", "serendipity", "communication", "composite", "assistance"}
@@ -58,28 +58,18 @@ def test_right_answers_are_not_taken_for_false(seed: int) -> None:
         return
 
 
-def test_a_verifier_that_believes_everything_is_found(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    monkeypatch.setattr(
-        false_certificates, "certify", lambda *_, **__: Certificate((Claim("cost", "proved", ""),), 0.0)
-    )
+def test_a_verifier_that_believes_everything_is_found(monkeypatch: pytest.MonkeyPatch, run: Runs) -> None:
+    believed = Certificate((Claim("cost", "proved", ""),), 0.0)
+    monkeypatch.setattr(false_certificates, "certify", lambda *_, **__: believed)
     monkeypatch.setattr("serendipity.testing.shrinking.shrink", lambda call, *_, **__: call)
-    words = ["crosscheck", "--judges", "false-certificates", "--seed", "1", "-o", str(tmp_path / "found")]
-    assert main(words) == 1
-    said = capsys.readouterr().out
-    assert "proved, but" in said
-    again = (tmp_path / "found" / "commands.txt").read_text()
+    done = run("crosscheck --judges false-certificates --seed 1 -o found")
+    assert (done.code, "proved, but" in done.out) == (1, True)
+    again = Path("found/commands.txt").read_text()
     assert "crosscheck --count 1 --seed 1 --judges false-certificates" in again
 
 
-def test_the_command_counts_by_kind_mode_and_method(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    words = ["--judges", "search,false-certificates", "--seed", "3", "--count", "2", "-o", str(tmp_path)]
-    assert main(["crosscheck", *words]) == 0
-    said = capsys.readouterr().out
-    assert "2 calls, search, false-certificates: 0 disagreements" in said
-    last = said.splitlines()[-1].split()
-    assert last[0] == "all"
-    assert last[-1] == "0"
+def test_the_command_counts_by_kind_mode_and_method(run: Runs) -> None:
+    done = run("crosscheck --judges search,false-certificates --seed 3 --count 2")
+    assert (done.code, "2 calls, search, false-certificates: 0 disagreements" in done.out) == (0, True)
+    first, *_, last = done.out.splitlines()[-1].split()
+    assert (first, last) == ("all", "0")

@@ -8,7 +8,6 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from serendipity import Deadline, Result, load
-from serendipity.cli.app import main
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_4
 from serendipity.testing.crosscheck import JUDGES, compare, shows_it_too
@@ -17,6 +16,7 @@ from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall, random_call
 from serendipity.testing.shrinking import shrink
 from serendipity.testing.written_case import command_line, write_case
+from tests.cli.conftest import Runs, assert_one_line
 
 SEARCH = JUDGES["search"]
 
@@ -104,7 +104,7 @@ def test_command_lines_quote_nothing_away() -> None:
     )
 
 
-def test_a_given_plan_is_written_beside_the_task(tmp_path: Path) -> None:
+def test_a_given_plan_is_written_beside_the_task(tmp_path: Path, run: Runs) -> None:
     plan = ("enter h", "leave h")
     task = build(
         init="out", goal="home", actions={"enter h": "-> in", "leave h": "in -> home", "aid r": "-> in"}
@@ -112,24 +112,19 @@ def test_a_given_plan_is_written_beside_the_task(tmp_path: Path) -> None:
     found = Disagreement(PlanCall(task, {}, plan), {"search": "this", "paper": "that"})
     commands = write_case(found, tmp_path / "case").read_text().splitlines()
     line = next(line for line in commands if line.startswith("serendipity plan"))
-    assert main([*line.split()[1:], "--format", "json"]) == 0
+    assert run(f"{line.removeprefix('serendipity')} --format json").code == 0
 
 
 # -- the command
 
 
-def test_command_with_an_unknown_judge(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["crosscheck", "--judges", "search,oracle"]) == 2
+def test_command_with_an_unknown_judge(run: Runs) -> None:
     known = "search, automata, paper, cbc, program, exhaustive, false-certificates"
-    assert f"expected some of {known}, got 'oracle'" in capsys.readouterr().err
+    assert_one_line(run("crosscheck --judges search,oracle"), f"expected some of {known}, got 'oracle'")
 
 
-def test_command_writes_a_disagreement(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_command_writes_a_disagreement(monkeypatch: pytest.MonkeyPatch, run: Runs) -> None:
     monkeypatch.setitem(judging.JUDGES, "search", _blind)
-    folder = tmp_path / "case"
-    words = ["crosscheck", "--seed", "0", "--count", "200", "--judges", "search,automata", "-o", str(folder)]
-    assert main(words) == 1
-    assert "a disagreement" in capsys.readouterr().out
-    assert "serendipity crosscheck --count 1 --seed " in (folder / "commands.txt").read_text()
+    done = run("crosscheck --seed 0 --count 200 --judges search,automata -o case")
+    assert (done.code, "a disagreement" in done.out) == (1, True)
+    assert "serendipity crosscheck --count 1 --seed " in Path("case/commands.txt").read_text()

@@ -2,6 +2,7 @@
 
 import json
 import re
+import shlex
 import sys
 from collections.abc import Callable
 from dataclasses import replace
@@ -12,13 +13,13 @@ import pytest
 
 import serendipity
 from serendipity import Deadline, Task
-from serendipity.cli.app import main
 from serendipity.testing.builders import task as build
 from serendipity.testing.crosscheck import JUDGES, compare, shows_it_too
 from serendipity.testing.disagreement import Disagreement
 from serendipity.testing.generator.calls import PlanCall, random_call
 from serendipity.testing.judges import OutsideJudge, Proposal, by_command, by_name
 from serendipity.testing.shrinking import shrink
+from tests.cli.conftest import Runs, assert_one_line
 
 SEARCH = {"search": JUDGES["search"]}
 CALL = PlanCall(
@@ -112,13 +113,13 @@ HERE = "tests.testing.crosscheck.test_judges_from_outside"
 
 
 @pytest.mark.long
-def test_a_function_is_asked_and_found_out(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["crosscheck", "--judges", "search", "--seed", "3", "--time-limit", "60"]
-    assert main([*words, "--count", "5", "--judge", f"{HERE}:best"]) == 0
-    assert capsys.readouterr().out == f"5 calls, search, {HERE}:best: 0 disagreements\n"
-    folder = tmp_path / "case"
-    assert main([*words, "--count", "100", "--judge", f"{HERE}:greedy", "-o", str(folder)]) == 1
-    assert "is the least" in capsys.readouterr().out
+def test_a_function_is_asked_and_found_out(run: Runs) -> None:
+    asked = "crosscheck --judges search --seed 3 --time-limit 60"
+    done = run(f"{asked} --count 5 --judge {HERE}:best")
+    assert (done.code, done.out) == (0, f"5 calls, search, {HERE}:best: 0 disagreements\n")
+    done = run(f"{asked} --count 100 --judge {HERE}:greedy -o case")
+    assert (done.code, "is the least" in done.out) == (1, True)
+    folder = Path("case")
     shown = re.search(rf"--seed (\d+) --judge {HERE}:greedy", (folder / "commands.txt").read_text())
     assert shown is not None
     assert "(define (domain grounded)" in (folder / "joint-domain.pddl").read_text()
@@ -205,10 +206,9 @@ def test_places_of_files_are_filled_in(tmp_path: Path) -> None:
     ],
 )
 def test_judges_that_are_not_there_are_told(
-    make: Callable[[str], OutsideJudge], name: str, why: str, capsys: pytest.CaptureFixture[str]
+    make: Callable[[str], OutsideJudge], name: str, why: str, run: Runs
 ) -> None:
     with pytest.raises(serendipity.UsageError, match=why):
         make(name)
     option = "--judge" if make is by_name else "--judge-command"
-    assert main(["crosscheck", "--count", "1", option, name]) == 2
-    assert len(capsys.readouterr().err.splitlines()) == 1
+    assert_one_line(run(shlex.join(("crosscheck", "--count", "1", option, name))))

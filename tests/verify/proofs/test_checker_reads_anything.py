@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from serendipity.cli.app import main
+from tests.cli.conftest import Runs, assert_one_line
 from tests.verify.proofs.samples import sample
 from verify.proofs.checker import MalformedProofError, RejectedProofError, check, read
 
@@ -67,22 +67,21 @@ def test_any_json(value: Any) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("packed", [False, True], ids=["json", "gzip"])
-def test_any_bytes(packed: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_any_bytes(packed: bool, run: Runs) -> None:
     content = json.dumps(sample("branched").proof).encode()
     if packed:
         content = gzip.compress(content, mtime=0)
-    dice, file, codes = Random(7), tmp_path / "proof.json", set()
+    dice, file, codes = Random(7), Path("proof.json"), set()
     for _ in range(150):
         broken = bytearray(content)
         for _ in range(dice.randint(1, 3)):
             broken[dice.randrange(len(broken))] = dice.randrange(256)
         file.write_bytes(broken[: dice.choice((len(broken), dice.randrange(len(broken))))])
-        code = main(["check-proof", str(file)])
-        said = capsys.readouterr()
-        codes.add(code)
-        assert code in (0, 1, 2)
-        assert "Traceback" not in said.out + said.err
-        assert said.err.count("\n") == (code == 2)
+        done = run(f"check-proof {file}")
+        codes.add(done.code)
+        assert done.code in (0, 1, 2)
+        assert "Traceback" not in done.out + done.err
+        assert done.err.count("\n") == (done.code == 2)
     assert 2 in codes
 
 
@@ -102,15 +101,9 @@ def test_any_bytes(packed: bool, tmp_path: Path, capsys: pytest.CaptureFixture[s
         (b"null", "expected an object with 'schema'"),
     ],
 )
-def test_files_that_are_no_proofs(
-    content: bytes, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    file = tmp_path / "proof.json"
-    file.write_bytes(content)
-    assert main(["check-proof", str(file)]) == 2
-    error = capsys.readouterr().err
-    assert error.startswith(f"Error: {file}: ")
-    assert (said in error, error.count("\n")) == (True, 1)
+def test_files_that_are_no_proofs(content: bytes, said: str, run: Runs) -> None:
+    Path("proof.json").write_bytes(content)
+    assert_one_line(run("check-proof proof.json"), "Error: proof.json: ", said)
 
 
 def test_files_that_are_not_there(tmp_path: Path) -> None:

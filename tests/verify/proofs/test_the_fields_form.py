@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given, settings
 
 import serendipity
-from serendipity.cli.app import main
 from serendipity.model import UsageError
 from serendipity.testing.cases import case_1, case_4
 from serendipity.testing.pseudo_boolean.checker import ProofError, check
 from serendipity.testing.pseudo_boolean.opb import read
 from serendipity.testing.strategies import Call, calls
+from tests.cli.conftest import Runs
 from tests.verify.proofs.in_the_fields_form import DOCTORED, Files, files_of, first
 from tests.verify.proofs.samples import SAMPLES, Proof, entry, sample
 from verify.calls.solve import solve
@@ -160,12 +160,10 @@ def test_nothing_is_written_where_nothing_is_proved(tmp_path: Path) -> None:
     assert (verdict, list(tmp_path.iterdir())) == ("undecided", [])
 
 
-def test_the_command_writes_them(tmp_path: Path) -> None:
-    answer, proof = str(tmp_path / "help.json"), str(tmp_path / "room2.pbp")
-    assert main(["plan", "--example", "room2", "--discount", "0.6", "--quiet", "-o", answer]) == 0
-    assert main(["verify", "--example", "room2", answer, "--proof", proof, "--quiet"]) == 0
-    formula = (tmp_path / "room2.opb").read_text()
-    assert (
-        "* optimal, program 1 of 1: every window, 13 epochs\n* what an objective of 1 costs: 1/5\n" in formula
-    )
-    assert check(read(formula), (tmp_path / "room2.pbp").read_text()) == 5063
+def test_the_command_writes_them(run: Runs) -> None:
+    assert run("plan --example room2 --discount 0.6 --quiet -o help.json").code == 0
+    assert run("verify --example room2 help.json --proof room2.pbp --quiet").code == 0
+    formula = Path("room2.opb").read_text()
+    head = "* optimal, program 1 of 1: every window, 13 epochs\n* what an objective of 1 costs: 1/5\n"
+    assert head in formula
+    assert check(read(formula), Path("room2.pbp").read_text()) == 5063
