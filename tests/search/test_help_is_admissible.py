@@ -1,7 +1,5 @@
 """Before the human's first touch, no way on is cheaper than the bound that asks who helps."""
 
-from heapq import heappop, heappush
-
 import pytest
 from hypothesis import given
 
@@ -14,6 +12,7 @@ from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
 from serendipity.testing.builders import task, usar
 from serendipity.testing.strategies import family_tasks, strips_tasks, tasks
+from tests.shortest import distances
 
 _DISCOUNTED = Options(mode="composite", discount="0.9", horizon="inf")  # type: ignore[arg-type]
 
@@ -54,24 +53,13 @@ class Graph:
         moves = {
             at: [(w, to) for w, to, interaction in out if not interaction] for at, out in self.edges.items()
         }
-        self.spent = _distances({first}, moves)
+        self.spent = distances({first}, moves)
         before: dict[int, list[tuple[int, int]]] = {at: [] for at in self.edges}
         for at, out in self.edges.items():
             for weight, to, _ in out:
                 before[to].append((weight, at))
         goals = {at for at in self.edges if all(goal.holds(at) for goal in context.goals)}
-        self.rest = _distances(goals, before)
-
-
-def _distances(sources: set[int], edges: dict[int, list[tuple[int, int]]]) -> dict[int, int]:
-    queue, found = [(0, at) for at in sources], dict[int, int]()
-    while queue:
-        key, at = heappop(queue)
-        if at not in found:
-            found[at] = key
-            for weight, to in edges[at]:
-                heappush(queue, (key + weight, to))
-    return found
+        self.rest = distances(goals, before)
 
 
 def assert_admissible(task: Task, options: Options, over: int | None) -> int:

@@ -4,6 +4,7 @@ from search.packed.cost_vector import INFINITE_KEY, own_weights
 from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
 from tests.search.small_tasks import reached
+from tests.shortest import distances
 
 
 def exact(packed: PackedTask) -> dict[int, int]:
@@ -13,13 +14,5 @@ def exact(packed: PackedTask) -> dict[int, int]:
     for state in into:
         for op in packed.own:
             if applicable(op, state):
-                into[state & op.keep | op.put].append((state, weights[op.cost]))
-    found = {state: 0 if packed.goal.holds(state) else INFINITE_KEY for state in into}
-    changed = True
-    while changed:
-        changed = False
-        for after, edges in into.items():
-            for state, weight in edges:
-                if found[after] + weight < found[state]:
-                    found[state], changed = found[after] + weight, True
-    return found
+                into[state & op.keep | op.put].append((weights[op.cost], state))
+    return dict.fromkeys(into, INFINITE_KEY) | distances(filter(packed.goal.holds, into), into)

@@ -6,24 +6,17 @@ import pytest
 
 import serendipity
 from search.classical import planner as planner_module
-from search.classical.planner import ClassicalPlanner
-from search.human.whole_actions import alone_planner
 from search.kernel.library import library
-from search.packed.cost_vector import INFINITE_KEY, own_weights
-from search.packed.operators import applicable
-from search.packed.packed_task import PackedTask
+from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model import Deadline, Task
 from serendipity.model.numbers import as_written
 from serendipity.testing.builders import task as build
 from serendipity.testing.oracle import best
 from tests.search.classical.exact_costs import exact
+from tests.search.classical.test_kernel_equals_brute_force import assert_leads_to_goal, planner_of
 from tests.search.small_tasks import fetching, packed_of
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
-
-
-def planner_of(packed: PackedTask) -> ClassicalPlanner:
-    return alone_planner(packed, packed.goal, Deadline()).planner
 
 
 def cups(dear: str = "", wanted: str = "tuv") -> Task:
@@ -62,20 +55,13 @@ def test_costs_are_exact_and_plans_are_plans(late: int) -> None:
             assert found == cost if cost < limit else found >= limit, seed
             if found < min(limit, INFINITE_KEY):
                 for plan in (planner.known_plan(state, Deadline()), planner.best_so_far(state)):
-                    assert _weight(packed, planner, state, plan or []) == cost, seed
+                    assert assert_leads_to_goal(packed, state, plan or []) == cost, seed
                 known[state] = cost
         for state, cost in known.items():
-            assert _weight(packed, planner, state, planner.known_plan(state, Deadline()) or []) == cost, seed
+            assert assert_leads_to_goal(packed, state, planner.known_plan(state, Deadline()) or []) == cost, (
+                seed
+            )
     assert several > 30
-
-
-def _weight(packed: PackedTask, planner: ClassicalPlanner, state: int, plan: list[int]) -> int:
-    total = 0
-    for op in map(planner.problem.operators.__getitem__, plan):
-        assert applicable(op, state)
-        state, total = state & op.keep | op.put, total + own_weights(packed)[op.cost]
-    assert packed.goal.holds(state)
-    return total
 
 
 def test_a_search_that_finds_out_on_its_way_begins_anew(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -88,7 +74,7 @@ def test_a_search_that_finds_out_on_its_way_begins_anew(monkeypatch: pytest.Monk
         assert found == cost
         if found < INFINITE_KEY:
             best_plan = planner.best_so_far(packed.init)
-            assert _weight(packed, planner, packed.init, best_plan or []) == cost
+            assert assert_leads_to_goal(packed, packed.init, best_plan or []) == cost
 
 
 @pytest.mark.long

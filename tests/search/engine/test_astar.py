@@ -1,12 +1,11 @@
 """A* finds least costs, with any consistent estimate, below its limit and in a known order."""
 
-from collections.abc import Mapping
-
 from hypothesis import given
 from hypothesis import strategies as st
 
 from search.engine.astar import AStar
 from serendipity.model.resources.deadline import Deadline
+from tests.shortest import distances
 
 Edges = dict[int, list[tuple[int, int]]]
 """Per node what leads on from it: weight, and where to."""
@@ -28,19 +27,9 @@ def turned(edges: Edges) -> Edges:
     return found
 
 
-def distances(sources: Mapping[int, int], edges: Edges) -> dict[int, int]:
-    found = dict(sources)
-    for _ in range(NODES):
-        for node, onward in edges.items():
-            for weight, after in onward:
-                if node in found and found[node] + weight < found.get(after, FAR):
-                    found[after] = found[node] + weight
-    return found
-
-
 def estimates(edges: Edges, goal: int, share: int) -> dict[int, int]:
     """A consistent estimate of the way to a goal: a share (in quarters) of the distance, rounded up."""
-    exact = distances({goal: 0}, turned(edges))
+    exact = distances([goal], turned(edges))
     return {node: -(-exact.get(node, FAR) * share // 4) for node in range(NODES)}
 
 
@@ -48,7 +37,7 @@ def estimates(edges: Edges, goal: int, share: int) -> dict[int, int]:
 def test_least_costs_below_the_limit(
     edges: Edges, goal: int, share: int, deep_first: bool, limit: int
 ) -> None:
-    estimate, exact = estimates(edges, goal, share), distances({0: 0}, edges)
+    estimate, exact = estimates(edges, goal, share), distances([0], edges)
     search = AStar(0, estimate.__getitem__, Deadline(), limit=limit, deep_first=deep_first)
     met = {}
     for node, spent in search:
@@ -64,7 +53,7 @@ def test_least_costs_below_the_limit(
 
 @given(graphs(), st.integers(0, NODES - 1), st.booleans())
 def test_the_limit_may_be_lowered(edges: Edges, goal: int, deep_first: bool) -> None:
-    estimate, exact = estimates(edges, goal, 4), distances({0: 0}, edges)
+    estimate, exact = estimates(edges, goal, 4), distances([0], edges)
     search = AStar(0, estimate.__getitem__, Deadline(), limit=FAR, deep_first=deep_first)
     for node, spent in search:
         if node == goal:

@@ -12,6 +12,7 @@ from serendipity.testing.builders import task as build
 from serendipity.testing.generator.families import family_task
 from serendipity.testing.oracle import best
 from serendipity.testing.strategies import Call, calls, tasks
+from tests.shortest import distances
 from verify.base.execution import State, after, applicable, states_of_pi_h
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
@@ -51,29 +52,20 @@ def team_problem(task: Task) -> PackedProblem:
     return PackedProblem(space, range(len(task.facts)), operators, goal, Deadline())
 
 
-def distances(task: Task, states: list[State]) -> dict[State, int]:
-    """Least weights to the goal, by relaxing all steps until nothing changes."""
-    steps = [
-        (state, after(state, a), int(a.cost * 1000) + 1)
-        for state in states
-        for a in task.actions
-        if applicable(a, state)
-    ]
-    found = {state: 0 for state in states if task.goal.holds(state)}
-    changed = True
-    while changed:
-        changed = False
-        for state, new, weight in steps:
-            if new in found and weight + found[new] < found.get(state, FAR):
-                found[state] = weight + found[new]
-                changed = True
-    return found
+def from_goals(task: Task, states: list[State]) -> dict[State, int]:
+    """Least weights to the goal."""
+    into: dict[State, list[tuple[int, State]]] = {state: [] for state in states}
+    for state in states:
+        for a in task.actions:
+            if applicable(a, state):
+                into[after(state, a)].append((int(a.cost * 1000) + 1, state))
+    return distances(filter(task.goal.holds, states), into)
 
 
 def agree(task: Task) -> None:
     """Bounds never exceed the distances, and cheapest paths are as cheap, from every state."""
     states = reached(task)
-    expected = distances(task, states)
+    expected = from_goals(task, states)
     pairs = ReachablePairs(len(task.facts), task.init, task.actions, Deadline())
     assert all(pairs.possible(state) for state in states)
     problem = team_problem(task)
@@ -153,7 +145,7 @@ def test_a_state_that_cannot_be_reached_is_not_packed() -> None:
 def test_several_starts_share_a_search() -> None:
     blocks = family_task("blocks", 2, 3)
     problem, states = team_problem(blocks), reached(blocks)
-    expected = distances(blocks, states)
+    expected = from_goals(blocks, states)
     starts = [state for state in states if state in expected][:40]
     paid = np.array([(7 * k) % 50 * 100 for k in range(len(starts))], np.int64)
     rows = problem.pack(starts)
@@ -161,27 +153,6 @@ def test_several_starts_share_a_search() -> None:
     search, found = problem.search(rows, paid)
     assert found is not None
     assert search.paid(found) == min(int(p) + expected[state] for p, state in zip(paid, starts, strict=True))
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(("name", "seed", "size"), FAMILY)
-def test_the_human_alone_packed_and_not(name: str, seed: int, size: int) -> None:
-    task = family_task(name, seed, size)
-    plain = IndividualOptimum(task)
-    packed = IndividualOptimum(task)
-    states = reached(task)
-    for state in states[:: max(1, len(states) // 15)]:
-        with limited(many_own_states=10**9):
-            expected = plain.optimum(state)
-        with limited(many_own_states=0):
-            assert packed.optimum(state) == expected
-            if expected is not None:
-                weight = plain.weight(state)
-                assert weight is not None
-                assert IndividualOptimum(task).within(state, weight)
-                assert not IndividualOptimum(task).within(state, weight - 1)
-            else:
-                assert not IndividualOptimum(task).within(state, 10**15)
 
 
 @pytest.mark.parametrize(("name", "seed", "size"), FAMILY)
