@@ -5,13 +5,10 @@ from fractions import Fraction
 
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from serendipity.model import Condition, HumanPlan, Options, Task
-from serendipity.testing.oracle import optimal_human_plan
-from serendipity.testing.oracle.scenarios import PolicyOptimum, PossibleGoal, best_policy
-from tests.search.modes.goals.strategies import reachable_goals, rivals
-from tests.testing.oracle.test_scenarios_by_hand import Scenario
+from serendipity.testing.oracle.scenarios import PolicyOptimum, best_policy
+from tests.verify.scenarios.three_ways import Asked, calls_over_scenarios, is_small
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UndecidedError
 from verify.calls.call import ExaminedCall
@@ -22,45 +19,17 @@ from verify.scenarios.policies import Better, PolicySearch
 from verify.scenarios.program import refute_policies
 from verify.scenarios.proof import floor_of
 
-_OPTIONS = st.builds(
-    Options,
-    discount=st.sampled_from(["0", "0.5", "0.9", "1"]),
-    window_weight=st.sampled_from(["1000", "0", "0.25", "1"]),
-    interference=st.sampled_from(["paper", "strict"]),
-    suffix=st.sampled_from(["replan", "replan", "subplan"]),
-    preservation=st.sampled_from(["kernel", "kernel", "state"]),
-    max_window=st.sampled_from([None, None, 1, 2]),
-    policy=st.sampled_from(["watching", "watching", "fixed"]),
-    risk=st.sampled_from(["mean", "worst", "regret"]),
-)
-_LONGEST = 4
 _FAR = 10**100
 
 
-@st.composite
-def _scenarios(draw: st.DrawFn) -> tuple[Task, list[PossibleGoal]]:
-    """Two or three goals, the human's plan for each."""
-    task, candidates = draw(rivals())
-    found: list[PossibleGoal] = [Scenario(c.goal, c.plan, c.weight) for c in candidates]
-    if draw(st.booleans()):
-        goal = draw(reachable_goals(task))
-        plan = optimal_human_plan(replace(task, goal=goal))
-        assert plan is not None
-        third = Scenario(goal, plan, Fraction(1, 2))
-        found = [third, *(Scenario(c.goal, c.plan, c.weight / 2) for c in found)]
-    return task, found
-
-
 @pytest.mark.long
-@given(_scenarios(), _OPTIONS, st.integers(0, 1))
-@settings(max_examples=60)
-def test_the_least_value_is_that_of_brute_force(
-    given_scenarios: tuple[Task, list[PossibleGoal]], options: Options, later: int
-) -> None:
-    task, scenarios = given_scenarios
-    horizon = max(len(scenario.plan) for scenario in scenarios) + later
-    if not 0 < horizon <= _LONGEST:
+@given(calls_over_scenarios())
+@settings(max_examples=100)
+def test_the_least_value_is_that_of_brute_force(asked: Asked) -> None:
+    if not is_small(asked):
         return
+    task, scenarios, options = asked
+    horizon = int(options.horizon or max(len(scenario.plan) for scenario in scenarios))
     right = best_policy(task, options, scenarios, horizon)
     calls = [_call(task, options.but(horizon=horizon), s.goal, s.plan) for s in scenarios]
     require_least(calls, [scenario.weight for scenario in scenarios], right)
