@@ -20,60 +20,24 @@ from tests.verify.test_ties_share_their_plans import errands
 
 METHODS: Final = ("auto", "program", "exhaustive")
 
-LABELS: Final = {
-    "window": "help in a window",
-    "no opportunity": "no opportunity",
-    "free windows": "windows that cost nothing (`K = 0`)",
-    "two robots": "two robots",
-    "longest window": "`max_window`",
-    "subplan": "`suffix subplan`",
-    "state": "`preservation state`",
-    "robots' goal": "robots' own goals",
-    "gain alone": "a given plan that is not optimal",
-    "no human plan": "infeasible: no plan alone",
-    "told, no plan alone": "communication",
-    "communication": "communication that costs",
-    "keep prefix": "`keep_prefix`",
-    "composite": "composite",
-    "composite infeasible": "infeasible within the horizon",
-    "composite inf": "composite without a horizon",
-    "individual": "individual",
-    "feasible": "a limit came first (anytime): feasible, with a bound",
-    "unknown": "a limit came first: unknown, no bound",
-    "session": "a session, after an epoch",
-    "robust": "ties: robust",
-    "optimistic": "ties: optimistic",
-    "expected": "ties: expected",
-    "told, robust": "ties, communication that costs",
-    "many ties": "ties: 24 optimal plans, all helped",
-    "goals": "several goals, help",
-    "goals, no help": "several goals, no help",
-    "goals, observed": "several goals, actions observed",
-    "goals, sure": "several goals whose best answers add up",
-    "goals, one left": "several goals, one is possible",
-    "goals, none": "several goals, none is possible",
-    "policy": "several goals, told apart on the way",
-    "policy, worst": "several goals, `policy fixed`, `risk worst`",
-    "policy, regret": "several goals, `risk regret`",
-    "watched": "ties: watched",
-    "library": "a library of plans",
-    "observant blocking": "an observant human, no joint plan is cheaper",
-    "observant help": "an observant human, a joint plan is cheaper",
-    "local": "a local human, a joint plan is cheaper",
-    "assistance fixed": "silent assistance, ties fixed",
-    "assistance robust": "silent assistance, ties robust",
-    "assistance expected": "silent assistance, ties expected",
-    "assistance optimistic": "silent assistance, ties optimistic",
-    "assistance infeasible": "silent assistance, infeasible",
-}
-"""Answers by their name in the corpus, or here, and what the page calls them."""
+NAMES: Final = (
+    *("window", "no opportunity", "free windows", "two robots", "longest window", "subplan", "state"),
+    *("robots' goal", "gain alone", "no human plan", "told, no plan alone", "communication", "keep prefix"),
+    *("composite", "composite infeasible", "composite inf", "individual", "feasible", "unknown", "session"),
+    *("robust", "optimistic", "expected", "told, robust", "many ties", "goals", "goals, no help"),
+    *("goals, observed", "goals, sure", "goals, one left", "goals, none", "policy", "policy, worst"),
+    *("policy, regret", "watched", "library", "observant blocking", "observant help", "local"),
+    *("assistance fixed", "assistance robust", "assistance expected", "assistance optimistic"),
+    *("assistance infeasible",),
+)
+"""Answers by their name in the corpus, or here."""
 
 
 @cache
 def kinds() -> dict[str, Good]:
     """An answer of each kind, by name."""
     found = {good.name: good for good in (*corpus(), *_more())}
-    return {name: found[name] for name in LABELS}
+    return {name: found[name] for name in NAMES}
 
 
 def _more() -> Iterator[Good]:
@@ -126,10 +90,10 @@ def proof(task: Task, result: Result) -> str:
 
 
 def rows() -> Iterator[tuple[str, ...]]:
-    """Label, a cell for each method, and the proof file."""
+    """Name, a cell for each method, and the proof file."""
     for name, good in kinds().items():
         said = (verdict(good.task, good.result, method) for method in METHODS)
-        yield LABELS[name], *said, proof(good.task, good.result)
+        yield name, *said, proof(good.task, good.result)
 
 
 def table() -> str:
