@@ -1,15 +1,18 @@
-"""Days of some thousand epochs, and buildings with slow walks.
+"""Days of some thousand epochs, buildings with slow walks, and robots at work.
 
 Somebody at home has ten things to do, of 5 to 60 epochs each, some of them only while the shop, the garden or
 the office is open, and a robot can do half of them.
 """
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from random import Random
 from typing import Final
 
 from serendipity.model import Script, Task, Timing
+from serendipity.model.task.course import BrokenPlanError
+from serendipity.model.task.passing import epoch_later
 from serendipity.testing.builders import Builder
 
 _LAST: Final = 1_000
@@ -67,3 +70,12 @@ def slowed(task: Task, seed: int) -> Task:
         else:
             actions.append(action)
     return replace(task, actions=tuple(actions))
+
+
+def with_a_robot_at_work(task: Task, dice: Random) -> Task:
+    """The task an epoch later, a robot having begun something that takes longer; as it is where none can."""
+    long = [a for a in task.actions if a.timing is not None and task.human not in a.participants]
+    possible = [action for action in long if action.applicable(task.init)]
+    with suppress(BrokenPlanError):
+        return epoch_later(task, [dice.choice(possible)] if possible else [])
+    return task

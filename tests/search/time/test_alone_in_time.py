@@ -1,6 +1,5 @@
 """The human alone in time: the canonical plan of brute force, at the cost of the few epochs that matter."""
 
-from contextlib import suppress
 from fractions import Fraction
 from random import Random
 from typing import Any
@@ -12,14 +11,13 @@ import serendipity
 from benchmarks.problems import building
 from search import PreparedTask, canonical_human_plan
 from serendipity.model import Deadline, HumanPlan, Options, Script, Task
-from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.passing import epoch_later
 from serendipity.model.task.unit_steps import unit_steps
 from serendipity.testing.builders import task
 from serendipity.testing.generator import random_call_in_time
 from serendipity.testing.oracle import best, optimal_human_plan
 from serendipity.testing.strategies.time import tasks_in_time
-from tests.search.time.days import day, slowed
+from tests.search.time.days import day, slowed, with_a_robot_at_work
 
 Told = tuple[list[str], tuple[int, ...], int] | None
 
@@ -61,12 +59,7 @@ def test_a_day_of_a_thousand_epochs(seed: int, most: int) -> None:
 
 @pytest.mark.parametrize("seed", range(0, 120, 3))
 def test_plans_beside_what_robots_are_at_are_the_canonical_ones(seed: int) -> None:
-    call, dice = random_call_in_time(seed), Random(seed)
-    now = call.task
-    long = [a for a in now.actions if a.timing is not None and now.human not in a.participants]
-    possible = [action for action in long if action.applicable(now.init)]
-    with suppress(BrokenPlanError):
-        now = epoch_later(now, [dice.choice(possible)] if possible else [])
+    now = with_a_robot_at_work(random_call_in_time(seed).task, Random(seed))
     units = unit_steps(now)
     plan = canonical_human_plan(PreparedTask(units.task), Deadline(), Options())
     found = told(now, None if plan is None else units.begun(plan))

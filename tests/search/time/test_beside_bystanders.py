@@ -1,23 +1,24 @@
 """Small tasks beside a bystander: what they undo, whom they are in the way of, and when they can't go on."""
 
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 
 import serendipity
 from serendipity import Task
-from serendipity.model import Condition, Options, Script
+from serendipity.model import Options, Script
 from serendipity.testing.builders import task
+from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
+from tests.search.exact_answers import assert_answered, proved
 from tests.verify.edits.corpus import shop
 
 AGENTS = {"agents": "h r q", "human": "h"}
 
 
 def test_robots_goals_that_a_bystander_undoes_later_are_not_reached() -> None:
-    built = task(**AGENTS, goal="f", actions={"a h": "-> f", "b r": "-> g", "c q": "-> !g"})
-    wanted = replace(built, robot_goal=Condition((built.facts.index("g"),)))
+    actions = {"a h": "-> f", "b r": "-> g", "c q": "-> !g"}
+    wanted = task(**AGENTS, goal="f", robot_goal="g", actions=actions)
     undone = wanted.with_script(Script(people={"q": [(2, "c q")]}))
     assert serendipity.plan(wanted, horizon=2).status == "optimal"
     answer = serendipity.plan(undone, horizon=2)
@@ -39,16 +40,12 @@ def test_robots_goals_that_the_human_reaches_unless_a_bystander_does() -> None:
 
 
 def test_robots_goals_that_a_bystander_reaches_once_the_human_is_done() -> None:
-    built = task(**AGENTS, init="k", goal="f", actions={"a h": "-> f @ 3", "b r": "k -> f !k", "c q": "-> g"})
-    later = replace(built, robot_goal=Condition((built.facts.index("g"),)))
-    later = later.with_script(Script(people={"q": [(3, "c q")]}))
-    options = {"horizon": 3, "discount": "0.5", "window_weight": 0}
-    found, expected = serendipity.plan(later, **options), best(later, Options(**options))
-    assert (found.status, found.cost, found.opportunity) == (
-        expected.status,
-        float(expected.cost or 0),
-        expected.opportunity,
+    actions = {"a h": "-> f @ 3", "b r": "k -> f !k", "c q": "-> g"}
+    later = task(**AGENTS, init="k", goal="f", robot_goal="g", actions=actions).with_script(
+        Script(people={"q": [(3, "c q")]})
     )
+    options = {"horizon": 3, "discount": "0.5", "window_weight": 0}
+    assert_answered(Call(later, Options(**options)))
 
 
 def test_what_robots_do_last_in_a_window_may_be_for_a_bystander() -> None:
@@ -106,11 +103,8 @@ def test_what_the_script_brings_costs_robots_nothing() -> None:
 
 def test_who_rests_in_their_plan_may_wait_before_a_window_instead() -> None:
     """The goal comes by itself in epoch 3; a robot wants something else, for which the human has to wait."""
-    built = task(init="k", goal="g", actions={"a h": "m -> !n @ 0", "b r": "k -> m @ 1/2"})
-    wanted = replace(built, robot_goal=Condition((), (built.facts.index("n"),)))
-    later = replace(wanted, init=wanted.init | {built.facts.index("n")})
-    later = later.with_script(Script(facts=[(3, "g")]))
+    actions = {"a h": "m -> !n @ 0", "b r": "k -> m @ 1/2"}
+    later = task(init="k n", goal="g", robot_goal="!n", actions=actions).with_script(Script(facts=[(3, "g")]))
     options = {"window_weight": "0.25", "waiting_cost": "0.5", "horizon": 4}
-    found, expected = serendipity.plan(later, **options), best(later, Options(**options))
-    assert (found.objective, found.window) == (expected.objective, expected.window)
-    assert serendipity.verify(later, found).verdict == "proved"
+    assert_answered(Call(later, Options(**options)))
+    proved(later, **options)

@@ -1,6 +1,5 @@
 """The human alone in time, from action to action: as epoch by epoch, and in long days."""
 
-from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from random import Random
@@ -10,14 +9,12 @@ from hypothesis import given
 
 import serendipity
 from serendipity.model import Deadline, Options, Script, Task
-from serendipity.model.task.course import BrokenPlanError
-from serendipity.model.task.passing import epoch_later
 from serendipity.model.task.unit_steps import unit_steps
 from serendipity.testing.builders import task as build
 from serendipity.testing.generator import random_call_in_time
 from serendipity.testing.oracle import optimal_human_plan
 from serendipity.testing.strategies.time import tasks_in_time
-from tests.search.time.days import day
+from tests.search.time.days import day, with_a_robot_at_work
 from verify.base.beside_script import AloneBesideScript, alone_of
 from verify.base.due import onward
 from verify.base.execution import State, applicable, unchosen
@@ -57,11 +54,8 @@ def met(task: Task, dice: Random, *, strict: bool) -> set[State]:
 
 @pytest.mark.parametrize("seed", [*range(60), 31000761, 31300181])
 def test_from_action_to_action_is_as_good_as_epoch_by_epoch(seed: int) -> None:
-    dice, built = Random(seed), random_call_in_time(seed).task
-    with suppress(BrokenPlanError):
-        long = [a for a in built.actions if a.timing is not None and built.human not in a.participants]
-        possible = [action for action in long if action.applicable(built.init)]
-        built = epoch_later(built, [dice.choice(possible)] if possible else [])
+    dice = Random(seed)
+    built = with_a_robot_at_work(random_call_in_time(seed).task, dice)
     price = dice.choice([Fraction(0), Fraction(1, 2), Fraction(1)])
     options = Options(
         interference=dice.choice(["paper", "strict"]),

@@ -8,7 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity.model import Condition, Result, Task, Timing, UsageError
+from serendipity.model import Result, Task, UsageError
 from serendipity.model.keywords import Ties
 from serendipity.testing.builders import task as build
 from serendipity.testing.call import Call
@@ -50,14 +50,12 @@ def test_of_plans_of_one_length_those_of_the_fewest_actions_are_optimal() -> Non
     actions = {
         "begin h": "-> q @ 1",
         "end h": "q -> p @ 1",
-        "whole h": "-> p @ 2",
+        "whole h": "-> p @ 2 [2]",
         "lift r": "-> up @ 0",
         "turn r": "up -> on @ 0",
         "short h": "on -> p @ 0",
     }
     task = build(goal="p", actions=actions)
-    longer = (replace(a, timing=Timing(2)) if a.name == "whole h" else a for a in task.actions)
-    task = replace(task, actions=tuple(longer))
     answer = serendipity.plan(task, ties="optimistic", horizon=3)
     assert [tied.human_plan for tied in answer.ties or ()] == [("whole h",)]
     certificate = serendipity.verify(task, answer)
@@ -133,8 +131,7 @@ def test_ties_under_the_rule_are_proved_where_the_best_plan_keeps_it_without_rob
         "turn r": " -> on",
     }
     beside = serendipity.Script(people={"c": [(1, "close c")]})
-    task = build(agents="h r c", init="", goal="done", actions=ways).with_script(beside)
-    task = task.with_goal(task.goal, Condition((), (task.facts.index("on"),)))
+    task = build(agents="h r c", goal="done", robot_goal="!on", actions=ways).with_script(beside)
     found = serendipity.plan(task, ties="optimistic", head_start=2, window_weight=0)
     assert (found.cost, found.opportunity) == (1, True)
     assert serendipity.verify(task, found).verdict == "proved"

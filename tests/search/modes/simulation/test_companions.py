@@ -26,21 +26,17 @@ def _start(companion: Companion, task: Task) -> Start | None:
     return None if plans is None else Start(init, init, companion.human.intentions.of(plans.canonical()))
 
 
-def _corridor() -> Task:
-    return usar(
-        "a0-a1-a2-a3-c-d-g d-s c-r-r2",
-        human="a0",
-        robots={"r": "r", "q": "g"},
-        kits={"k1": "s", "k2": "r2"},
-        triage="g",
-    )
-
-
-def test_what_was_found_before_is_not_lost_when_there_is_no_time() -> None:
-    task = _corridor()
+def _in_a_corridor() -> tuple[Task, Companion, Start]:
+    ways, robots, kits = "a0-a1-a2-a3-c-d-g d-s c-r-r2", {"r": "r", "q": "g"}, {"k1": "s", "k2": "r2"}
+    task = usar(ways, human="a0", robots=robots, kits=kits, triage="g")
     companion = _companion(task)
     start = _start(companion, task)
     assert start is not None
+    return task, companion, start
+
+
+def test_what_was_found_before_is_not_lost_when_there_is_no_time() -> None:
+    _, companion, start = _in_a_corridor()
     found = companion.course(start, [NOTHING], Deadline())
     assert found is not None and found.proved and found.cost == Fraction("8.4") and found.alone == 10
     kept = companion.course(start, [], Deadline(), known=found.steps)
@@ -50,10 +46,7 @@ def test_what_was_found_before_is_not_lost_when_there_is_no_time() -> None:
 
 
 def test_what_may_not_begin_does_not() -> None:
-    task = _corridor()
-    companion = _companion(task)
-    start = _start(companion, task)
-    assert start is not None
+    task, companion, start = _in_a_corridor()
     own = set(task.human_actions)
     found = companion.course(start, [NOTHING], Deadline(), begins=lambda actions: own.issuperset(actions))
     assert found is not None and not any(s.epoch == 1 and s.action not in own for s in found.steps)
