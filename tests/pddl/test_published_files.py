@@ -5,17 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from serendipity import Task, load, load_agents
-
-
-def assistance(folder: Path, number: str) -> Task:
-    """One problem of silent assistance, prime and supporter."""
-    files = {}
-    for who in ("prime", "supporter"):
-        (domain,) = folder.glob(f"*_domain_{who}.pddl")
-        (problem,) = folder.glob(f"*_problem_{number}_{who}.pddl")
-        files[who] = domain, problem
-    return load_agents(files)
+from benchmarks.problems import silent, silent_task
+from serendipity import load
 
 
 def test_first_published_task(usar200: Path) -> None:
@@ -56,10 +47,9 @@ def test_all_published_tasks_load_without_a_warning(usar200: Path) -> None:
     ],
 )
 def test_silent_assistance_loads(spa: Path, domain: str, problems: int) -> None:
-    numbers = [path.stem.split("_")[-2] for path in (spa / domain).glob("*_problem_*_prime.pddl")]
-    assert len(numbers) == problems
-    for number in numbers:
-        task = assistance(spa / domain, number)
+    tasks = [silent_task(*files) for name, *files in silent(spa) if name.startswith(domain)]
+    assert len(tasks) == problems
+    for task in tasks:
         assert task.agents == ("prime", "supporter")
         assert task.human == 0
         assert task.goal
@@ -70,7 +60,8 @@ def test_silent_assistance_loads(spa: Path, domain: str, problems: int) -> None:
 
 
 def test_actions_that_share_a_name_keep_their_owners(spa: Path) -> None:
-    task = assistance(spa / "termes_assistance1", "0")
+    files = {name: pair for name, *pair in silent(spa)}
+    task = silent_task(*files["termes_assistance1/0"])
     owners = {a.participants for a in task.actions if a.name.split()[0] == "pick-up-block"}
     assert (1,) in owners
     names = {a.name.split()[0] for a in task.actions if a.participants == (0,)}

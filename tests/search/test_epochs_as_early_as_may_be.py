@@ -1,52 +1,14 @@
 """A plan that was found without a horizon gets epochs: it stays a plan, to the same state, and takes few."""
 
-from itertools import combinations
-from random import Random
-
-from hypothesis import given
-from hypothesis import strategies as st
-
 from search.packed.parallelise import schedule
 from serendipity import Task
-from serendipity.model.task.actions import apply, conflicting
 from serendipity.testing.builders import task as build
-from serendipity.testing.strategies import family_tasks, tasks
-
-
-def walk(task: Task, random: Random) -> list[int]:
-    state, found = task.init, []
-    for _ in range(random.randint(0, 12)):
-        if able := [i for i, action in enumerate(task.actions) if action.applicable(state)]:
-            found.append(random.choice(able))
-            state = apply(state, task.actions[found[-1]])
-    return found
 
 
 def epochs_of(task: Task, order: list[int]) -> list[list[int]]:
     steps = schedule(task, [(i,) for i in order])
     last = max((step.epoch for step in steps), default=0)
     return [[step.action for step in steps if step.epoch == epoch] for epoch in range(1, last + 1)]
-
-
-@given(st.one_of(tasks(), family_tasks()), st.integers(0, 2**32))
-def test_it_is_the_same_plan(task: Task, seed: int) -> None:
-    order = walk(task, Random(seed))
-    epochs = epochs_of(task, order)
-    assert sorted(order) == sorted(i for ids in epochs for i in ids)
-    state = task.init
-    for ids in epochs:
-        actions = [task.actions[i] for i in ids]
-        assert ids and all(action.applicable(state) for action in actions)
-        assert not any(conflicting(a, b, strict=True) for a, b in combinations(actions, 2))
-        state = apply(state, *actions)
-    assert state == apply_all(task, order)
-
-
-def apply_all(task: Task, order: list[int]) -> frozenset[int]:
-    state = task.init
-    for i in order:
-        state = apply(state, task.actions[i])
-    return state
 
 
 def test_what_one_does_after_the_other_is_done_beside_it() -> None:

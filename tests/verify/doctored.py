@@ -82,10 +82,6 @@ def stuck() -> Given:
     return Given(case_8(), solve(case_8(), Options()))
 
 
-def _no_reason() -> Given:
-    return _set(stuck, reason="no-plan")
-
-
 def _not_among_the_ties() -> Given:
     built = _options(helped, ties="robust")
     listed = (TiedAnswer(CASE_4_PI_H, cost=8.0, opportunity=False),)
@@ -127,7 +123,7 @@ RULE_BROKEN: dict[str, tuple[str, Callable[[], Given]]] = {
     "no cost": ("status-and-plan", lambda: _set(helped, cost=None)),
     "infeasible though pi_H is an answer": ("infeasible", lambda: _change(helped, _infeasible)),
     "a reason beside a plan": ("reason", lambda: _set(helped, reason="no-human-plan")),
-    "infeasible for another reason": ("reason", _no_reason),
+    "infeasible for another reason": ("reason", lambda: _set(stuck, reason="no-plan")),
     "ties without their answers": ("ties", lambda: _options(helped, ties="robust")),
     "an answer that is not among the ties": ("ties", _not_among_the_ties),
     "a policy in another mode": ("mode-and-human", lambda: _set(helped, policy=Policy((), None))),
@@ -184,7 +180,7 @@ RULE_BROKEN: dict[str, tuple[str, Callable[[], Given]]] = {
     "a window cut short": ("robot-in-suffix", lambda: _window(fetched, 3, 5)),
     "a dearer suffix": ("suffix-replan", lambda: _plan(jumping, SLOW, (1, 2))),
     "a suffix with a pause": ("suffix-replan", lambda: _plan(helped, WAITING, (3, 4))),
-    "a suffix off pi_H": ("suffix-subplan", lambda: _off_plan_suffix()),
+    "a suffix off pi_H": ("suffix-subplan", lambda: _plan(jumping, SLOW, (1, 2), suffix="subplan")),
     "a suffix that repeats pi_H": ("suffix-subplan", lambda: _repeating_suffix()),
     "a state that is not preserved": (
         "preserved-state",
@@ -247,10 +243,6 @@ def _other_plan_without_opportunity() -> Given:
 
 def _plan_with_late_window() -> Given:
     return _plan(lifted, {1: "lift r1 r2", 2: "do2 h"}, (2, 3), horizon=2)
-
-
-def _off_plan_suffix() -> Given:
-    return _plan(jumping, SLOW, (1, 2), suffix="subplan")
 
 
 def _repeating_suffix() -> Given:

@@ -1,18 +1,14 @@
 """The parts of the integer programs, each against its definition."""
 
-import random
-from dataclasses import replace
 from fractions import Fraction
 
 import pytest
 from hypothesis import given
-from hypothesis import strategies as st
 
 from serendipity.model import Deadline, Options, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_4
-from serendipity.testing.oracle import action_sets, best, human_plans
-from serendipity.testing.oracle.epochs import after
+from serendipity.testing.oracle import best, human_plans
 from serendipity.testing.strategies import tasks
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant, relevant_part
@@ -35,40 +31,7 @@ def _part(task: Task) -> Relevant | None:
     return relevant_part(_question(task))
 
 
-# -- relevance and automata
-
-
-@pytest.mark.long
-@given(tasks())
-def test_irrelevant_actions_change_no_optimum(task: Task) -> None:
-    part = _part(task)
-    options = Options(mode="composite", horizon=8, discount=Fraction(1, 2))
-    whole = best(task, options)
-    if part is None:
-        assert whole.cost is None
-        return
-    reduced = replace(task, actions=tuple(task.actions[i] for i in part.actions))
-    assert best(reduced, options).cost == whole.cost
-
-
-@given(tasks(), st.integers(0, 10**6))
-def test_automata_follow_every_execution(task: Task, seed: int) -> None:
-    part = _part(task)
-    if part is None:
-        return
-    machines = automata(task, part, [], Deadline())
-    dice = random.Random(seed)
-    state, nodes = task.init, [0] * len(machines)
-    for _ in range(6):
-        chosen = dice.choice(list(action_sets(task, state, part.actions)))
-        state = after(state, [task.actions[i] for i in chosen])
-        for k, machine in enumerate(machines):
-            mine = [i for i in chosen if machine.agent in task.actions[i].participants]
-            if mine:
-                targets = [target for i, target in machine.moves[nodes[k]] if i in mine]
-                assert len(targets) == 1
-                nodes[k] = targets[0]
-            assert machine.states[nodes[k]] == state & machine.facts
+# -- automata
 
 
 def test_an_automaton_that_would_be_too_large_leaves_facts_out() -> None:

@@ -35,3 +35,15 @@ def test_circles_with_an_action_in_common_need_one_epoch(alone: dict[str, str]) 
     answer = serendipity.plan(task, mode="composite", horizon="inf", discount="0.5")
     assert (answer.status, answer.cost) == ("optimal", 2)
     assert serendipity.verify(task, answer).verdict == "proved"
+
+
+@pytest.mark.parametrize(("interference", "least"), [("paper", 1.5), ("strict", 2.5)])
+@pytest.mark.parametrize("limit", [None, 60])
+def test_what_one_takes_from_another_is_there_in_the_same_epoch(
+    interference: str, least: float, limit: float | None
+) -> None:
+    """Bounds about sequences cut nothing off."""
+    box = {"close h": "free -> lid !free", "cover h": "-> lid @ 2", "pack r": "free -> box"}
+    task = build(init="free", goal="lid box", actions=box | {"open r": "lid -> !lid free @ 5"})
+    options = {"discount": "0.5", "interference": interference, "time_limit": limit}
+    assert serendipity.plan(task, mode="composite", horizon=1, **options).cost == least

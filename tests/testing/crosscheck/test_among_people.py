@@ -24,6 +24,7 @@ from serendipity.testing.written_case import write_case
 from tests.cli.conftest import Runs
 
 NUMBERS = tuple(range(1, MOST_PEOPLE + 1))
+BOTH = {name: JUDGES[name] for name in ("search", "automata")}
 
 
 def drawn(count: int = 80) -> Iterator[tuple[int, PlanCall]]:
@@ -55,9 +56,8 @@ def test_all_rules_are_drawn() -> None:
 
 @pytest.mark.long
 def test_search_brute_force_and_certificates_agree() -> None:
-    judges = {name: JUDGES[name] for name in ("search", "automata")}
     for _, call in drawn(40):
-        assert compare(call, judges, {}) is None, call.seed
+        assert compare(call, BOTH, {}) is None, call.seed
 
 
 def test_brute_force_follows_a_plan_by_what_is_so_behind_the_head_start() -> None:
@@ -80,17 +80,15 @@ def test_what_a_bystander_leaves_otherwise_since_robots_have_been_there_is_left_
 def test_who_gets_up_too_late_is_given_a_horizon(seed: int) -> None:
     """Without one there is none behind the head start, and the search refuses, as it has to."""
     call = random_call_among(3, seed)
-    judges = {name: JUDGES[name] for name in ("search", "automata")}
-    assert compare(call, judges, {}) is None and "horizon" in call.options
+    assert compare(call, BOTH, {}) is None and "horizon" in call.options
 
 
 def test_brute_force_judges_answers_under_rules(monkeypatch: pytest.MonkeyPatch) -> None:
     bound = (call for people, call in drawn() if people == MOST_PEOPLE)
     call = next(one for one in bound if is_bound(one.task, call_of(one).options) and not one.human_plan)
-    judges = {name: JUDGES[name] for name in ("search", "automata")}
-    assert compare(call, judges, {}) is None
+    assert compare(call, BOTH, {}) is None
     monkeypatch.setattr(truth, "best", lambda *_: Optimum("infeasible"))
-    said = compare(call, judges, {})
+    said = compare(call, BOTH, {})
     assert said is not None and "brute force" in said.said and "automata" not in said.said
 
 

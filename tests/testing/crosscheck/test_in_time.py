@@ -14,16 +14,16 @@ from serendipity.testing.oracle import truth
 from serendipity.testing.oracle.reactions import Best
 from serendipity.testing.written_case import PLAN, write_case
 from tests.cli.conftest import Runs
+from tests.testing.crosscheck.test_among_people import BOTH
 
 
 @pytest.mark.long
 def test_search_and_programs_agree() -> None:
-    judges = {name: JUDGES[name] for name in ("search", "automata")}
     calls = [random_call_in_time(seed) for seed in range(60)]
     assert all(call == random_call_in_time(call.seed or 0) for call in calls[:5])
     assert sum(call.task.needs_time for call in calls) > 50 and any(call.human_plan for call in calls)
     for call in calls:
-        assert compare(call, judges, {}, time_limit=30) is None
+        assert compare(call, BOTH, {}, time_limit=30) is None
 
 
 def test_bystanders_and_people_who_replan_are_drawn() -> None:
@@ -71,8 +71,7 @@ def test_no_false_certificate_in_time() -> None:
 
 def test_a_plan_that_comes_too_late_is_refused_by_all() -> None:
     """The programs answered beside such a plan as if it were none."""
-    judges = {name: JUDGES[name] for name in ("search", "automata")}
-    assert compare(random_call_in_time(63), judges, {}) is None
+    assert compare(random_call_in_time(63), BOTH, {}) is None
 
 
 def test_one_that_answers_otherwise_is_told_and_written(tmp_path: Path) -> None:

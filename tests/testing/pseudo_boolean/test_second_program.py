@@ -16,7 +16,7 @@ from serendipity.testing.pseudo_boolean.opb import Problem
 from serendipity.testing.pseudo_boolean.question import NotMadeError, Question
 from serendipity.testing.pseudo_boolean.second import program
 from serendipity.testing.strategies import Call, calls
-from tests.verify.proofs.samples import Sample, sample
+from tests.verify.proofs.samples import Sample, optimum, sample
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
 from verify.proofs.book import Entry, ProofWriter
@@ -61,11 +61,8 @@ def least(problem: Problem, solver: str = "highs") -> int | None:
         model.add({columns[x]: a for x, a in terms.items()}, ">=", right)
     outcome = optimise(model, solver=solver, deadline=Deadline(60))
     assert outcome.status != "undecided", outcome
-    return None if outcome.values is None else _cost(model, outcome.values)
-
-
-def _cost(model: Model, values: tuple[int, ...]) -> int:
-    return sum(weight * values[x] for x, weight in model.objective.items())
+    values = outcome.values
+    return None if values is None else sum(weight * values[x] for x, weight in model.objective.items())
 
 
 def _said(found: Sample, entry: Entry) -> str | None:
@@ -108,7 +105,7 @@ def test_random_calls_have_the_same_optima(mode: str) -> None:
 def test_joint_plans_cost_what_brute_force_says(call: Call) -> None:
     options = call.options
     try:
-        optimum = best(call.task, options, call.human_plan)
+        expected = best(call.task, options, call.human_plan)
     except UsageError:
         return
     plan = call.human_plan if call.human_plan is not None else optimal_human_plan(call.task) or ()
@@ -117,7 +114,7 @@ def test_joint_plans_cost_what_brute_force_says(call: Call) -> None:
         return
     problem, unit = program(Question(call.task, options, plan, epochs, "all plans"))
     found = least(problem)
-    assert (None if found is None else found * unit) == optimum.objective
+    assert (None if found is None else found * unit) == expected.objective
 
 
 def _without(entry: Entry, family: str) -> Entry:
@@ -131,9 +128,7 @@ def _without(entry: Entry, family: str) -> Entry:
     model.objective = dict(map(tuple, entry["objective"]))
     for row in doctored["rows"]:
         model.add(dict(map(tuple, row["terms"])), row["sense"], row["right"])
-    values = optimise(model).values
-    assert values is not None
-    doctored["limit"] = _cost(model, values) - 1
+    doctored["limit"] = optimum(model) - 1
     return doctored
 
 

@@ -22,8 +22,7 @@ from serendipity.model import Deadline, Options, Result, Task, UsageError
 from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_1, case_4, case_10
 from serendipity.testing.strategies import Call, calls
-from tests.verify.proofs.samples import covering, entry, optimum
-from tests.verify.test_ip_parts import DETOUR
+from tests.verify.proofs.samples import entry
 from tests.verify.test_ip_solver import least
 from tests.verify.untrue import dearer
 from verify.base.undecided import UndecidedError
@@ -102,14 +101,6 @@ def test_what_the_human_can_do_alone(mode: str, tmp_path: Path) -> None:
         assert proof["programs"][0]["name"] == "the human alone, 3 states"
 
 
-@pytest.mark.parametrize("horizon", [2, 3])
-def test_what_suffixes_cost_is_made_again(horizon: int, tmp_path: Path) -> None:
-    task = build(goal="p", actions=DETOUR)
-    answer = serendipity.plan(task, horizon=horizon, max_window=1)
-    proof = _proof(task, answer, tmp_path / "proof.json")
-    assert {"epoch", "state"} == proof["programs"][0]["suffixes"][0].keys()
-
-
 def test_a_bound_and_no_epochs_at_all(tmp_path: Path) -> None:
     task, doctored = dearer()
     feasible = replace(doctored, status="feasible", lower_bound=1008.5)
@@ -166,14 +157,6 @@ def test_what_is_not_proved_is_not_written(tmp_path: Path) -> None:
 def _refuted(model: Model, limit: int | None) -> int:
     """Leaves of a tree that the checker accepts."""
     return refute(program(json.loads(json.dumps(entry(model, limit))), "program")).leaves
-
-
-def test_below_the_optimum_there_is_nothing() -> None:
-    model = covering()
-    least = optimum(model)
-    assert _refuted(model, least - 1) > 1
-    with pytest.raises(UndecidedError, match="a solution that the solver did not find"):
-        refutation(model, least, Deadline())
 
 
 @given(st.integers(0, 10**6))

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from serendipity.pddl.write import write_pddl
+from serendipity.testing.builders import task as build
 from tests.cli.conftest import Runs, assert_one_line
 
 TRIAGE = "conducted_triage commx room1"
@@ -84,31 +86,13 @@ def test_options(options: str, words: list[str], run: Runs) -> None:
     assert_one_line(run(f"plan --example room2 {options}"), *words)
 
 
-DOMAIN = """
-(define (domain roads)
- (:requirements :typing)
- (:types agent place)
- (:predicates (at ?a - agent ?p - place) (road ?p ?q - place) (waved ?a - agent))
- (:action go :parameters (?a - agent ?p ?q - place)
-  :precondition (and (at ?a ?p) (road ?p ?q)) :effect (and (at ?a ?q) (not (at ?a ?p))))
- (:action wave :parameters (?a - agent) :precondition () :effect (waved ?a)))
-"""
-
-PROBLEM = """
-(define (problem one-way) (:domain roads)
- (:objects h r - agent a b c - place)
- (:init (at h a) (at r a) (road a b) (road b c) (road a c))
- (:goal (at h c)))
-"""
-
-
 @pytest.mark.parametrize("command", ["recognise", "plan"])
 def test_what_no_goal_explains_is_said(command: str, run: Runs) -> None:
-    Path("domain.pddl").write_text(DOMAIN)
-    Path("problem.pddl").write_text(PROBLEM)
-    Path("goals.txt").write_text("3: at h c\n1: at h b, !waved r")
-    Path("seen.txt").write_text("(go h a c)\n(go h b c)  ; there is no way back\n")
-    task = "domain.pddl problem.pddl --human h --robot r --goals goals.txt"
+    roads = {"near h": "a -> b !a", "far h": "a -> c !a", "on h": "b -> c !b", "wave r": "-> waved"}
+    write_pddl(build(init="a", goal="c", actions=roads), "roads")
+    Path("goals.txt").write_text("3: c\n1: b, !waved")
+    Path("seen.txt").write_text("(far_h)\n(on_h)  ; there is no way back\n")
+    task = "roads --human h --goals goals.txt"
     done = run(f"{command} {task} --observed seen.txt")
     assert (done.code, done.err) == (0, "")
     assert "the posterior is the prior" in done.out
