@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from search.call.context import SearchContext
 from search.robots.decoupled import Decoupled, DecoupledSuccessors
 from tests.verify.planted.bug import Bug, always, replaced, returning, wrapped
 
@@ -21,6 +22,11 @@ BUGS = (
     Bug(Decoupled, "ways", "a step shorter", returning(_short_cut)),
     Bug(Decoupled, "ways", "nothing is in reach", replaced(always([]))),
     Bug(DecoupledSuccessors, "rested", "what they do takes no time", wrapped(_take_no_time)),
-    Bug(Decoupled, "touched_by", "never", replaced(always(False))),
+    Bug(
+        SearchContext,
+        "walks",
+        "whatever the human touches",
+        wrapped(lambda walks, self, *_: walks(self, ())),
+    ),
     Bug(Decoupled, "steps", "a walk is left out", returning(lambda steps: list(steps)[1:])),
 )
