@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 
 from serendipity.model import Condition, HumanPlan, Options, Task
+from serendipity.testing.builders import task as build
 from serendipity.testing.oracle.scenarios import PolicyOptimum, best_policy
 from tests.verify.scenarios.three_ways import Asked, calls_over_scenarios, is_small
 from verify.base.optimal_plans import OptimalPlans
@@ -20,6 +21,11 @@ from verify.scenarios.program import refute_policies
 from verify.scenarios.proof import floor_of
 
 _FAR = 10**100
+
+
+def test_brute_force_is_not_asked_about_no_scenarios() -> None:
+    """It failed where none of the goals can be reached."""
+    assert not is_small((build(init="a", goal="a", actions={}), [], Options()))
 
 
 @pytest.mark.long

@@ -33,8 +33,8 @@ def calls_over_scenarios(draw: st.DrawFn) -> Asked:
 def is_small(asked: Asked) -> bool:
     """Whether there are several scenarios, and brute force copes with them."""
     task, candidates, options = asked
-    horizon = int(options.horizon or max(len(one.plan) for one in candidates))
-    longest = {1: 0, 2: 4, 3: 3}[len(candidates)]
+    horizon = int(options.horizon or max((len(one.plan) for one in candidates), default=0))
+    longest = {2: 4, 3: 3}.get(len(candidates), 0)
     return 0 < horizon <= longest and len(task.actions) * horizon <= 45
 
 
