@@ -142,12 +142,12 @@ bench-limits: $(READY)  ## measure how well limits of time and memory are kept: 
 	$$LIMITS-memory.jsonl memory || missed=1; exit $$missed
 
 bench-extra: $(READY)
-	@$(BIN)/python -c 'import sys; from serendipity.classical.fast_downward import absent; sys.exit(bool(absent()))' \
+	@$(BIN)/python -c 'import ortools, sys; from serendipity.classical.fast_downward import absent; sys.exit(bool(absent()))' \
 	  || { if command -v uv >/dev/null 2>&1; then \
 	         uv pip install --quiet --python $(BIN)/python --require-hashes -r requirements-bench.txt; \
 	       else $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
 	         -r requirements-bench.txt; fi; } \
-	  || echo "No Fast Downward, and it can't be installed here: it is left out."
+	  || echo "No Fast Downward, or no OR-Tools, and they can't be installed here: they are left out."
 
 fuzz: $(READY)  ## thousands of random tasks: all methods have to agree; the slow tests
 	@$(BIN)/serendipity crosscheck --count 10000 --judges search,automata -o build/disagreement

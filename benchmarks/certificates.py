@@ -93,7 +93,7 @@ def main(
     plan, verify = (partial(apart, work) if separate else work for work in (planned, verified))
     asked = (
         Asked(group, source, mode, discount, plan_limit)
-        for group, source in _sources(folder, human, buildings, suite, stride)
+        for group, source in sources(folder, human, buildings, suite, stride)
         for mode, discount in product(modes.split(","), discounts.split(","))
     )
     answers = measured(asked, plan, record)
@@ -113,7 +113,7 @@ def main(
     print(as_markdown(_proofs(rows) if proofs else [_certificates(rows)]), end="")
 
 
-def _sources(
+def sources(
     folder: Path | None, human: str | None, buildings: str, suite: Path | None, stride: int
 ) -> Iterator[tuple[str, Source]]:
     """Tasks, each with its group."""

@@ -3,11 +3,13 @@
 from copy import deepcopy
 from fractions import Fraction
 from functools import cache
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 
 import serendipity
+from benchmarks.certificates import Asked
 from serendipity.model import Deadline, UsageError
 from serendipity.testing.builders import task
 from serendipity.testing.oracle import best, optimal_human_plan
@@ -16,6 +18,7 @@ from serendipity.testing.pseudo_boolean.opb import Problem
 from serendipity.testing.pseudo_boolean.question import NotMadeError, Question
 from serendipity.testing.pseudo_boolean.second import program
 from serendipity.testing.strategies import Call, calls
+from tests.testing.pseudo_boolean.every_program import compared
 from tests.verify.proofs.samples import Sample, optimum, sample
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
@@ -174,3 +177,11 @@ def test_what_is_not_made_says_so() -> None:
     literal = found.result.options.but(preservation="state")
     with pytest.raises(NotMadeError, match="preservation"):
         program(Question(found.task, literal, (), 3, "every window", most_cost=Fraction(2)))
+
+
+def test_every_program_of_a_call_is_compared(tmp_path: Path) -> None:
+    pytest.importorskip("ortools", reason="no OR-Tools: `make bench-extra` installs it")
+    serendipity.generate_usar(tmp_path / "building", rooms=6)
+    asked = Asked("", (str(tmp_path / "building"), None), "serendipity", "0.5", None)
+    said = [text for _, text in compared((asked, None, 60))["programs"]]
+    assert said and set(said) == {"the same"}
