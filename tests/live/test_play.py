@@ -276,6 +276,8 @@ def test_what_was_played_outlives_a_server_that_is_killed() -> None:
     with serving(command="play") as server:
         with connect(server.url.replace("http", "ws") + "/live") as page:
             view = json.loads(page.recv())
+            page.send(b"\0")
+            assert json.loads(page.recv())["kind"] == "refused"
             for action in ("move commx room13 hall8", "move_reverse commx hall8 hall7"):
                 page.send(json.dumps({"do": "act", "moment": view["moment"], "action": action}))
                 view = json.loads(page.recv())
@@ -297,6 +299,16 @@ def test_a_port_in_use_is_one_line(capsys, tmp_path: Path, monkeypatch: pytest.M
         assert "http" not in server.client.get("/").text.replace("http://www.w3.org", "")
         assert server.client.get("/page/../../../../etc/passwd").status_code == 404
         assert server.client.get("/page/nothing.js").status_code == 404
+
+
+@pytest.mark.parametrize("option", ["--labels", "--goals"])
+def test_what_can_not_be_played_leaves_no_folder(
+    option: str, capsys, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["play", "--quiet", "--port", "0", option, "nowhere"]) == 2
+    assert "nowhere" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
 
 
 def test_what_changes_nothing_is_no_choice() -> None:

@@ -96,6 +96,14 @@ def application(host: Host, hosts: Sequence[str]) -> FastAPI:
     return app
 
 
+async def _heard(socket: WebSocket) -> str:
+    """What a page says next; empty where that is no text."""
+    try:
+        return await socket.receive_text()
+    except KeyError:
+        return ""
+
+
 class _Pages:
     """The pages of a room that are open: what one of them does, all of them show."""
 
@@ -112,7 +120,7 @@ class _Pages:
                 await socket.send_json(await self._view())
                 self._open.add(socket)
             while True:
-                await self._hear(socket, await socket.receive_text())
+                await self._hear(socket, await _heard(socket))
         except WebSocketDisconnect:
             pass
         finally:

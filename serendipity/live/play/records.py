@@ -38,6 +38,8 @@ class Records:
         now = datetime.now(UTC).isoformat(timespec="milliseconds")
         told = {"participant": self._participant, "time": now, "event": event, **about}
         if self.file is not None:
+            if not self.events:
+                made(self.file.parent, "--records")
             try:
                 append(self.file, json.dumps(told, ensure_ascii=False))
             except OSError as error:
@@ -92,12 +94,11 @@ def record_in(place: Path) -> Path:
     """Where what is played from now on is recorded.
 
     Args:
-        place: a file that is there, to go on with; or a folder, which is made, for a new file named after
-            the time.
+        place: a file that is there, to go on with; or a folder, which the first event makes, for a new file
+            named after the time.
     """
     if place.is_file():
         return place
-    made(place, "--records")
     begun = datetime.now().astimezone().strftime("%Y-%m-%d-%H%M%S")
     numbered = (f"{begun}{f'-{number}' if number > 1 else ''}.jsonl" for number in count(1))
     return next(file for name in numbered if not (file := place / name).exists())
