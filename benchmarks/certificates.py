@@ -17,7 +17,7 @@ version 2.0. With ``--veripb`` VeriPB checks each program's proof, of version 1.
 """
 
 import subprocess
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import product
@@ -44,7 +44,6 @@ from verify.certificate.certify import certify
 from verify.proofs import checker
 
 FIGURES = ("write", "KiB", "check", "compare", "form", "OPB", "pbp", "columns", "rows", "leaves")
-SEEDS = range(1, 6)
 
 
 class Asked(NamedTuple):
@@ -91,15 +90,10 @@ def main(
     how = {"encoding": encoding, "solver": solver, "method": method, "time_limit": time_limit}
     how |= {"methods": tuple(methods.split(","))} if methods else {}
     plan, verify = (partial(apart, work) if separate else work for work in (planned, verified))
-    asked = (
-        Asked(group, source, mode, discount, plan_limit)
-        for group, source in sources(folder, human, buildings, suite, stride)
-        for mode, discount in product(modes.split(","), discounts.split(","))
-    )
-    answers = measured(asked, plan, record)
+    asked = calls(sources_of(folder, human, buildings, suite, stride), modes, discounts, plan_limit)
     jobs = (
         Job(each, tuple(how.items()), proofs, veripb, answer)
-        for each, answer in answers
+        for each, answer in measured(asked, plan, record)
         if answer["status"] in ("optimal", "infeasible")
     )
     rows = []
@@ -113,13 +107,21 @@ def main(
     print(as_markdown(_proofs(rows) if proofs else [_certificates(rows)]), end="")
 
 
-def sources(
+def calls(
+    tasks: Iterable[tuple[str, Source]], modes: str, discounts: str, limit: float | None
+) -> list[Asked]:
+    """A call in each of the modes and at each of the discounts, about each task with its group."""
+    grid = product(tasks, modes.split(","), discounts.split(","))
+    return [Asked(*task, mode, discount, limit) for task, mode, discount in grid]
+
+
+def sources_of(
     folder: Path | None, human: str | None, buildings: str, suite: Path | None, stride: int
 ) -> Iterator[tuple[str, Source]]:
     """Tasks, each with its group."""
     for place in folders(folder, stride) if folder else ():
         yield place.parent.name, (str(place), human)
-    for name, seed in product(filter(None, buildings.split(",")), SEEDS):
+    for name, seed in product(filter(None, buildings.split(",")), range(1, 6)):
         yield name, (*(*map(int, name.split("x")), 1)[:3], seed)
     for problem, _, source in of_suite(suite, may_alone, stride=stride) if suite else ():
         yield problem.domain, source

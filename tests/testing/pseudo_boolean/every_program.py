@@ -2,21 +2,20 @@
 
     python -m tests.testing.pseudo_boolean.every_program [FOLDER] [--human NAME] [--suite FOLDER] [OPTIONS]
 
-Calls are those of ``benchmarks.certificates``.  It counts programs with the same optimum, those not made a
-second time, and those not solved within ``--solve-limit`` seconds, has a line for each that differs or is not
-solved, and ends with exit code 1 where one differs.
+Calls are those of ``benchmarks.certificates``; it takes the extra ``bench``.  It counts programs with the
+same optimum, those not made a second time, and those not solved within ``--solve-limit`` seconds, has a line
+for each that differs or is not solved, and ends with exit code 1 where one differs.
 """
 
 import sys
 from collections import Counter
 from collections.abc import Iterator
-from itertools import product
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from benchmarks.certificates import Asked, planned, sources
+from benchmarks.certificates import Asked, calls, planned, sources_of
 from benchmarks.problems import Record, load, run
 from serendipity.evaluation.measuring.figures import timed
 from serendipity.evaluation.measuring.record import measured
@@ -27,7 +26,7 @@ from serendipity.testing.pseudo_boolean.question import NotMadeError
 from verify.certificate.certify import certify
 from verify.proofs.book import ProofWriter
 
-_SAID = ("the same", "not made a second time", "not solved")
+_SAME, _NOT_MADE, _NOT_SOLVED = "the same", "not made a second time", "not solved"
 
 
 class _NotSolvedError(Exception):
@@ -47,16 +46,13 @@ def main(
     record: Record = None,
 ) -> None:
     """Plan, prove, compare, print counts."""
-    asked = [
-        (Asked(group, source, mode, discount, plan_limit), time_limit, solve_limit)
-        for group, source in sources(folder, human, "", suite, stride)
-        for mode, discount in product(modes.split(","), discounts.split(","))
-    ]
+    tasks = sources_of(folder, human, "", suite, stride)
+    asked = [(call, time_limit, solve_limit) for call in calls(tasks, modes, discounts, plan_limit)]
     counts, seconds = Counter[str](), 0.0
     for (call, *_), row in measured(asked, compared, record):
         for name, text in row["programs"]:
-            counts[text if text in _SAID else "another"] += 1
-            if text not in _SAID[:2]:
+            counts[text if text in (_SAME, _NOT_MADE, _NOT_SOLVED) else "another"] += 1
+            if text not in (_SAME, _NOT_MADE):
                 typer.echo(f"{call.source} {call.mode} {call.discount}, {name}: {text}")
         seconds += row["seconds"]
     told = ", ".join(f"{count} {text}" for text, count in sorted(counts.items()))
@@ -67,23 +63,23 @@ def main(
 def compared(asked: tuple[Asked, float | None, float]) -> dict[str, Any]:
     """Each program of a call's proof, with what the second one says; and seconds. No proof, no programs."""
     call, time_limit, solve_limit = asked
-    answer = planned(call)
+    nothing, answer = {"programs": [], "seconds": 0.0}, planned(call)
     if answer["status"] not in ("optimal", "infeasible"):
-        return {"programs": [], "seconds": 0.0}
+        return nothing
     task, result, writer = load(call.source), Result.from_dict(answer), ProofWriter()
     if certify(task, result, proof=writer, time_limit=time_limit, method="program").verdict != "proved":
-        return {"programs": [], "seconds": 0.0}
+        return nothing
 
     def work() -> Iterator[tuple[str, str]]:
         for entry in writer.programs:
             try:
                 said = difference(task, result, entry, lambda problem: least(problem, solve_limit))
             except NotMadeError:
-                yield entry["name"], _SAID[1]
+                yield entry["name"], _NOT_MADE
             except _NotSolvedError:
-                yield entry["name"], _SAID[2]
+                yield entry["name"], _NOT_SOLVED
             else:
-                yield entry["name"], said or _SAID[0]
+                yield entry["name"], said or _SAME
 
     programs, seconds = timed(lambda: [*work()])
     return {"programs": programs, "seconds": seconds}
