@@ -107,11 +107,9 @@ def main(
     print(as_markdown(_proofs(rows) if proofs else [_certificates(rows)]), end="")
 
 
-def calls(
-    tasks: Iterable[tuple[str, Source]], modes: str, discounts: str, limit: float | None
-) -> list[Asked]:
+def calls(of: Iterable[tuple[str, Source]], modes: str, discounts: str, limit: float | None) -> list[Asked]:
     """A call in each of the modes and at each of the discounts, about each task with its group."""
-    grid = product(tasks, modes.split(","), discounts.split(","))
+    grid = product(of, modes.split(","), discounts.split(","))
     return [Asked(*task, mode, discount, limit) for task, mode, discount in grid]
 
 
