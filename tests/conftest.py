@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
+from hypothesis.internal.conjecture import providers
 
 import serendipity
 from benchmarks.problems import PROBLEMS
@@ -21,6 +22,9 @@ from tests.show.browser import chromium, chromium_path
 
 pytest_plugins = ["pytester"]
 
+# Constants of our modules are not drawn: which ones are loaded depends on what a worker ran before, and so
+# would the examples, which have to be the same each time.
+providers._get_local_constants = lambda: providers._local_constants
 _CALM = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
 settings.register_profile("quick", derandomize=True, max_examples=25, database=None, **_CALM)
 settings.register_profile("ci", derandomize=True, max_examples=50, database=None, **_CALM)

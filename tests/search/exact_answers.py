@@ -5,7 +5,7 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 import serendipity
-from serendipity import Options, PlanError, Result, Task, UsageError
+from serendipity import Options, PlanError, Result, Task, UsageError, Window
 from serendipity.model.numbers import as_written
 from serendipity.testing.call import Call
 from serendipity.testing.oracle import best
@@ -43,12 +43,27 @@ def assert_answered(call: Call) -> None:
     if call.options.ties == "expected" or optimum.cost is None:
         return
     assert _exact(result.objective) == optimum.objective
-    assert result.window == optimum.window
     assert _exact(result.saving) == optimum.saving
     if optimum.saving_alone is not None:
         assert _exact(result.saving_alone) == optimum.saving_alone
-    assert len(result.plan) == optimum.actions
     assert result.lower_bound == result.objective
+    if _settles_ties(call.task, result):
+        assert result.window == optimum.window
+        assert len(result.plan) == optimum.actions
+    else:
+        assert (_length(result.window), len(result.plan)) >= (_length(optimum.window), optimum.actions)
+
+
+def _settles_ties(task: Task, result: Result) -> bool:
+    """Whether plans of one objective are all told apart: else 100 nodes more are looked at (semantics)."""
+    asked = {fact for goal in (task.goal, task.robot_goal) for fact in (*goal.positive, *goal.negative)}
+    others = (action for action in task.actions if action.participants != (task.human,))
+    changed = {fact for action in others for part in action.moments for fact in (*part.add, *part.delete)}
+    return result.statistics["expanded"] <= 100 or asked.isdisjoint(changed)
+
+
+def _length(window: Window | None) -> int:
+    return 0 if window is None else len(window)
 
 
 def proved(task: Task, **options: Any) -> Result:
