@@ -15,7 +15,7 @@ from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned,
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_plan, named_steps
 from serendipity.model import HumanPlan, InputError, Options, PlanError, PlanStep, Result, Task, UsageError
-from serendipity.model.arguments import BY_NAME, TASK_IN_TIME, expect
+from serendipity.model.arguments import BY_NAME, FLAG, TASK_IN_TIME, expect
 from serendipity.model.keywords import listing
 from serendipity.model.schemas import schema_fault
 from serendipity.model.task.actions import NOOP, GroundAction, apply, conflicting
@@ -49,6 +49,7 @@ class Session:
         self, task: Task, *, human_plan: Iterable[PlanEntry] | None = None, **options: Unpack[SessionOptions]
     ) -> None:
         expect(TASK_IN_TIME, task=task)
+        plain = _plain(options)
         self._begun = task
         """Whose digest serves all sessions that begin with it."""
         self._prepared = HELD.take(task)
@@ -62,7 +63,7 @@ class Session:
         """Whether it is not the caller who has said so."""
         self._is_outdated = False
         """Whether it is known not to be what a human would do who looks up."""
-        self._up = Options(head_start=options.get("head_start", 0)).head_start
+        self._up = plain.head_start
         """The epoch with which the head start is over, as it was asked for last."""
         self._cancelled = threading.Event()
         self._memory = SessionMemory()
@@ -121,8 +122,7 @@ class Session:
         other = self._options.keys() - Options.__dataclass_fields__.keys()
         if other:
             raise UsageError(f"snapshot: {min(other)} is no plain value; give it to each call")
-        task, chosen = self.task, options_from(dict(self._options))
-        asked, begun = chosen.to_dict(), self._begun
+        task, asked, begun = self.task, _plain(self._options).to_dict(), self._begun
         time, passed = {}, self._memory.passed
         if begun.needs_time or passed or self._asleep:
             going = going_on(begun, passed, task)
@@ -136,6 +136,7 @@ class Session:
             "goal": list(task.goal.literals(task.facts)),
             "human_plan": None if self.human_plan is None else list(self.human_plan),
             "predicted": self._predicted,
+            "outdated": self._is_outdated,
             "answers": self._memory.written(task),
         }
 
@@ -153,23 +154,28 @@ class Session:
         """
         expect(TASK_IN_TIME, task=task)
         expect(BY_NAME, snapshot=snapshot)
+        _plain(options)
         if fault := schema_fault(snapshot.get("schema"), SNAPSHOT):
             raise InputError(f"snapshot: {fault}")
         if snapshot.get("task") != task.digest:
             raise InputError("snapshot: it is of another task")
         try:
             asked: dict[str, Any] = {**snapshot["options"], **options}
-            time, true = snapshot.get("time", {"passed": 0, "going": ()}), frozenset(snapshot["facts"])
+            time, true = snapshot.get("time", {"passed": 0, "going": ()}), [*snapshot["facts"]]
+            is_predicted, is_outdated = snapshot["predicted"], snapshot.get("outdated", False)
+            expect(FLAG, predicted=is_predicted, outdated=is_outdated)
             session = cls(taken_up(task, time["passed"], time["going"]) if task.needs_time else task, **asked)
             session._begun, session._memory.passed = task, time["passed"]
             session._up = time["passed"] + time.get("asleep", session._asleep)
             session.set_goal(snapshot["goal"])
-            session.change({fact: fact in true for fact in task.facts})
+            session.change({**dict.fromkeys(task.facts, False), **dict.fromkeys(true, True)})
             session.follow(snapshot["human_plan"])
-            session._predicted = snapshot["predicted"]
+            session._predicted, session._is_outdated = is_predicted, is_outdated
             session._memory.read(session.task, snapshot["answers"])
         except (KeyError, TypeError, ValueError, AttributeError, IndexError):
             raise InputError("snapshot: expected what Session.snapshot() writes") from None
+        except UsageError as error:
+            raise InputError(f"snapshot: {error}") from None
         return session
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -179,7 +185,8 @@ class Session:
         if self._is_outdated:
             self._human_plan, self._given, self._is_outdated = None, None, False
         unsure = any(asked.get(name) is not None for name in ("goals", "plans"))
-        others = unsure or asked.get("mode") == "assistance"
+        asleep = max(0, _plain(asked).head_start - self._memory.passed)
+        others = unsure or asked.get("mode") == "assistance" or asleep != self._asleep
         unknown = self.human_plan is None or (self._predicted and others)  # which predict the human otherwise
         return None if unknown else self._replayed
 
@@ -189,9 +196,9 @@ class Session:
         Raises:
             PlanError: the names that were given are no plan.
         """
-        if self._human_plan is None:
-            assert self._given is not None, "asked for a plan that nobody knows"
-            self._human_plan, self._given = self.task.plan_from_names(self._given, head_start), None
+        if self._human_plan is None or head_start != self._asleep:
+            assert self.human_plan is not None, "asked for a plan that nobody knows"
+            self._human_plan, self._given = self.task.plan_from_names(self.human_plan, head_start), None
         return self._human_plan
 
     def _learn(self, answer: Result) -> None:
@@ -211,7 +218,7 @@ class Session:
         self._cancelled.set()
 
     def execute(self, actions: Iterable[str]) -> None:
-        """Move on by one epoch in which these actions were executed, or begun (none: everybody waited).
+        """Move on by one epoch in which these actions were executed, or begun (none or noop: all waited).
 
         The human's plan goes on behind their action.  It is predicted anew after a joint
         action, after one that was not next, and where its rest does not work any more.  One that was
@@ -221,7 +228,8 @@ class Session:
         Raises:
             UsageError: an action is unknown or not applicable, or two of them conflict.
         """
-        chosen = [self._action(name) for name in several(actions, "actions")]
+        named = [name for name in several(actions, "actions") if not self.task.waits(canonical_name(name))]
+        chosen = [self._action(name) for name in named]
         his = [action for action in chosen if self.task.human in action.participants]
         if self._in_time:
             self._execute_in_time(chosen, his)
@@ -358,6 +366,16 @@ def _plan_until(task: Task, named: Sequence[PlanEntry], end: int, asleep: int) -
         with suppress(PlanError):
             return task.plan_from_names(entries, asleep)
     return None
+
+
+def _plain(options: Mapping[str, Any]) -> Options:
+    """The plain values among a session's options.
+
+    Raises:
+        UsageError: an option is unknown or has no legal value.
+    """
+    others = SessionOptions.__annotations__.keys() - Options.__dataclass_fields__.keys()
+    return options_from({name: value for name, value in options.items() if name not in others})
 
 
 def _require_compatible(chosen: list[GroundAction]) -> None:

@@ -245,6 +245,8 @@ def _unique_names(names: Iterable[str]) -> list[str]:
 
 
 def _choose_human(units: Mapping[str, Unit], human: str | None) -> str:
+    if not units:
+        raise UsageError("agents: expected a pair of files for each agent, got none")
     candidates = [name for name, unit in units.items() if unit.problem.goal != And()]
     name = None if human is None else canonical_name(human)
     if name == ANYBODY and ANYBODY not in units and candidates:

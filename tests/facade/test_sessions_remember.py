@@ -3,20 +3,17 @@
 Its answers are never worse than what is left of the last one, whenever a limit comes.
 """
 
-import json
 from collections.abc import Iterator
 from dataclasses import replace
 from random import Random
-from typing import Any
 
 import pytest
 
 import serendipity
-from serendipity import InputError, PlanError, PlanStep, Result, SerendipityError, Session, Task, UsageError
+from serendipity import PlanError, PlanStep, Result, SerendipityError, Session, Task, UsageError
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.keywords import Ties
 from serendipity.testing.builders import task
-from serendipity.testing.builders import task as build
 from serendipity.testing.cases import case_1, usar
 from serendipity.testing.generator import PlanCall, random_call
 from tests.endings import endings
@@ -282,78 +279,27 @@ def test_a_given_plan_need_not_work_before_what_was_seen_is_told() -> None:
     assert session.human_plan is None
 
 
-def begun() -> Session:
-    """A session two epochs after its first answer."""
-    session = Session(serendipity.example("room2"), discount="0.9", time_limit=20)
-    answer = session.plan()
-    for epoch in (1, 2):
-        session.execute(step.action for step in answer.plan or () if step.epoch == epoch)
-    return session
+def test_options_and_facts_that_mean_nothing_are_refused_at_once() -> None:
+    with pytest.raises(UsageError, match="discount: expected a number"):
+        Session(case_1(), discount=7)
+    with pytest.raises(UsageError, match="unknown option 'luck'"):
+        Session(case_1(), luck=1)  # type: ignore[call-arg]
+    session = Session(case_1())
+    with pytest.raises(UsageError, match="at h a0: expected true or false, got 'no'"):
+        session.change({"at h a0": "no"})  # type: ignore[dict-item]
+    assert session.task == case_1()
 
 
-def written(session: Session) -> dict[str, Any]:
-    """A snapshot that has been to a file."""
-    read: dict[str, Any] = json.loads(json.dumps(session.snapshot()))
-    return read
+def test_waiting_may_be_said() -> None:
+    session = Session(case_1(), discount=0.6)
+    session.plan()
+    session.execute(["noop"])
+    assert session.task == case_1()
 
 
-def test_a_restored_session_goes_on_where_the_other_stood() -> None:
-    session = begun()
-    restored = Session.restore(serendipity.example("room2"), written(session))
-    assert restored.task.init == session.task.init
-    assert (restored.human_plan, restored.rest) == (session.human_plan, session.rest)
-    assert written(restored) == written(session)
-    answer = restored.plan()
-    assert (answer.status, answer.statistics["expanded"]) == ("optimal", 0)
-    assert answer.cost == session.plan().cost
-    assert restored.plan(discount=0).options.time_limit == 20
-
-
-def test_options_of_the_snapshot_give_way() -> None:
-    restored = Session.restore(serendipity.example("room2"), written(begun()), discount=0)
-    assert restored.plan().options.discount == 0
-
-
-def test_a_goal_and_facts_that_were_seen_are_kept() -> None:
-    task = serendipity.example("room2")
-    session = Session(task)
-    session.set_goal(["conducted_triage commx room3"])
-    session.change({"at robot room4": False, "at robot room2": True})
-    restored = Session.restore(task, written(session))
-    assert (restored.task.init, restored.task.goal) == (session.task.init, session.task.goal)
-    assert restored.plan().cost == session.plan().cost
-
-
-def test_a_head_start_of_a_call_is_kept() -> None:
-    task = serendipity.example("office")
-    late = [(epoch + 4, name) for epoch, name in serendipity.plan(task).human_entries or ()]
-    session = Session(task, human_plan=late)
-    session.plan(head_start=3)
-    restored = Session.restore(task, written(session))
-    for _ in range(4):
-        session.execute([])
-        restored.execute([])
-        assert restored.human_plan == session.human_plan
-        assert written(restored) == written(session)
-
-
-def test_what_is_no_snapshot_of_the_task_is_refused() -> None:
-    whole = written(begun())
-    with pytest.raises(InputError, match=r"snapshot: it is of another task"):
-        Session.restore(serendipity.example("parcels"), whole)
-    with pytest.raises(InputError, match=r"snapshot: schema: 'serendipity.session/9' is newer"):
-        Session.restore(serendipity.example("room2"), {**whole, "schema": "serendipity.session/9"})
-    with pytest.raises(serendipity.PlanError, match="human plan, step 1: there is no action 'x' in the task"):
-        Session.restore(serendipity.example("room2"), {**whole, "human_plan": ["x"]})
-    wrong = {"facts": 3, "goal": None, "options": [], "answers": [{}], "predicted": None, "human_plan": 7}
-    for name in ("facts", "goal", "human_plan", "options", "answers"):
-        for bad in ({k: v for k, v in whole.items() if k != name}, {**whole, name: wrong[name]}):
-            with pytest.raises(serendipity.SerendipityError) as caught:
-                Session.restore(serendipity.example("room2"), bad)
-            assert "\n" not in str(caught.value)
-
-
-def test_what_can_not_be_written_is_refused() -> None:
-    task = build(goal="done", actions={"do h": "-> done", "help r": "-> done"})
-    with pytest.raises(UsageError, match="snapshot: visible is no plain value"):
-        Session(task, visible=lambda *_: True).snapshot()
+def test_a_predicted_plan_is_predicted_again_behind_another_head_start() -> None:
+    office = serendipity.example("office")
+    session = Session(office)
+    for head_start in (0, 3, 1, 0):
+        answer, new = session.plan(head_start=head_start), serendipity.plan(office, head_start=head_start)
+        assert [getattr(answer, name) for name in _FIGURES] == [getattr(new, name) for name in _FIGURES]

@@ -8,6 +8,8 @@ import pytest
 
 import serendipity
 from serendipity.cli.app import main
+from serendipity.live.workers.jobs import GivenTasks
+from serendipity.model import Deadline
 from serendipity.scenarios.examples import DATA
 from tests.live.conftest import Opened
 from tests.live.server import Server
@@ -59,6 +61,10 @@ def test_a_pair_of_files_for_each_agent(server: Server, tmp_path) -> None:
     answer = server.post("/plan", asked).json()
     task = serendipity.load(tmp_path / "room2")
     assert facts(answer) == facts(serendipity.plan(task, discount=0.6).to_dict())
+    kept = GivenTasks(most=2)
+    for order in (pairs, dict(reversed(pairs.items()))):
+        given = kept.task({"agents": order, "team": team}, Deadline())
+        assert given.agents == tuple(order)
 
 
 def test_unknown_goals(server: Server) -> None:

@@ -71,6 +71,7 @@ def test_a_policy_is_explained_without_a_plan_beside_it(server: Server) -> None:
         ("/plan", {"task": ROOM2, "options": {"deadline": 3}}, 422, "unknown option 'deadline'"),
         ("/plan", {"task": ROOM2, "options": {"visible": 3}}, 422, "unknown option 'visible'"),
         ("/plan", {"task": {"agents": {"../x": {"domain": "", "problem": ""}}}}, 422, "agents: "),
+        ("/plan", {"task": {"agents": {}}}, 422, "agents: expected a pair of files for each agent, got none"),
         ("/plan", {"task": ROOM2, "human_plan": ["fly"]}, 422, "human plan, step 1: "),
         ("/verify", {"task": ROOM2, "result": {}}, 422, "result: schema: "),
         ("/sessions", {"task": ROOM2, "options": {"x": 1}}, 422, "unknown option 'x'"),

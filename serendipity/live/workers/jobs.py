@@ -36,7 +36,7 @@ class GivenTasks:
             InputError: a file means nothing; files are called ``domain.pddl`` and ``problem.pddl``.
             LimitReachedError: the deadline ran out.
         """
-        key = json.dumps(given, sort_keys=True)
+        key = json.dumps(given)  # agents are in the order of their files
         task = self._kept.pop(key, None)
         if task is None:
             task = _read({name: value for name, value in given.items() if value is not None}, deadline)

@@ -29,9 +29,15 @@ class Facts:
         return Condition(tuple(positive), tuple(negative))
 
     def seen(self, state: frozenset[int], facts: Iterable[tuple[str, bool]]) -> frozenset[int]:
-        """A state in which some facts are true, or false, as somebody has seen them."""
+        """A state in which some facts are true, or false, as somebody has seen them.
+
+        Raises:
+            UsageError: there is no such fact, or something else than true or false is said of it.
+        """
         found = set(state)
         for name, true in facts:
             fact = self.id(name)
+            if not isinstance(true, bool):
+                raise UsageError(f"{name}: expected true or false, got {true!r:.50}")
             found.add(fact) if true else found.discard(fact)
         return frozenset(found)
