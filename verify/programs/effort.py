@@ -25,6 +25,9 @@ class ProgramEncoding(Protocol):
     def plan(self, values: tuple[int, ...]) -> tuple[tuple[Step, ...], Window | None]:
         """The plan and the window of a solution."""
 
+    def told(self, state: State) -> State:
+        """A state as the program tells it from others: what it leaves out is as in the initial state."""
+
     def bound_suffix(self, xi2: int, state: State, least: int | None) -> None:
         """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none."""
 

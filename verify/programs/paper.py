@@ -289,6 +289,10 @@ class PaperEncoding:
         start = next(t for t, column in self.begins.items() if values[column])
         return steps, Window(start, next(t for t, column in self.ends.items() if values[column]))
 
+    def told(self, state: frozenset[int]) -> frozenset[int]:
+        """The state itself: the program has all facts."""
+        return state
+
     def bound_suffix(self, xi2: int, state: frozenset[int], least: int | None) -> None:
         """A suffix from ``state`` at ``xi2`` adds at least ``least``; with None there is none."""
         self.model.family = "Def. 2.0a"

@@ -120,7 +120,8 @@ def read(
     """
     entry = reader.take()
     encoding = encode(question.but(most=None))
-    for xi2, state in _cuts(entry, question):
+    for xi2, named in _cuts(entry, question):
+        state = encoding.told(named)  # a file may name what is never true
         encoding.bound_suffix(xi2, state, suffix_least(question, state, xi2, plans))
     assert encoding.model is not None
     require_same(entry, _described(question, encoding.model))

@@ -147,6 +147,11 @@ class AutomataEncoding:
             steps = filled(question.task, steps, question.horizon, strict=question.options.strict)
         return steps, window
 
+    def told(self, state: frozenset[int]) -> frozenset[int]:
+        """A state as the program tells it: other facts can't change, or no optimal plan asks for them."""
+        told = self.program.setting.part.facts
+        return state & told | self.question.task.init - told
+
     def bound_suffix(self, xi2: int, state: frozenset[int], least: int | None) -> None:
         """A suffix from ``state`` at ``xi2`` adds at least ``least`` units; with None there is none.
 
