@@ -17,12 +17,13 @@ from math import sqrt
 from os import PathLike
 from typing import Any, Final, NamedTuple
 
-from serendipity.execution.log import read_logs
+from serendipity.execution.log import LogLine, read_logs
 from serendipity.model import Condition, InputError, PlanError, Task, UsageError, exact
 from serendipity.model.answers.fields import written
-from serendipity.model.arguments import TASK_IN_TIME, expect
+from serendipity.model.arguments import PATH, TASK_IN_TIME, TEXT, expect, expect_or_none
 from serendipity.model.numbers import Number
 from serendipity.model.task.names import canonical_name
+from serendipity.model.task.plans import PlanEntry
 from serendipity.model.telling import Grid, Line, Output, counted
 from serendipity.pddl.parsing.files import read_text
 from serendipity.recognition.library import SCHEMA
@@ -45,14 +46,14 @@ class Episode(NamedTuple):
 
     Attributes:
         activity: what they are for; empty where nobody says.
-        actions: their names, in order.
+        actions: their names, in order; with the epochs in which they begin where these say more.
         minute: of the day, in which it begins, or None.
         weekday: from 0, or None.
         before: the activity before it on its day.
     """
 
     activity: str
-    actions: tuple[str, ...]
+    actions: tuple[PlanEntry, ...]
     minute: int | None = None
     weekday: int | None = None
     before: str = NOTHING
@@ -66,7 +67,7 @@ class KnownPlan:
         name: its activity and a number.
         probability: that it is the next one.
         goal: what it brings about: the task's goal (None), or else all that it changes.
-        plan: names of its actions.
+        plan: names of its actions, in time with the epochs in which they begin.
         count: episodes in which it was followed, of those that fit what was asked.
         interval: Wilson's, at 95 %, of its share of these.
     """
@@ -74,7 +75,7 @@ class KnownPlan:
     name: str
     probability: float
     goal: tuple[str, ...] | None
-    plan: tuple[str, ...]
+    plan: tuple[PlanEntry, ...]
     count: int
     interval: Interval
 
@@ -158,6 +159,8 @@ def learn(
         UsageError: an option is.
     """
     expect(TASK_IN_TIME, task=task)
+    expect(PATH, traces=traces)
+    expect_or_none(TEXT, on=on, at=at, after=after)
     weight = exact(usual, "usual")
     if weight < 0:
         raise UsageError(f"usual: expected a number of at least 0, got {float(weight):g}")
@@ -194,18 +197,28 @@ def _fitting(known: Sequence[Episode], on: str | None, at: str | None, after: st
     if on is not None and on not in _ON:
         raise UsageError(f"on: expected one of {', '.join(_ON)}, got '{on:.50}'")
     try:
-        minute = None if at is None else _minute(time.fromisoformat(at.zfill(5)))
+        clock = None if at is None else time.fromisoformat(at.zfill(5))
     except ValueError:
         raise UsageError(f"at: expected a time of day as 7:30, got '{at:.50}'") from None
-    if known and after not in (None, NOTHING) and not any(one.activity for one in known):
-        raise UsageError("after: expected logs that say activities")
+    minute = None if clock is None else clock.hour * 60 + clock.minute
+    activities = sorted({one.activity for one in known if one.activity})
+    if known and after not in (None, NOTHING, *activities):
+        if not activities:
+            raise UsageError("after: expected logs that say activities")
+        raise UsageError(f"after: expected one of {', '.join((NOTHING, *activities))}, got '{after:.50}'")
     return [
         one
         for one in known
         if (on is None or one.weekday in _ON[on])
-        and (minute is None or (one.minute is not None and abs(one.minute - minute) <= _NEAR))
+        and (minute is None or (one.minute is not None and _apart(one.minute, minute) <= _NEAR))
         and (after is None or one.before == after)
     ]
+
+
+def _apart(one: int, other: int) -> int:
+    """Minutes between two times of a day, midnight or not."""
+    apart = abs(one - other)
+    return min(apart, 24 * 60 - apart)
 
 
 def wilson(count: int, of: int) -> Interval:
@@ -231,14 +244,24 @@ def read_episodes(task: Task, traces: str | PathLike[str]) -> list[Episode]:
             if not value.keys() & {"human", "change", "drop"}:
                 raise InputError("log: expected an epoch, a change or a drop", traces, number)
         done = [[x for x in run if x.value.get("human") and not x.value.get("in_vain")] for run in runs]
-        names = [tuple(_action(task, x.value["human"], traces, x.number) for x in run) for run in done]
-        return [Episode("", actions) for actions in names if actions]
+        entries = [[_entry(task, line, traces) for line in run] for run in done]
+        acted = [[one for one in some if not task.waits(one[1])] for some in entries]
+        timed = task.needs_time
+        return [Episode("", tuple(some if timed else (name for _, name in some))) for some in acted if some]
     return [*_of_days(_rows(task, text, traces))]
+
+
+def _entry(task: Task, line: LogLine, file: object) -> tuple[int, str]:
+    """The epoch of a line of a log, and what the human begins in it; without time only their order counts."""
+    action, epoch = _action(task, line.value["human"], file, line.number), line.value.get("epoch", 1)
+    if not isinstance(epoch, int) or isinstance(epoch, bool) or epoch < 1:
+        raise InputError(f"epoch: expected a whole number from 1 on, got {epoch!r:.50}", file, line.number)
+    return epoch, action
 
 
 class _Row(NamedTuple):
     day: str
-    minute: int
+    at: time
     weekday: int | None
     action: str
     activity: str
@@ -250,7 +273,7 @@ def _of_days(rows: Iterable[_Row]) -> Iterator[Episode]:
         for activity, part in groupby(day, key=lambda row: row.activity):
             first, *more = part
             actions = tuple(row.action for row in (first, *more))
-            yield Episode(activity, actions, first.minute, first.weekday, before)
+            yield Episode(activity, actions, first.at.hour * 60 + first.at.minute, first.weekday, before)
             before = activity
 
 
@@ -274,12 +297,13 @@ def _rows(task: Task, text: str, file: object) -> Iterator[_Row]:
             expected = ", ".join(task.agents)
             raise InputError(f"actor: expected one of {expected}, got '{row['actor']:.50}'", file, line)
         if canonical_name(row["actor"]) == task.agents[task.human]:
-            activity = row.get("activity", "").strip()
-            yield _Row(*_moment(row, file, line), _action(task, row["action"], file, line), activity)
+            activity, action = row.get("activity", "").strip(), _action(task, row["action"], file, line)
+            if not task.waits(action):
+                yield _Row(*_moment(row, file, line), action, activity)
 
 
-def _moment(row: Mapping[str, str], file: object, line: int) -> tuple[str, int, int | None]:
-    """The day, the minute and the day of the week of a row."""
+def _moment(row: Mapping[str, str], file: object, line: int) -> tuple[str, time, int | None]:
+    """The day, the time and the day of the week of a row."""
     day, clock = row.get("day", "").strip(), row["time"].strip()
     try:
         if not day:
@@ -296,11 +320,7 @@ def _moment(row: Mapping[str, str], file: object, line: int) -> tuple[str, int, 
         if re.fullmatch(r"\d+-\d+-\d+", day):
             raise InputError(f"day: expected a date as 2026-03-02, got '{day:.50}'", file, line) from None
         weekday = None
-    return day, _minute(at), weekday
-
-
-def _minute(clock: time) -> int:
-    return clock.hour * 60 + clock.minute
+    return day, at.replace(tzinfo=None), weekday
 
 
 def _action(task: Task, name: Any, file: object, line: int) -> str:
@@ -311,15 +331,17 @@ def _action(task: Task, name: Any, file: object, line: int) -> str:
     return bare
 
 
-def _goal_of(task: Task, actions: Sequence[str]) -> tuple[str, ...] | PlanError | None:
+def _goal_of(task: Task, actions: Sequence[PlanEntry]) -> tuple[str, ...] | PlanError | None:
     """What a plan is for: None where that is the task's goal; or why it can't be followed."""
     free = task.with_goal(Condition())
     try:
-        last = free.replay_alone(free.plan_from_names(actions))[-1]
+        plan = free.plan_from_names(actions)
+        last = free.replay_alone(plan)[-1]
     except PlanError as error:
         return error
     if task.goal and task.goal.holds(last):
         return None
     made = {fact.fact for fact in task.disjunctions}
-    changed = sorted((last ^ task.init) - made)
+    theirs = {fact for i in plan for part in task.actions[i].moments for fact in (*part.add, *part.delete)}
+    changed = sorted((last ^ task.init) & theirs - made)
     return tuple(task.facts[i] if i in last else f"!{task.facts[i]}" for i in changed)
