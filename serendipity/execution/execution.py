@@ -131,8 +131,9 @@ class Execution(Tabular):
         self._world = world(task, options.discount, strict=options.strict)
         library = () if plans is None else plan_library(task, plans)
         candidates = [one.aim for one in library] if goals is None else candidate_goals(task, goals)
-        if noise is not None and not candidates:
-            raise UsageError("noise: goes with goals only")
+        for name, asked in (("noise", noise is not None), ("beta", beta != 1)):
+            if asked and not candidates:
+                raise UsageError(f"{name}: goes with goals only")
         habits = [one.plan for one in library]
         policy, explainer = (RobotsInTime, ExplainerInTime) if task.needs_time else (RobotPolicy, None)
         beliefs = Beliefs(task, candidates, beta, noise, explainer) if candidates else None

@@ -12,6 +12,7 @@ from serendipity.explanation.wording import sentences
 from serendipity.facade.call import options_from
 from serendipity.facade.interruptibility import InterruptionReport, interruptions
 from serendipity.model import Deadline, LimitReachedError, PlanError, Result, Task, UsageError
+from serendipity.model.answers.over_scenarios import task_of
 from serendipity.model.arguments import FUNCTION, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.keywords import AnswerOptions, InterruptionOptions, listing
@@ -56,7 +57,7 @@ def explain(
 
     Raises:
         UsageError: both an answer and options, or an answer that has nothing to explain
-            (individual and assistance mode).
+            (individual and assistance mode), or one over several goals or plans.
         PlanError: ``human_plan`` can't be executed, or misses the goal.
         LimitReachedError: a limit came before there was any answer to explain.
     """
@@ -66,6 +67,9 @@ def explain(
     expect_or_none(FUNCTION, on_progress=on_progress)
     if result is not None and (options or human_plan is not None):
         raise UsageError("explain: expected a result or options, got both")
+    if result is not None and len(result.goals or ()) > 1:
+        raise UsageError("explain: an answer over several goals or plans is explained by explain_policy")
+    task = task if result is None else task_of(task, result)
     asked = result.options.but(**OF_SCENARIOS) if result else options_from(options)
     chosen = asked.but(ties="fixed", time_limit=None, memory_limit=None)
     if chosen.mode not in _MODES:

@@ -17,7 +17,7 @@ from serendipity.model.numbers import as_written, plain
 from serendipity.model.resources.limits import limits_from
 from serendipity.model.telling import Grid, Line, Output
 
-_FIELDS: Final = ("answer", "committed", "knowing", "signs")
+_FIELDS: Final = ("answer", "committed", "knowing", "signs", "watching")
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,12 +47,14 @@ class PolicyExplanation(Output):
         committed: what robots come to that see nothing; None where a limit came first.
         knowing: what they would come to if they knew the scenario from the start; None likewise.
         signs: what they see, in order.
+        watching: what robots come to that watch; None likewise.
     """
 
     answer: Result
     committed: Fraction | None
     knowing: Fraction | None
     signs: tuple[Sign, ...]
+    watching: Fraction | None
 
     @property
     def status(self) -> Status:
@@ -71,12 +73,16 @@ class PolicyExplanation(Output):
         """The lines that ``explain`` prints."""
         yield from self.answer.told()
         yield Line()
-        cost = as_written(self.answer.cost or 0)
-        if self.committed is not None:
-            worth, committed = plain(self.committed - cost), plain(self.committed)
-            yield Line(f"watching is worth {worth}: committed robots cost {committed}")
-        if self.knowing is not None:
-            yield Line(f"knowing it from the start would be worth {plain(cost - self.knowing)} more")
+        watches = self.answer.options.policy == "watching"
+        if self.committed is not None and self.watching is not None:
+            worth = plain(self.committed - self.watching)
+            if watches:
+                yield Line(f"watching is worth {worth}: committed robots cost {plain(self.committed)}")
+            else:
+                yield Line(f"watching would be worth {worth}: robots that watch cost {plain(self.watching)}")
+        if self.knowing is not None and self.watching is not None:
+            worth = plain(self.watching - self.knowing)
+            yield Line(f"knowing it from the start would be worth {worth} more")
         if not self.signs:
             return
         yield Line()
@@ -126,7 +132,12 @@ def explain_policy(
         )
     library = _library(result, entries)
     asked: dict[str, Any] = {**result.options.but(ties="fixed", time_limit=None, memory_limit=None).to_dict()}
-    committed = plan(task, plans=library, deadline=limits, **asked | {"policy": "fixed"})
+    both = {
+        policy: result
+        if result.options.policy == policy
+        else plan(task, plans=library, deadline=limits, **asked | {"policy": policy})
+        for policy in ("fixed", "watching")
+    }
     known = [plan(task, plans=[one], deadline=limits, **asked) for one in library]
     costs = [
         Fraction(one["probability"]) * as_written(found.cost or 0)
@@ -135,10 +146,15 @@ def explain_policy(
     tree = histories(entries, result.human, int(result.horizon or 0))
     return PolicyExplanation(
         result,
-        as_written(committed.cost or 0) if committed.status == "optimal" else None,
+        _proved_cost(both["fixed"]),
         sum(costs, Fraction(0)) if all(found.status == "optimal" for found in known) else None,
         tuple(_signs(tree, result.human)) if result.options.policy == "watching" else (),
+        as_written(result.cost) if result.options.policy == "watching" else _proved_cost(both["watching"]),
     )
+
+
+def _proved_cost(answer: Result) -> Fraction | None:
+    return as_written(answer.cost or 0) if answer.status == "optimal" else None
 
 
 def _library(result: Result, scenarios: tuple[GoalAnswer, ...]) -> list[dict[str, Any]]:

@@ -256,7 +256,8 @@ def _unsure(options: Options, given: Given, said: Mapping[str, Any]) -> "Callabl
     if named is None and (options.ties != "watched" or given is not None):
         return None
     if named is not None and given is not None:
-        raise UsageError(f"human_plan: with {named}, it is not known; give observed instead")
+        instead = "; give observed instead" if named == "goals" else ""
+        raise UsageError(f"human_plan: with {named}, it is not known{instead}")
     if said.get("goals") is not None and said.get("plans") is not None:
         raise UsageError("plans: go without goals, each plan can name its own")
     if named is not None and options.mode != "serendipity":

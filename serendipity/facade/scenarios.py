@@ -7,7 +7,7 @@ their current plan for a goal is the canonical optimal plan from ``I`` that embe
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import islice
+from itertools import count, islice
 from typing import Final, NamedTuple
 
 from search import PreparedTask, canonical_human_plan, first_answer, optimal_human_plans
@@ -224,11 +224,12 @@ def _shared(call: Request, in_time: ScenariosInTime, considered: Sequence[Candid
         UsageError: there are more than ``max_ties``.
         LimitReachedError: a limit came first.
     """
-    found = []
+    found, taken = [], {one.name for one in considered}
     for one in considered:
         plans = _optimal_plans(call, in_time, one.goal)
-        for number, plan in enumerate(plans, start=1):
-            name = one.name if len(plans) == 1 else f"{one.name or 'plan'} {number}"
+        numbered = (f"{one.name or 'plan'} {number}" for number in count(1))
+        names = [one.name] if len(plans) == 1 else (name for name in numbered if name not in taken)
+        for plan, name in zip(plans, names, strict=False):
             found.append(replace(one, plan=plan, weight=one.weight / len(plans), name=name))
     return found
 

@@ -9,6 +9,7 @@ from search.modes.simulation import simulate as play
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_steps
 from serendipity.model import Deadline, HumanPlan, Options, PlanStep, Result, Step, Task, Visible
+from serendipity.model.answers.over_scenarios import task_of
 from serendipity.model.answers.simulation import SimulatedEpoch, Simulation
 from serendipity.model.answers.trace import WHY, Trace, TraceEpoch, TraceSkip
 from serendipity.model.arguments import FUNCTION, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
@@ -47,7 +48,7 @@ def simulate(
 
     Raises:
         UsageError: there is no such human model, or a limit is wrong.
-        InputError: the result has no plan, or is for another task.
+        InputError: the result has no plan, is for another task, or over several goals or plans.
         LimitReachedError: a limit came before the first epoch was over.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
@@ -59,6 +60,9 @@ def simulate(
         raise InputError("result: has no plan to simulate")
     if result.human != task.agents[task.human]:
         raise InputError(f"result: is for another task: its human is '{result.human}'")
+    if len(result.goals or ()) > 1:
+        raise InputError("result: is over several goals or plans; simulate plays an answer to one of them")
+    task = task_of(task, result)
     horizon = result.horizon if isinstance(result.horizon, int) else None
     steps = [Step(step.epoch, _action(task, step)) for step in result.plan]
     if task.needs_time or result.in_time:

@@ -164,3 +164,48 @@ def test_the_command_writes_a_library(run: Runs) -> None:
     assert len(plan_library(serendipity.example("room2"), Path("plans.json"))) == 1
     assert "2 episodes of commx" in run("learn --example room2 days.jsonl --on weekday").out
     assert_one_line(run("learn --example room2 days.jsonl --at noon"), "at: expected a time of day")
+
+
+def test_waiting_in_a_log_is_no_action(tmp_path: Path) -> None:
+    file = tmp_path / "days.csv"
+    rows = (
+        "1,7:00,h,noop\n2,7:00,h,make h\n2,7:05,h,noop\n2,7:10,h,drink h\n3,7:00,h,make h\n3,7:05,h,drink h\n"
+    )
+    file.write_text(f"day,time,actor,action\n{rows}")
+    found = learn(HOME, file)
+    assert (found.episodes, [(one.plan, one.count) for one in found.plans]) == (
+        2,
+        [(("make h", "drink h"), 2)],
+    )
+
+
+def test_rows_are_in_order_to_the_second_and_a_day_ends_at_midnight(tmp_path: Path) -> None:
+    file = tmp_path / "days.csv"
+    rows = "1,23:45:30,h,drink h\n1,23:45:10,h,make h\n2,12:00,h,wash h\n"
+    file.write_text(f"day,time,actor,action\n{rows}")
+    found = learn(HOME, file, at="0:30")
+    assert (found.left_out, found.fitting) == (0, 1)
+    assert found.plans[0].plan == ("make h", "drink h")
+
+
+def test_where_there_is_time_plans_have_their_epochs(tmp_path: Path) -> None:
+    task = serendipity.example("morning")
+    file = tmp_path / "logs.jsonl"
+    runs = serendipity.execute(task, discount=0)
+    file.write_text("".join(map(as_text, runs.logs)))
+    (one,) = learn(task, file).plans
+    assert one.plan == serendipity.plan(task, mode="individual").human_entries
+    answer = serendipity.plan(task, plans=learn(task, file).to_dict(), discount=0)
+    assert (answer.status, answer.human_plan_times.starts[0]) == ("optimal", 4)
+
+
+def test_questions_of_other_types_are_refused(tmp_path: Path, days: Path) -> None:
+    for wrong in ({"on": 3}, {"on": ["mon"]}, {"at": 730}, {"after": 3}):
+        with pytest.raises(UsageError, match=f"{next(iter(wrong))}: expected a text"):
+            learn(HOME, days, **wrong)
+    with pytest.raises(UsageError, match="traces: expected a path"):
+        learn(HOME, None)
+    file = tmp_path / "named.csv"
+    file.write_text("day,time,actor,action,activity\n1,7:00,h,make h,breakfast\n")
+    with pytest.raises(UsageError, match="after: expected one of nothing, breakfast, got 'lunch'"):
+        learn(HOME, file, after="lunch")

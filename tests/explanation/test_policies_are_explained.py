@@ -9,8 +9,8 @@ import pytest
 
 import serendipity
 from serendipity import Explanation, Script
-from serendipity.model import Condition, UsageError
-from serendipity.testing.builders import task
+from serendipity.model import Condition, InputError, UsageError
+from serendipity.testing.builders import task as build
 
 GOALS = [
     {"name": room, "goal": [f"conducted_triage commx {room}"], "prior": prior}
@@ -94,8 +94,41 @@ def test_what_is_left_has_its_price_at_every_discount() -> None:
 
 def test_somebody_else_would_pay() -> None:
     actions = {"fetch h": "-> done @ 5", "bring r": "cup -> done !cup", "drink c": "cup -> drunk"}
-    built = task(init="cup", goal="done", actions=actions, agents="h r c")
+    built = build(init="cup", goal="done", actions=actions, agents="h r c")
     beside = built.with_script(Script(people={"c": [(3, "drink c")]}))
     found = serendipity.explain(beside, discount=0.5)
     assert not found.answer.opportunity
     assert missed(found)["nobody_pays"] == 0.5
+
+
+def test_committed_robots_are_told_what_watching_would_be_worth() -> None:
+    task = serendipity.example("room2")
+    fixed = serendipity.plan(task, discount="0.9", goals=GOALS, policy="fixed")
+    watching = serendipity.plan(task, discount="0.9", goals=GOALS)
+    found = serendipity.explain_policy(task, fixed)
+    assert (float(found.committed), float(found.watching)) == (fixed.cost, watching.cost)
+    assert "watching would be worth 0.1: robots that watch cost 10.8" in str(found)
+
+
+def test_a_goal_without_literals_is_one() -> None:
+    actions = {"one h": "!a -> a", "two h": "a -> b @ 3", "fix r": "-> d", "lift h r": "a d -> b @ 1"}
+    task = build(goal="b", actions=actions)
+    plans = [
+        {"probability": 1, "plan": ["one h", "two h"], "goal": []},
+        {"probability": 1, "plan": ["one h"], "goal": ["a"]},
+    ]
+    answer = serendipity.plan(task, plans=plans, discount=1, window_weight=0)
+    found = serendipity.explain_policy(task, answer)
+    assert float(found.committed) == answer.cost == 2.5
+
+
+def test_explain_leaves_policies_to_its_sister_and_knows_the_goal_of_one() -> None:
+    task = serendipity.example("room2")
+    answer = serendipity.plan(task, discount="0.9", goals=GOALS)
+    with pytest.raises(UsageError, match="is explained by explain_policy"):
+        serendipity.explain(task, answer)
+    with pytest.raises(InputError, match="over several goals or plans"):
+        serendipity.simulate(task, answer)
+    only = serendipity.plan(task, discount="0.9", goals=GOALS[-1:])
+    assert serendipity.explain(task, only).answer.cost == only.cost == 11.4
+    assert serendipity.simulate(task, only).realised

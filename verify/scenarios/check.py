@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from itertools import islice
+from itertools import count, islice
 from time import perf_counter
 from typing import NamedTuple
 
@@ -211,13 +211,15 @@ def _expected(
         goals = [(one.name, condition(task, one.goal), one.posterior) for one in known.goals if one.posterior]
         read = {one.name: one.plan or () for one in known.goals} if known.noise and known.explained else {}
     found, most = list[Scenario](), result.options.max_ties if watched else 1
+    taken = {name for name, *_ in goals}
     for name, goal, share in goals:
         all_plans = considered_plans(task, goal, seen, result.options, deadline)
         plans = [("", read[name])] if name in read else list(islice(all_plans, most + watched))
         if len(plans) > most:
             fault = f"max_ties: the human has more than {most} optimal plans"
-        for number, (_, plan) in enumerate(plans, start=1):
-            own = name if len(plans) == 1 else f"{name or 'plan'} {number}"
+        numbered = (f"{name or 'plan'} {number}" for number in count(1))
+        names = [name] if len(plans) == 1 else (own for own in numbered if own not in taken)
+        for own, (_, plan) in zip(names, plans, strict=False):
             found.append(Scenario(own, goal, plan, Fraction(share) / len(plans)))
     total = sum((scenario.probability for scenario in found), Fraction(0))
     shares = [scenario._replace(probability=scenario.probability / total) for scenario in found]

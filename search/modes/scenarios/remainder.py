@@ -7,6 +7,7 @@ windows is searched as it is.
 
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import reduce
 from typing import Final, NamedTuple
 
 from search.bounds.first_interaction import Bounds, no_bound
@@ -20,7 +21,7 @@ from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, Member, Wo
 from search.modes.scenarios.variants import Variants
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due
-from search.packed.joint_actions import as_option
+from search.packed.joint_actions import NOTHING, as_option, together
 from search.packed.operators import applicable
 from search.spaces.factory import no_worse, suffix_rule
 from search.spaces.fixed_human_plan import FixedHumanPlan
@@ -199,7 +200,9 @@ class Certain:
                 done.append(step.action)
         for now in range(epoch + 1, end):
             begun = (step.action for step in found.steps if step.epoch == now and packed.counted(step.action))
-            after = self._due.after(state, [as_option(packed.op(action), 0) for action in begun])
+            all_of_them = reduce(together, (as_option(packed.op(action), 0) for action in begun), NOTHING)
+            going_on = self._due.human(state) or (NOTHING,)
+            after = self._due.after(state, [together(all_of_them, part) for part in going_on])
             assert after is not None, "it is a plan"
             state = after
         left = self._scenario.horizon + 1 - end

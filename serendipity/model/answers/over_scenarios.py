@@ -7,11 +7,13 @@ from serendipity.model.answers.histories import histories
 from serendipity.model.answers.recognition import UNEXPLAINED
 from serendipity.model.answers.result_parts import GoalAnswer
 from serendipity.model.numbers import plain
+from serendipity.model.task.facts import Facts
 from serendipity.model.task.plans import Window
 from serendipity.model.telling import Grid, Line
 
 if TYPE_CHECKING:
     from serendipity.model.answers.result import Result
+    from serendipity.model.task.task import Task
 
 MEASURES: Final = {"mean": "expected cost", "worst": "greatest cost", "regret": "greatest regret"}
 """What the cost of an answer is, by ``risk``."""
@@ -24,7 +26,20 @@ def goal_of(result: "Result", entry: GoalAnswer) -> tuple[str, ...] | None:
         entry: one of its scenarios, which has the name of its goal, or that and a plan's number.
     """
     known = {} if result.recognition is None else {one.name: one.goal for one in result.recognition.goals}
-    return entry.goal or known.get(entry.name) or known.get(entry.name.rpartition(" ")[0])
+    if entry.goal is not None:
+        return entry.goal
+    return known.get(entry.name, known.get(entry.name.rpartition(" ")[0]))
+
+
+def task_of(task: "Task", result: "Result") -> "Task":
+    """The task with the goal of the one scenario that an answer is about; itself without one.
+
+    Raises:
+        UsageError: there is no such fact.
+    """
+    entries = result.goals or ()
+    goal = goal_of(result, entries[0]) if len(entries) == 1 else None
+    return task if goal is None else task.with_goal(Facts(task.facts).condition(goal))
 
 
 def rule_told(result: "Result") -> Iterator[str]:

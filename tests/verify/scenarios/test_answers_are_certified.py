@@ -305,3 +305,13 @@ def test_noisy_goals_out_of_reach_are_not_told() -> None:
         assert serendipity.check(task, answer).verdict != "refuted"
         said = replace(answer, status="optimal", reason=None)
         assert serendipity.verify(task, said).verdict == "refuted"
+
+
+def test_a_goal_may_be_named_like_a_plan_to_another_one() -> None:
+    actions = {"left h": "!l !r -> l", "right h": "!l !r -> r", "lg h": "l -> g", "rg h": "r -> g"}
+    other = {"other h": "!l !r -> o @ 2", "oo h": "o -> z @ 2", "fix r": "-> d"}
+    task = build(goal="g", actions=actions | other)
+    goals = [{"name": "a", "goal": ["g"]}, {"name": "a 1", "goal": ["z"]}]
+    answer = serendipity.plan(task, goals=goals, ties="watched", discount=0.9, window_weight=0)
+    assert [one.name for one in answer.goals] == ["a 2", "a 3", "a 1"]
+    assert serendipity.verify(task, answer).verdict == "proved"

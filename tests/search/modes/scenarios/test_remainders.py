@@ -4,6 +4,7 @@ from fractions import Fraction
 
 import pytest
 
+import serendipity
 from search import PreparedTask
 from search.call.context import SearchContext
 from search.modes.scenarios.lines import Line
@@ -15,6 +16,7 @@ from search.spaces.windowed import Windowed
 from serendipity.model import Deadline, Options
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.plans import Step, Window
+from serendipity.testing.builders import task as build
 from tests.search.modes.scenarios.test_policies_equal_brute_force import lifted
 
 
@@ -91,3 +93,15 @@ def test_a_key_is_not_worth_less_than_it_is_asked_for() -> None:
     _, _, worths = _certain()
     for worth in (0, 7, 1 << 40, 1 << 70, worths.epoch + (1 << 70)):
         assert worths.of_key(worths.key(worth)) >= worth
+
+
+def test_several_robots_act_in_the_window_of_who_has_to_keep_something() -> None:
+    actions = {"out h": "!o -> o", "in h": "o -> !o", "fix r": "-> d"}
+    task = build(goal="g", actions=actions)
+    plans = [
+        {"probability": 1, "plan": ["out h"], "goal": ["o"]},
+        {"probability": 1, "plan": ["out h", "in h"], "goal": ["!o"]},
+    ]
+    for risk in ("mean", "worst", "regret"):
+        answer = serendipity.plan(task, plans=plans, risk=risk, leave_free="d")
+        assert (answer.status, serendipity.verify(task, answer).verdict) == ("optimal", "proved")
