@@ -1,6 +1,6 @@
 """Calls about tasks in which actions take time, or the human waits: asked and answered in single epochs."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -118,10 +118,17 @@ class ScenariosInTime:
 
 
 def _served(units: UnitSteps, one: ServedGoal, discount: Fraction) -> ServedGoal:
-    """What happens in a scenario, with the actions of the task itself."""
-    plan, steps, task = one.human_plan, units.steps(one.steps or ()), units.original
-    cost = sum((task.team_cost(task.actions[step.action], discount) for step in steps), Fraction(0))
+    """What happens in a scenario, with the actions of the task itself, and the price of what it leaves."""
+    plan, steps = one.human_plan, units.steps(one.steps or ())
+    cost = _paid(units.original, steps, discount)
+    if one.cost is not None:
+        cost += one.cost - _paid(units.task, one.steps or (), discount)
     return replace(one, human_plan=None if plan is None else units.begun(plan), steps=steps, cost=cost)
+
+
+def _paid(task: Task, steps: Iterable[Step], discount: Fraction) -> Fraction:
+    """What the team pays for what is done."""
+    return sum((task.team_cost(task.actions[step.action], discount) for step in steps), Fraction(0))
 
 
 def _is_alone(call: Request) -> bool:

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from search.modes.scenarios import Candidate
-from serendipity import plan
+from serendipity import plan, verify
 from serendipity.facade.results import named_plan
 from serendipity.model import Condition, HumanPlan, Options, PlanError, Task
 from serendipity.model.task.plans_in_time import outlasts
@@ -125,3 +125,17 @@ def test_robots_end_what_they_are_at_and_that_costs() -> None:
     answer = plan(task, plans=plans, horizon=4, discount="0.5", window_weight=1)
     assert [one.cost for one in answer.goals] == [0.5, 1.5]
     assert (answer.cost, answer.status) == (1.0, "optimal")
+
+
+@pytest.mark.parametrize("risk", ["mean", "worst", "regret"])
+def test_what_is_left_is_paid_for_in_each_scenario(risk: str) -> None:
+    """Who wants nothing does nothing beside help, and leaves `b` false."""
+    walk, lift = "-> b @ 2 [2]", "-> b @ 0.5 [2]"
+    task = build(goal="b", actions={"walk h": walk, "lift h r": lift, "on r": "!l -> l", "off r": "l -> !l"})
+    plans = [
+        {"probability": 1, "plan": ["walk h"], "goal": []},
+        {"probability": 1, "plan": [[2, "walk h"]]},
+    ]
+    answer = plan(task, plans=plans, risk=risk, leave_price="*=0.25", discount=1, window_weight=0)
+    assert [one.cost for one in answer.goals] == [0.25, 0.5]
+    assert verify(task, answer).verdict == "proved"
