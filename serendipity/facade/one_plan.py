@@ -9,7 +9,7 @@ from serendipity.facade.simulation import realised
 from serendipity.model import HumanPlan
 from serendipity.model.answers.answer import Answer, Improvement
 from serendipity.model.numbers import total
-from serendipity.model.task.gate import is_bound
+from serendipity.model.task.gate import is_bound, needs_time
 
 _VERDICT_SHARE: Final = 0.02
 """The share of time that verdicts on humans who replan add to the limit, or take of the rest on the way."""
@@ -29,10 +29,11 @@ def last_answer(call: Request, human_plan: HumanPlan) -> Answer:
 def with_verdicts(call: Request, answer: Answer, *, last: bool = True) -> Answer:
     """The answer with the verdicts of semantics 6, where they were not looked at yet; none without a plan.
 
-    They may go a little beyond the time limit, so that an answer at the limit has them too.  With an answer
-    that is not the last one they take a small share of the time that is left, and may be missing.
+    There are none in time and in mode ``assistance`` either.  They may go a little beyond the time limit, so
+    that an answer at the limit has them too.  With an answer that is not the last one they take a small share
+    of the time that is left, and may be missing.
     """
-    if answer.realised is not None or answer.steps is None or answer.cost is None:
+    if answer.realised is not None or answer.steps is None or answer.cost is None or not _has_verdicts(call):
         return answer
     verdicts = realised(
         call.prepared,
@@ -45,6 +46,12 @@ def with_verdicts(call: Request, answer: Answer, *, last: bool = True) -> Answer
         deadline=call.limits.sooner(-_VERDICT_SHARE) if last else call.limits.part(_VERDICT_SHARE),
     )
     return answer._replace(realised=verdicts)
+
+
+def _has_verdicts(call: Request) -> bool:
+    """Whether humans who replan are played in such a call: only epoch by epoch, and not in rounds."""
+    in_time = needs_time(call.task, options=call.options, plan=call.given)
+    return in_time is None and call.options.mode != "assistance"
 
 
 def _planned(call: Request, human_plan: HumanPlan | None) -> Iterator[Answer]:

@@ -108,6 +108,32 @@ def test_an_equal_call_is_answered_at_once(mode: str) -> None:
     assert again.statistics["expanded"] == 0
 
 
+@pytest.mark.parametrize(
+    ("example", "options"),
+    [
+        ("office", {}),
+        ("office", {"human_model": "observant"}),
+        ("office", {"ties": "expected"}),
+        ("morning", {"human_model": "local"}),
+        ("room2", {"head_start": 2}),
+        ("room2", {"waiting_cost": 1}),
+        ("room2", {"mode": "assistance"}),
+        ("room2", {}),
+    ],
+)
+def test_an_answer_that_is_told_again_says_the_same_of_humans_who_replan(
+    example: str, options: dict[str, object]
+) -> None:
+    """Plans in time were played by rules without time, and those of assistance as composite ones."""
+    task = serendipity.example(example)
+    session = Session(task, discount="0.6", **options)  # type: ignore[arg-type]
+    answer = session.plan()
+    for again in (session.plan(), [*session.plan_anytime()][-1]):
+        assert again.realised == answer.realised
+        assert serendipity.check(task, again).refuted is None
+    assert bool(answer.realised) == (not options and example == "room2")
+
+
 @pytest.mark.parametrize("ties", ["fixed", "robust"])
 def test_a_session_that_is_reminded_goes_on_as_the_other_one(ties: Ties) -> None:
     first = serendipity.plan(case_1())
