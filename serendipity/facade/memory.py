@@ -14,6 +14,7 @@ from operator import attrgetter
 from typing import Any, Final, NamedTuple
 
 from search import WarmStart
+from serendipity.facade.known import Known, read, written
 from serendipity.facade.results import named_plan
 from serendipity.model import Options, Step, Task, Visible, Window
 from serendipity.model.answers.answer import Answer, Improvement
@@ -36,24 +37,6 @@ _MOST: Final = 8
 """Questions at once: modes and discounts that a caller goes back and forth between."""
 
 
-class _Known(NamedTuple):
-    """Knowledge of one question.
-
-    Attributes:
-        options: as they were asked for, with the limits of the last call.
-        answer: the last answer; None once the world has moved on.
-        warm: what a search may begin with.
-        human_plan: what is left, as it is given, of the human's plan that it is about; None: of none.
-        visible: what the human sees, if the caller has said it.
-    """
-
-    options: Options
-    answer: Answer | None
-    warm: WarmStart
-    human_plan: tuple[PlanEntry, ...] | None
-    visible: Visible | None
-
-
 class Rest(NamedTuple):
     """The rest of a plan, and the options that it was made with."""
 
@@ -67,7 +50,7 @@ class SessionMemory:
     def __init__(self) -> None:
         self.passed = 0
         """Epochs that are over."""
-        self._known: OrderedDict[_Key, _Known] = OrderedDict()
+        self._known: OrderedDict[_Key, Known] = OrderedDict()
 
     def question(
         self,
@@ -87,7 +70,7 @@ class SessionMemory:
             known = known._replace(answer=None, warm=warm)
         return RememberedQuestion(self, options, visible, about, human_plan, known)
 
-    def keep(self, about: Hashable, known: _Known) -> None:
+    def keep(self, about: Hashable, known: Known) -> None:
         """Remember an answer."""
         key = (*_OPTIONS(known.options), about)
         self._known[key] = known
@@ -97,15 +80,17 @@ class SessionMemory:
 
     def written(self, task: Task) -> list[dict[str, Any]]:
         """The plans that are left, and what is known of them, as plain values for another process."""
-        left = ((key, known) for key, known in self._known.items() if known.warm.steps)
-        return [_written(task, known) for key, known in left if key[-1] is None]
+        return [written(task, about, known) for (*_, about), known in self._known.items()]
 
-    def read(self, task: Task, written: Iterable[Mapping[str, Any]]) -> None:
-        """Take over what :meth:`written` has told, from the same state."""
-        for value in written:
-            options, plan = Options.from_dict(value["options"]), value["human_plan"]
-            known = _Known(options, None, _read(task, value), None if plan is None else tuple(plan), None)
-            self.keep(None, known)
+    def read(self, task: Task, told: Iterable[Mapping[str, Any]]) -> None:
+        """Take over what :meth:`written` has told, from the same state.
+
+        Raises:
+            KeyError, TypeError, ValueError, UsageError: it has told nothing of the kind.
+        """
+        for number, value in enumerate(told):
+            unsure, known = read(task, value)
+            self.keep(number if unsure else None, known)  # a number stands for goals that no question names
 
     @property
     def rest(self) -> "Rest | None":
@@ -152,7 +137,7 @@ class RememberedQuestion(NamedTuple):
     visible: Visible | None
     about: Hashable
     human_plan: tuple[PlanEntry, ...] | None
-    known: _Known | None
+    known: Known | None
 
     @property
     def proved(self) -> Answer | None:
@@ -202,37 +187,7 @@ class RememberedQuestion(NamedTuple):
             warm = WarmStart(answer.steps or (), answer.window, True, bound, is_best, answer.horizon)
             if answer.human_plan is not None:
                 plan = named_plan(task, before_waiting(task, answer.human_plan, self.options.head_start))
-        self.memory.keep(self.about, _Known(self.options, answer, warm, plan, self.visible))
-
-
-def _written(task: Task, known: _Known) -> dict[str, Any]:
-    warm = known.warm
-    return {
-        "options": known.options.to_dict(),
-        "human_plan": known.human_plan,
-        "steps": [[step.epoch, step.action] for step in warm.steps],
-        "names": [task.actions[step.action].name for step in warm.steps],
-        "window": None if warm.window is None else warm.window.to_dict(),
-        "is_sure": warm.is_sure,
-        "bound": None if warm.bound is None else str(warm.bound),
-        "is_best": warm.is_best,
-        "horizon": warm.horizon,
-    }
-
-
-def _read(task: Task, value: Mapping[str, Any]) -> WarmStart:
-    steps = tuple(Step(epoch, action) for epoch, action in value["steps"])
-    names = [task.actions[step.action].name for step in steps if step.action < len(task.actions)]
-    if names != value["names"]:
-        return WarmStart()  # the task was read otherwise
-    return WarmStart(
-        steps,
-        None if value["window"] is None else Window(**value["window"]),
-        value["is_sure"],
-        None if value["bound"] is None else Fraction(value["bound"]),
-        value["is_best"],
-        value["horizon"],
-    )
+        self.memory.keep(self.about, Known(self.options, answer, warm, plan, self.visible))
 
 
 def _told_again(answer: Answer) -> Answer:
@@ -280,7 +235,7 @@ def _bound(answer: Answer, options: Options) -> Fraction | None:
     return least + options.window_weight if least > 0 else None
 
 
-def _moved(before: Task, known: _Known, task: Task, epochs: int) -> _Known:
+def _moved(before: Task, known: Known, task: Task, epochs: int) -> Known:
     """The knowledge that is left in another state.
 
     Where the next epoch of the plan leads to that state, the rest is the rest of a plan; where nothing has
@@ -304,7 +259,7 @@ def _moved(before: Task, known: _Known, task: Task, epochs: int) -> _Known:
     if plan is not None and not asleep:
         plan = plan[passed:] if all(isinstance(entry, str) for entry in plan) else left_after(plan, passed)
     options = options.but(head_start=max(0, asleep - epochs))
-    return _Known(options, None, left, plan, known.visible)
+    return Known(options, None, left, plan, known.visible)
 
 
 def _leads_to(before: Task, actions: list[GroundAction], task: Task) -> bool:

@@ -9,20 +9,22 @@ from itertools import combinations
 from typing import Any, Final, Unpack
 
 from search import PreparedTask
-from serendipity.facade.call import Given, options_from
+from serendipity.facade.call import Given
 from serendipity.facade.memory import SessionMemory
 from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned, planned_anytime
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_plan, named_steps
+from serendipity.facade.said import entries, plain, time_of
 from serendipity.model import HumanPlan, InputError, Options, PlanError, PlanStep, Result, Task, UsageError
 from serendipity.model.arguments import BY_NAME, FLAG, TASK_IN_TIME, expect
 from serendipity.model.keywords import listing
+from serendipity.model.options import MAX_EPOCH
 from serendipity.model.schemas import schema_fault
 from serendipity.model.task.actions import NOOP, GroundAction, apply, conflicting
 from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.facts import Facts
 from serendipity.model.task.passing import epoch_later, going_on, taken_up
-from serendipity.model.task.plans import PlanEntry, TimedPlan, checked_entries, left_after, unknown_action
+from serendipity.model.task.plans import PlanEntry, TimedPlan, left_after
 from serendipity.model.task.plans_in_time import cost_alone, times_of
 from serendipity.model.task.task import canonical_name, several
 
@@ -49,13 +51,13 @@ class Session:
         self, task: Task, *, human_plan: Iterable[PlanEntry] | None = None, **options: Unpack[SessionOptions]
     ) -> None:
         expect(TASK_IN_TIME, task=task)
-        plain = _plain(options)
+        asleep = plain(options).head_start
         self._begun = task
         """Whose digest serves all sessions that begin with it."""
         self._prepared = HELD.take(task)
         weakref.finalize(self, HELD.hold, self._prepared).atexit = False
         self._options = options
-        self._given = None if human_plan is None else _entries(task, human_plan)
+        self._given = None if human_plan is None else entries(task, human_plan)
         """A plan that nothing has been made of yet: it may be one only after the next change."""
         self._human_plan: HumanPlan | None = None
         """The plan; at most one of the two is known."""
@@ -63,7 +65,7 @@ class Session:
         """Whether it is not the caller who has said so."""
         self._is_outdated = False
         """Whether it is known not to be what a human would do who looks up."""
-        self._up = plain.head_start
+        self._up = asleep
         """The epoch with which the head start is over, as it was asked for last."""
         self._cancelled = threading.Event()
         self._memory = SessionMemory()
@@ -122,8 +124,8 @@ class Session:
         other = self._options.keys() - Options.__dataclass_fields__.keys()
         if other:
             raise UsageError(f"snapshot: {min(other)} is no plain value; give it to each call")
-        task, asked, begun = self.task, _plain(self._options).to_dict(), self._begun
-        time, passed = {}, self._memory.passed
+        task, asked, begun = self.task, plain(self._options).to_dict(), self._begun
+        time, passed = {}, min(self._memory.passed, MAX_EPOCH)  # with which every script is over
         if begun.needs_time or passed or self._asleep:
             going = going_on(begun, passed, task)
             time = {"time": {"passed": passed, "going": going, "asleep": self._asleep}}
@@ -154,19 +156,19 @@ class Session:
         """
         expect(TASK_IN_TIME, task=task)
         expect(BY_NAME, snapshot=snapshot)
-        _plain(options)
+        plain(options)
         if fault := schema_fault(snapshot.get("schema"), SNAPSHOT):
             raise InputError(f"snapshot: {fault}")
         if snapshot.get("task") != task.digest:
             raise InputError("snapshot: it is of another task")
         try:
             asked: dict[str, Any] = {**snapshot["options"], **options}
-            time, true = snapshot.get("time", {"passed": 0, "going": ()}), [*snapshot["facts"]]
+            (passed, going, asleep), true = time_of(snapshot), [*snapshot["facts"]]
             is_predicted, is_outdated = snapshot["predicted"], snapshot.get("outdated", False)
             expect(FLAG, predicted=is_predicted, outdated=is_outdated)
-            session = cls(taken_up(task, time["passed"], time["going"]) if task.needs_time else task, **asked)
-            session._begun, session._memory.passed = task, time["passed"]
-            session._up = time["passed"] + time.get("asleep", session._asleep)
+            session = cls(taken_up(task, passed, going) if task.needs_time else task, **asked)
+            session._begun, session._memory.passed = task, passed
+            session._up = passed + (session._asleep if asleep is None else asleep)
             session.set_goal(snapshot["goal"])
             session.change({**dict.fromkeys(task.facts, False), **dict.fromkeys(true, True)})
             session.follow(snapshot["human_plan"])
@@ -185,7 +187,7 @@ class Session:
         if self._is_outdated:
             self._human_plan, self._given, self._is_outdated = None, None, False
         unsure = any(asked.get(name) is not None for name in ("goals", "plans"))
-        asleep = max(0, _plain(asked).head_start - self._memory.passed)
+        asleep = max(0, plain(asked).head_start - self._memory.passed)
         others = unsure or asked.get("mode") == "assistance" or asleep != self._asleep
         unknown = self.human_plan is None or (self._predicted and others)  # which predict the human otherwise
         return None if unknown else self._replayed
@@ -209,8 +211,8 @@ class Session:
         # Robots may have made another plan cheaper, and nothing helps beside this one.
         self._is_outdated = self._predicted and bool(answer.saving_alone) and not answer.opportunity
         if self.human_plan is None:
-            entries = answer.human_entries
-            self._given = left_after(entries, head_start) if entries and head_start else entries
+            his = answer.human_entries
+            self._given = left_after(his, head_start) if his and head_start else his
             self._predicted = True
 
     def cancel(self) -> None:
@@ -290,7 +292,7 @@ class Session:
             PlanError: an action is unknown.
         """
         self._human_plan, self._predicted, self._is_outdated = None, False, False
-        self._given = None if names is None else _entries(self.task, names)
+        self._given = None if names is None else entries(self.task, names)
 
     def set_goal(self, goal: Iterable[str]) -> None:
         """Give the human another goal: literals, ``!`` in front of those to be false.
@@ -362,33 +364,13 @@ class Session:
 
 def _plan_until(task: Task, named: Sequence[PlanEntry], end: int, asleep: int) -> HumanPlan | None:
     """A human plan; where it misses the goal, with waiting until its end, for what others do; or None."""
-    for entries in (named, [*named, (end, NOOP)]):
+    for his in (named, [*named, (end, NOOP)]):
         with suppress(PlanError):
-            return task.plan_from_names(entries, asleep)
+            return task.plan_from_names(his, asleep)
     return None
-
-
-def _plain(options: Mapping[str, Any]) -> Options:
-    """The plain values among a session's options.
-
-    Raises:
-        UsageError: an option is unknown or has no legal value.
-    """
-    others = SessionOptions.__annotations__.keys() - Options.__dataclass_fields__.keys()
-    return options_from({name: value for name, value in options.items() if name not in others})
 
 
 def _require_compatible(chosen: list[GroundAction]) -> None:
     for action, other in combinations(chosen, 2):
         if conflicting(action, other, strict=False):
             raise UsageError(f"'{action.name}' and '{other.name}' can't share an epoch")
-
-
-def _entries(task: Task, names: Iterable[PlanEntry]) -> tuple[PlanEntry, ...]:
-    """What may be a plan of the human's, now or later: of actions that there are."""
-    entries = checked_entries(names, "human plan")
-    for step, entry in enumerate(entries, start=1):
-        name = canonical_name(entry if isinstance(entry, str) else entry[1])
-        if name not in task.named and not task.waits(name):
-            raise unknown_action(step, name)
-    return entries

@@ -93,6 +93,71 @@ def test_what_is_no_snapshot_of_the_task_is_refused() -> None:
         Session.restore(serendipity.example("room2"), whole, luck=7)  # type: ignore[call-arg]
 
 
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"bound": "1/0"}, "bound: expected a finite number, got '1/0'"),
+        ({"bound": "1e999999999"}, "bound: expected a finite number of at most 4000 digits"),
+        ({"bound": "9" * 5000}, "bound: expected a finite number of at most 4000 digits"),
+        ({"bound": [1]}, "bound: expected a finite number"),
+        ({"horizon": "x"}, "horizon: expected a whole number"),
+        ({"horizon": 1.5}, "horizon: expected a whole number"),
+        ({"is_sure": "x"}, "is_sure: expected true or false, got 'x'"),
+        ({"is_best": 1}, "is_best: expected true or false, got 1"),
+        ({"unsure": 1}, "unsure: expected true or false, got 1"),
+        ({"steps": [[0, 0]]}, "epoch: expected a whole number from 1 to 1000000, got 0"),
+        ({"steps": [[1, -1]]}, "action: expected a whole number"),
+        ({"steps": [[1]]}, "expected what Session.snapshot"),
+        ({"window": {"start": 1.5, "end": 2}}, "start: expected a whole number"),
+        ({"window": {"start": 2, "end": 2}}, "window: expected 1 <= start < end"),
+        ({"human_plan": [3]}, "human plan: expected a list of names"),
+    ],
+)
+def test_a_wrong_answer_in_a_snapshot_is_refused_at_once(wrong: dict[str, object], message: str) -> None:
+    whole = written(begun())
+    whole["answers"][0] |= wrong
+    with pytest.raises(InputError, match=f"^snapshot: {message}") as caught:
+        Session.restore(serendipity.example("room2"), whole)
+    assert "\n" not in str(caught.value)
+
+
+def test_that_the_last_answer_leaves_no_rest_is_kept() -> None:
+    task = serendipity.example("room2")
+    goals = [{"goal": ["conducted_triage commx room1"], "prior": 1}]
+    for last, rest in (({"mode": "assistance"}, None), ({"goals": goals}, None), ({}, 15)):
+        session = Session(task, discount=0.6)
+        session.plan()
+        session.plan(**last)
+        restored = Session.restore(task, written(session))
+        assert restored.rest == session.rest
+        assert (None if session.rest is None else len(session.rest)) == rest
+        assert written(restored) == written(session)
+        assert restored.plan().statistics["expanded"] == 0, "the first answer is known as well"
+
+
+def test_an_empty_rest_is_kept() -> None:
+    task = build(goal="done", init="done", actions={"do h": "-> done"})
+    session = Session(task, discount=0.6)
+    session.plan()
+    assert Session.restore(task, written(session)).rest == session.rest == ()
+
+
+def test_older_snapshots_tell_of_answers_with_a_rest_only() -> None:
+    whole = written(begun())
+    assert [*whole["answers"][0]] == ["options", "human_plan", *_OF_AN_ANSWER]
+    assert Session.restore(serendipity.example("room2"), whole).rest
+
+
+_OF_AN_ANSWER = ("steps", "names", "window", "is_sure", "bound", "is_best", "horizon")
+
+
+def test_what_is_proved_for_one_view_is_not_taken_over_for_another() -> None:
+    task = serendipity.example("room2")
+    session = Session(task, human_model="local", discount=0.6)
+    session.plan(visible=lambda *_: False)
+    assert [answer["bound"] for answer in written(session)["answers"]] == [None]
+
+
 def test_that_a_predicted_plan_is_outdated_is_kept() -> None:
     task = build(
         agents="ann rob",

@@ -182,6 +182,18 @@ def test_what_is_left_of_the_last_answer() -> None:
     assert session.rest is None
 
 
+def test_what_goes_on_in_a_snapshot_is_something_that_may() -> None:
+    session = Session(lane().task)
+    session.execute(["walk h"])
+    whole = session.snapshot()
+    (going,) = whole["time"]["going"]
+    for wrong in ({"epochs": 1.5}, {"epochs": -1}, {"epochs": 10**18}, {"variant": -1}, {"variant": True}):
+        time = {**whole["time"], "going": [{**going, **wrong}]}
+        with pytest.raises(serendipity.InputError, match="snapshot: expected"):
+            Session.restore(lane().task, {**whole, "time": time})
+    assert Session.restore(lane().task, whole).task.script == session.task.script
+
+
 def test_a_head_start_is_over_when_so_many_epochs_are() -> None:
     session = Session(lane().task, mode="composite", head_start=2)
     assert session.plan().human_entries == ((3, "walk h"), (7, "pass h"))
@@ -274,7 +286,7 @@ def test_a_restored_session_goes_on_in_the_middle_of_actions(call: Call, dice: R
             return  # without the others it is not possible
         other = Session.restore(replace(begun), json.loads(json.dumps(session.snapshot())))
         assert (other.task.init, other.task.script) == (session.task.init, session.task.script)
-        assert (other.human_plan, other.rest or ()) == (session.human_plan, session.rest or ())
+        assert (other.human_plan, other.rest) == (session.human_plan, session.rest)
         one, again = session.plan(), other.plan()
         assert [getattr(one, name) for name in _FIGURES] == [getattr(again, name) for name in _FIGURES]
 
@@ -283,9 +295,13 @@ def test_what_is_no_snapshot_in_time_is_refused() -> None:
     session = Session(serendipity.example("morning"))
     session.execute([])
     whole = session.snapshot()
-    wrong = ({"passed": 1}, {"passed": "x", "going": []}, {"passed": 1, "going": [{}]}, 3)
+    wrong = ({"passed": 1}, {"passed": 1, "going": "x"}, {"passed": 1, "going": [{}]}, 3)
     for bad in wrong:
         with pytest.raises(serendipity.InputError, match="snapshot: expected"):
             Session.restore(serendipity.example("morning"), {**whole, "time": bad})
+    times = {"passed": (-1, 10**18, "x", 1.5), "asleep": (-1, 10**12)}
+    for more in ({name: value} for name, values in times.items() for value in values):
+        with pytest.raises(serendipity.InputError, match=r"^snapshot: \w+: expected a whole number"):
+            Session.restore(serendipity.example("morning"), {**whole, "time": {**whole["time"], **more}})
     with pytest.raises(serendipity.InputError, match="another task"):
         Session.restore(serendipity.example("morning").with_script(Script(facts=[(3, "coffee")])), whole)

@@ -327,8 +327,10 @@ def test_a_session_goes_on_at_another_server() -> None:
         there = f"/sessions/{begun.json()['id']}"
         found = other.post(f"{there}/plan", {}).json()
         assert (found["plan"], found["cost"]) == (expected["plan"], expected["cost"])
+        state = {**snapshot["state"], "answers": [{**snapshot["state"]["answers"][0], "bound": "1/0"}]}
         for wrong, start in (
             ({"snapshot": {**snapshot, "state": {"schema": "x"}}}, ""),
+            ({"snapshot": {**snapshot, "state": state}}, "snapshot: bound: expected a finite number"),
             ({"snapshot": snapshot, "task": ASKED["task"]}, "body: expected a task or a snapshot"),
             ({}, "body: expected a task or a snapshot"),
         ):

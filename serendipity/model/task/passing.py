@@ -94,8 +94,11 @@ def taken_up(begun: Task, passed: int, going: Iterable[Mapping[str, Any]]) -> Ta
     for one in going:
         agents = tuple(sorted(begun.agents.index(name) for name in one["agents"]))
         like = GroundAction(one["action"], agents, (), (), (), ())
-        action = _alike(begun, like)[one["variant"]]
-        deeds.append(Deed(1, doer(begun, action), (_rest(action, one["epochs"]),)))
+        alike, variant, epochs = _alike(begun, like), one["variant"], one["epochs"]
+        whole = all(isinstance(number, int) for number in (variant, epochs))
+        if not whole or variant not in range(len(alike)) or epochs not in range(1, alike[variant].duration):
+            raise ValueError("there is nothing of the kind to go on with")
+        deeds.append(Deed(1, doer(begun, alike[variant]), (_rest(alike[variant], epochs),)))
     return replace(begun, script=_left(begun.script, passed, deeds), known_variables=begun.variables)
 
 

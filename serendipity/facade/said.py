@@ -1,0 +1,47 @@
+"""What callers say to a session, checked at once."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from serendipity.facade.call import options_from
+from serendipity.facade.known import epochs
+from serendipity.facade.planning import SessionOptions
+from serendipity.model import Options, Task
+from serendipity.model.task.plans import PlanEntry, checked_entries, unknown_action
+from serendipity.model.task.task import canonical_name
+
+
+def plain(options: Mapping[str, Any]) -> Options:
+    """The plain values among a session's options.
+
+    Raises:
+        UsageError: an option is unknown or has no legal value.
+    """
+    others = SessionOptions.__annotations__.keys() - Options.__dataclass_fields__.keys()
+    return options_from({name: value for name, value in options.items() if name not in others})
+
+
+def entries(task: Task, names: Iterable[PlanEntry]) -> tuple[PlanEntry, ...]:
+    """What may be a plan of the human's, now or later: of actions that there are.
+
+    Raises:
+        PlanError: an action is unknown.
+        UsageError: they are no list of names.
+    """
+    found = checked_entries(names, "human plan")
+    for step, entry in enumerate(found, start=1):
+        name = canonical_name(entry if isinstance(entry, str) else entry[1])
+        if name not in task.named and not task.waits(name):
+            raise unknown_action(step, name)
+    return found
+
+
+def time_of(snapshot: Mapping[str, Any]) -> tuple[int, Iterable[Mapping[str, Any]], int | None]:
+    """The epochs that are over, what goes on, and what is left of the head start, if a snapshot says that.
+
+    Raises:
+        KeyError, TypeError, ValueError, UsageError: it is none.
+    """
+    time = snapshot.get("time", {"passed": 0, "going": ()})
+    asleep = epochs("asleep", time["asleep"]) if "asleep" in time else None
+    return epochs("passed", time["passed"]), time["going"], asleep
