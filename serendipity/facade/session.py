@@ -30,6 +30,8 @@ from serendipity.model.task.task import canonical_name, several
 
 SNAPSHOT: Final = "serendipity.session/1"
 
+_EXCEPT: Final = ", or this is a later one of its session: expected the task that it began with"
+
 
 class Session:
     """A task in its present state, and the human's plan as far as it is known.
@@ -147,7 +149,8 @@ class Session:
         """A session that stands where another one stood, in this process or another.
 
         Args:
-            task: the task that the other one began with, from any of its states.
+            task: the task that the other one began with, from any of its states.  In time a later ``task`` of
+                that session may be another one: what is left of the script, and what goes on, is part of it.
             snapshot: what :meth:`snapshot` has told.
             **options: instead of those of the other one.
 
@@ -160,7 +163,7 @@ class Session:
         if fault := schema_fault(snapshot.get("schema"), SNAPSHOT):
             raise InputError(f"snapshot: {fault}")
         if snapshot.get("task") != task.digest:
-            raise InputError("snapshot: it is of another task")
+            raise InputError(f"snapshot: it is of another task{_EXCEPT if 'time' in snapshot else ''}")
         try:
             asked: dict[str, Any] = {**snapshot["options"], **options}
             (passed, going, asleep), true = time_of(snapshot), [*snapshot["facts"]]

@@ -182,6 +182,18 @@ def test_what_is_left_of_the_last_answer() -> None:
     assert session.rest is None
 
 
+def test_a_session_in_time_is_restored_with_the_task_that_it_began_with() -> None:
+    session = Session(serendipity.example("office"))
+    assert Session.restore(session.task, session.snapshot()).task == session.task
+    session.execute([])
+    with pytest.raises(serendipity.InputError, match=r"expected the task that it began with$"):
+        Session.restore(session.task, session.snapshot())
+    assert Session.restore(serendipity.example("office"), session.snapshot()).task == session.task
+    without = Session(serendipity.example("room2"))
+    without.execute([])
+    assert Session.restore(without.task, without.snapshot()).task == without.task
+
+
 def test_what_goes_on_in_a_snapshot_is_something_that_may() -> None:
     session = Session(lane().task)
     session.execute(["walk h"])
