@@ -8,6 +8,7 @@ from serendipity.facade.known import epochs
 from serendipity.facade.planning import SessionOptions
 from serendipity.model import Options, Task
 from serendipity.model.task.plans import PlanEntry, checked_entries, unknown_action
+from serendipity.model.task.plans_in_time import require_epoch
 from serendipity.model.task.task import canonical_name
 
 
@@ -25,14 +26,17 @@ def entries(task: Task, names: Iterable[PlanEntry]) -> tuple[PlanEntry, ...]:
     """What may be a plan of the human's, now or later: of actions that there are.
 
     Raises:
-        PlanError: an action is unknown.
+        PlanError: an action is unknown, or begins in an epoch that there never is.
         UsageError: they are no list of names.
     """
     found = checked_entries(names, "human plan")
     for step, entry in enumerate(found, start=1):
-        name = canonical_name(entry if isinstance(entry, str) else entry[1])
-        if name not in task.named and not task.waits(name):
+        epoch, said = (None, entry) if isinstance(entry, str) else entry
+        name, waits = canonical_name(said), task.waits(canonical_name(said))
+        if name not in task.named and not waits:
             raise unknown_action(step, name)
+        if epoch is not None:
+            require_epoch(step, name, epoch, waits=waits)
     return found
 
 

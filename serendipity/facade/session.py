@@ -292,10 +292,11 @@ class Session:
         The next call replays it, and raises :class:`serendipity.PlanError` where it can't be executed.
 
         Raises:
-            PlanError: an action is unknown.
+            PlanError: an action is unknown, or begins in an epoch that there never is.
         """
+        given = None if names is None else entries(self.task, names)
         self._human_plan, self._predicted, self._is_outdated = None, False, False
-        self._given = None if names is None else entries(self.task, names)
+        self._given = given
 
     def set_goal(self, goal: Iterable[str]) -> None:
         """Give the human another goal: literals, ``!`` in front of those to be false.

@@ -241,6 +241,24 @@ def test_a_plan_that_is_given_begins_behind_the_head_start() -> None:
 
 
 @pytest.mark.parametrize("early", [0, 1, 3])
+def test_an_epoch_that_never_comes_is_refused_at_once(early: int) -> None:
+    """It was taken, and gave way to a predicted plan with the next epoch."""
+    office = serendipity.example("office")
+    first, *more = serendipity.plan(office).human_entries or ()
+    session = Session(office, human_plan=[first, *more])
+    for epoch, until in ((-early, "on"), (10**6 + 1 + early, "to 1000000")):
+        message = rf"^human plan, step 1: '{first[1]}': expected an epoch from 1 {until}, got {epoch}$"
+        wrong = [(epoch, first[1]), *more]
+        with pytest.raises(serendipity.PlanError, match=message):
+            serendipity.plan(office, human_plan=wrong)
+        with pytest.raises(serendipity.PlanError, match=message):
+            Session(office, human_plan=wrong)
+        with pytest.raises(serendipity.PlanError, match=message):
+            session.follow(wrong)
+    assert session.human_plan == (first, *more), "as it was"
+
+
+@pytest.mark.parametrize("early", [0, 1, 3])
 def test_going_on_with_something_is_no_waiting(early: int) -> None:
     session = Session(lane().task, mode="individual", waiting_cost="0.5")
     session.execute(["walk h"])

@@ -13,6 +13,7 @@ from serendipity.cli.app import main
 from tests.live.server import Server, serving
 
 ROOM2 = {"example": "room2"}
+TOO_EARLY = [[-3, "move commx room13 hall8"]]
 
 
 @pytest.mark.parametrize(
@@ -76,6 +77,7 @@ def test_a_policy_is_explained_without_a_plan_beside_it(server: Server) -> None:
         ("/verify", {"task": ROOM2, "result": {}}, 422, "result: schema: "),
         ("/sessions", {"task": ROOM2, "options": {"x": 1}}, 422, "unknown option 'x'"),
         ("/sessions", {"task": ROOM2, "human_plan": ["fly"]}, 422, "human plan, step 1: there is no action"),
+        ("/sessions", {"task": ROOM2, "human_plan": TOO_EARLY}, 422, "human plan, step 1: 'move"),
         ("/sessions/none/change", {"facts": {"x": "yes"}}, 422, "facts.x: input should be a valid boolean"),
         ("/plan", {"task": ROOM2, "plans": "/etc/passwd"}, 422, "plans"),
         ("/plan", {"task": ROOM2, "plans": {"schema": "x", "plans": []}}, 422, "plans: schema: "),

@@ -15,6 +15,19 @@ if TYPE_CHECKING:
     from serendipity.model.task.task import HumanPlan, Task
 
 
+def impossible_epoch(step: int, name: str, epoch: int, *, least: int = 1) -> PlanError:
+    """The error of a human plan in which an action begins too early, or in an epoch that there is not."""
+    until = "on" if epoch <= MAX_EPOCH else f"to {MAX_EPOCH}"
+    wrong = f"expected an epoch from {least} {until}, got {epoch}"
+    return PlanError(f"human plan, step {step}: '{name}': {wrong}", step=step)
+
+
+def require_epoch(step: int, name: str, epoch: int, *, waits: bool) -> None:
+    """A PlanError where an action can begin in an epoch in no state; waiting may as well be over."""
+    if epoch > MAX_EPOCH or (epoch < 1 and not waits):
+        raise impossible_epoch(step, name, epoch)
+
+
 def plan_in_time(task: "Task", entries: Iterable[PlanEntry], head_start: int = 0) -> "HumanPlan":
     """The human plan that entries write down, which reaches the goal; waiting without an epoch is skipped.
 
@@ -137,9 +150,7 @@ class _Human:
             return
         if epoch is not None:
             if not self.course.epoch < epoch <= MAX_EPOCH:
-                until = "on" if epoch <= MAX_EPOCH else f"to {MAX_EPOCH}"
-                wrong = f"expected an epoch from {self.course.epoch + 1} {until}, got {epoch}"
-                raise PlanError(f"human plan, step {step}: '{name}': {wrong}", step=step)
+                raise impossible_epoch(step, name, epoch, least=self.course.epoch + 1)
             self.wait_until(epoch - 1)
         state = self.course.state
         chosen = next((i for i in ids if self.task.actions[i].applicable(state)), None)
