@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 _UNSURE: Final = ("goals", "observed", "beta", "plans", "noise")
 """Arguments of those who don't know what the human will do."""
-_OF_GOALS: Final = {"observed": (), "beta": 1, "noise": None}
+OF_GOALS: Final = {"observed": (), "beta": 1, "noise": None}
 """Those that say something of goals only, and what they are by default."""
 
 
@@ -247,7 +247,7 @@ def _unsure(options: Options, given: Given, said: Mapping[str, Any]) -> "Callabl
     What answers such calls is loaded here, before time counts, and only for them.
     """
     named = next((name for name in ("goals", "plans") if said.get(name) is not None), None)
-    astray = [name for name, usual in _OF_GOALS.items() if said.get(name, usual) not in (usual, [])]
+    astray = [name for name, usual in OF_GOALS.items() if said.get(name, usual) not in (usual, [])]
     if astray and said.get("goals") is None:
         raise UsageError(f"{astray[0]}: goes with goals only")
     idle = [name for name, usual in OF_SCENARIOS.items() if getattr(options, name) != usual]

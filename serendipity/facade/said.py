@@ -1,12 +1,12 @@
 """What callers say to a session, checked at once."""
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, Final
 
 from serendipity.facade.call import options_from
 from serendipity.facade.known import epochs
-from serendipity.facade.planning import SessionOptions
-from serendipity.model import Options, Task
+from serendipity.facade.planning import OF_GOALS, SessionOptions
+from serendipity.model import Options, Task, UsageError
 from serendipity.model.task.plans import PlanEntry, checked_entries, unknown_action
 from serendipity.model.task.plans_in_time import require_epoch
 from serendipity.model.task.task import canonical_name
@@ -20,6 +20,23 @@ def plain(options: Mapping[str, Any]) -> Options:
     """
     others = SessionOptions.__annotations__.keys() - Options.__dataclass_fields__.keys()
     return options_from({name: value for name, value in options.items() if name not in others})
+
+
+_NOT_ON_THE_WAY: Final = {"goals": None, "plans": None, **OF_GOALS, "on_improvement": None}
+"""Options of ``plan`` that ``plan_anytime`` has not, each with its values that say nothing."""
+
+
+def on_the_way(defaults: Mapping[str, Any], options: Mapping[str, Any]) -> dict[str, Any]:
+    """The options of a session's call of ``plan_anytime``.
+
+    Raises:
+        UsageError: it is to know what only ``plan`` knows.
+    """
+    chosen = {name: value for name, value in defaults.items() if name != "on_improvement"} | {**options}
+    for name, usual in _NOT_ON_THE_WAY.items():
+        if name in chosen and chosen.pop(name) not in (usual, []):
+            raise UsageError(f"{name}: goes with plan only, not with plan_anytime")
+    return chosen
 
 
 def entries(task: Task, names: Iterable[PlanEntry]) -> tuple[PlanEntry, ...]:

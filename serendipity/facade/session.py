@@ -14,7 +14,7 @@ from serendipity.facade.memory import SessionMemory
 from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned, planned_anytime
 from serendipity.facade.prepared import HELD
 from serendipity.facade.results import named_plan, named_steps
-from serendipity.facade.said import entries, plain, time_of
+from serendipity.facade.said import entries, on_the_way, plain, time_of
 from serendipity.model import HumanPlan, InputError, Options, PlanError, PlanStep, Result, Task, UsageError
 from serendipity.model.arguments import BY_NAME, FLAG, TASK_IN_TIME, expect
 from serendipity.model.keywords import listing
@@ -109,9 +109,15 @@ class Session:
 
     @listing
     def plan_anytime(self, **options: Unpack[AnytimeOptions]) -> Iterator[Result]:
-        """Answers as they get better; :meth:`cancel` ends them with the incumbent."""
+        """Answers as they get better; :meth:`cancel` ends them with the incumbent.
+
+        Nothing is told of them to ``on_improvement``, where the session has one.
+
+        Raises:
+            UsageError: goals or plans, or what is said of them, are options of the session or of this call.
+        """
         self._cancelled.clear()
-        chosen: dict[str, Any] = {**self._options, **options}
+        chosen = on_the_way(self._options, options)
         known = self._known_plan(chosen)
         for answer in planned_anytime(self._prepared, known, self._cancelled, self._memory, **chosen):
             self._learn(answer)

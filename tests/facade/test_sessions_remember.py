@@ -316,6 +316,23 @@ def test_options_and_facts_that_mean_nothing_are_refused_at_once() -> None:
     assert session.task == case_1()
 
 
+def test_answers_on_the_way_know_only_options_of_their_own() -> None:
+    told = list[Result]()
+    session = Session(case_1(), on_improvement=told.append, discount=0.6)
+    *_, answer = session.plan_anytime()
+    assert answer.cost == Session(case_1(), discount=0.6).plan().cost
+    assert not told, "they are yielded"
+    with pytest.raises(UsageError, match=r"^on_improvement: goes with plan only, not with plan_anytime$"):
+        next(session.plan_anytime(on_improvement=told.append))  # type: ignore[call-arg]
+    goals = [{"goal": ["conducted_triage commx room1"], "prior": 1}]
+    for name, value in (("goals", goals), ("plans", [{}]), ("beta", 2), ("noise", "miss=0.1")):
+        unsure = Session(serendipity.example("room2"), **{name: value})  # type: ignore[arg-type]
+        with pytest.raises(UsageError, match=rf"^{name}: goes with plan only, not with plan_anytime$"):
+            next(unsure.plan_anytime())
+    again = Session(serendipity.example("room2"), goals=goals, discount=0.6)
+    assert [*again.plan_anytime(goals=None)][-1].status == "optimal"  # type: ignore[call-arg]
+
+
 def test_waiting_may_be_said() -> None:
     session = Session(case_1(), discount=0.6)
     session.plan()
