@@ -11,7 +11,7 @@ from collections.abc import AsyncGenerator, Callable, Iterable, Mapping
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from typing import Literal, TypeVar, Unpack
+from typing import Any, Literal, TypeVar, Unpack
 
 from serendipity._siblings import require_siblings
 
@@ -113,8 +113,11 @@ class Session:
     def __init__(
         self, task: Task, *, human_plan: Iterable[PlanEntry] | None = None, **options: Unpack[SessionOptions]
     ) -> None:
-        self._deadline = options.get("deadline")
-        self._session = session.Session(task, human_plan=human_plan, **options)
+        self._hold(session.Session(task, human_plan=human_plan, **options), options.get("deadline"))
+
+    def _hold(self, held: session.Session, deadline: Deadline | None) -> None:
+        self._session = held
+        self._deadline = deadline
         self._calling = asyncio.Lock()
 
     @property
@@ -185,6 +188,25 @@ class Session:
             UsageError: a call is under way; or there is no such fact.
         """
         self._idle().set_goal(goal)
+
+    def snapshot(self) -> dict[str, Any]:
+        """See :meth:`serendipity.Session.snapshot`.
+
+        Raises:
+            UsageError: a call is under way; or what the human sees is a function.
+        """
+        return self._idle().snapshot()
+
+    @classmethod
+    def restore(cls, task: Task, snapshot: Mapping[str, Any], **options: Unpack[SessionOptions]) -> "Session":
+        """See :meth:`serendipity.Session.restore`; either kind of session takes the other's snapshots.
+
+        Raises:
+            InputError: the snapshot is of another task, or none.
+        """
+        restored = cls.__new__(cls)
+        restored._hold(session.Session.restore(task, snapshot, **options), options.get("deadline"))
+        return restored
 
     def _idle(self) -> session.Session:
         if self._calling.locked():

@@ -15,7 +15,7 @@ import pytest
 
 import serendipity
 import serendipity.aio
-from serendipity import Result, Session, Task
+from serendipity import Deadline, Result, Session, Task, UsageError
 from serendipity.testing.cases import case_1, case_2
 from tests.facade.conftest import ENDLESS
 
@@ -143,6 +143,26 @@ def test_answers_are_those_of_plain_calls() -> None:
         session.execute([step.action for step in answer.plan or () if step.epoch == 1])
         *_, last = [answer async for answer in session.plan_anytime()]
         assert last.opportunity and session.human_plan is not None
+
+    asyncio.run(asked())
+
+
+def test_a_session_that_is_awaited_is_written_down_and_restored() -> None:
+    async def asked() -> None:
+        task = case_1()
+        session = serendipity.aio.Session(task, discount=0.9)
+        answer = await session.plan()
+        asking = asyncio.ensure_future(session.plan(discount=0.8))
+        await asyncio.sleep(0)
+        with pytest.raises(UsageError, match="session: a call is under way"):
+            session.snapshot()
+        await asking
+        snapshot = session.snapshot()
+        for kind in (serendipity.aio.Session, Session):
+            assert kind.restore(task, snapshot).snapshot() == snapshot
+        restored = serendipity.aio.Session.restore(task, snapshot, deadline=Deadline(60))
+        again = await restored.plan()
+        assert (again.plan, again.statistics["expanded"]) == (answer.plan, 0)
 
     asyncio.run(asked())
 
