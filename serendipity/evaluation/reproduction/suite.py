@@ -2,6 +2,7 @@
 
 import hashlib
 import re
+from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +15,10 @@ _NUMBERED = re.compile(r"test(\d+)")
 
 @dataclass(frozen=True, slots=True)
 class TaskFolder:
-    """A task of a suite: N for a folder ``testN``, else its name; a fingerprint that changes with files."""
+    """A task of a suite: N for a folder ``testN``, if no other is called N, else the folder's name.
+
+    The fingerprint changes with its files.
+    """
 
     test: str
     path: Path
@@ -39,7 +43,8 @@ def find_tasks(folder: Path) -> tuple[TaskFolder, ...]:
     found = [path for path in folder.iterdir() if _is_task(path)]
     if not found:
         raise InputError("no task in this folder: expected testN/AGENT/domain.pddl", folder)
-    tasks = (TaskFolder(_name(path), path, _fingerprint(path)) for path in found)
+    names = {path.name for path in found}
+    tasks = (TaskFolder(_name(path, names), path, _fingerprint(path)) for path in found)
     return tuple(sorted(tasks, key=lambda task: natural(task.test)))
 
 
@@ -47,9 +52,9 @@ def _is_task(path: Path) -> bool:
     return path.is_dir() and next(path.glob("*/domain.pddl"), None) is not None
 
 
-def _name(path: Path) -> str:
+def _name(path: Path, names: Collection[str]) -> str:
     numbered = _NUMBERED.fullmatch(path.name)
-    return numbered[1] if numbered else path.name
+    return numbered[1] if numbered and numbered[1] not in names else path.name
 
 
 def _fingerprint(path: Path) -> str:

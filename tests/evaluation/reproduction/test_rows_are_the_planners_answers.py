@@ -54,6 +54,17 @@ def run(suite: Path) -> Reproduction:
     return reproduce(suite, modes=MODES, discounts=DISCOUNTS)
 
 
+def test_tasks_of_a_suite_have_names_of_their_own(tmp_path: Path) -> None:
+    """A folder is called by its number, unless another one is: both had the rows of one name."""
+    for name, preset in (("test1", "room2"), ("1", "room7"), ("test2", "room5"), ("testbed", "room5")):
+        serendipity.generate_usar(tmp_path / name, preset=preset)
+    run = reproduce(tmp_path, modes=["individual"], discounts=["0.6"])
+    costs = {row.test: row.cost for row in run.rows}
+    assert sorted(costs) == ["1", "2", "test1", "testbed"]
+    assert costs["1"] == serendipity.plan(serendipity.example("room7"), mode="individual").cost
+    assert costs["test1"] == serendipity.plan(serendipity.example("room2"), mode="individual").cost
+
+
 def test_rows_are_the_answers_in_order(run: Reproduction) -> None:
     expected = []
     for number, preset in enumerate(PRESETS, start=1):
