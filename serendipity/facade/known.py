@@ -87,12 +87,12 @@ def _read(task: Task, value: Mapping[str, Any]) -> WarmStart:
         Step(epochs("epoch", epoch, least=1), epochs("action", action, most=_NO_MORE))
         for epoch, action in value["steps"]
     )
-    window, bound, horizon = value["window"], value["bound"], value["horizon"]
+    ends, bound, horizon = value["window"], value["bound"], value["horizon"]
     is_sure, is_best = value["is_sure"], value["is_best"]
     expect(FLAG, is_sure=is_sure, is_best=is_best)
     found = WarmStart(
         steps,
-        None if window is None else Window(*(epochs(end, window[end], least=1) for end in ("start", "end"))),
+        None if ends is None else _window(ends),
         is_sure,
         None if bound is None else exact(bound, "bound", MOST_IN_RESULTS),
         is_best,
@@ -100,6 +100,11 @@ def _read(task: Task, value: Mapping[str, Any]) -> WarmStart:
     )
     names = [task.actions[step.action].name for step in steps if step.action < len(task.actions)]
     return found if names == value["names"] else WarmStart()  # the task was read otherwise
+
+
+def _window(ends: Mapping[str, Any]) -> Window:
+    """A window, which may end with the last epoch that there is."""
+    return Window(*(epochs(end, ends[end], least=1, most=MAX_EPOCH + 1) for end in ("start", "end")))
 
 
 def _text(bound: Fraction | None) -> str | None:

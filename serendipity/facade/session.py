@@ -9,7 +9,7 @@ from itertools import combinations
 from typing import Any, Final, Unpack
 
 from search import PreparedTask
-from serendipity.facade.call import Given
+from serendipity.facade.call import Given, options_from
 from serendipity.facade.memory import SessionMemory
 from serendipity.facade.planning import AnytimeOptions, SessionOptions, planned, planned_anytime
 from serendipity.facade.prepared import HELD
@@ -171,6 +171,7 @@ class Session:
         if snapshot.get("task") != task.digest:
             raise InputError(f"snapshot: it is of another task{_EXCEPT if 'time' in snapshot else ''}")
         try:
+            options_from({**snapshot["options"]})
             asked: dict[str, Any] = {**snapshot["options"], **options}
             (passed, going, asleep), true = time_of(snapshot), [*snapshot["facts"]]
             is_predicted, is_outdated = snapshot["predicted"], snapshot.get("outdated", False)

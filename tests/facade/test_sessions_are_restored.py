@@ -86,6 +86,7 @@ def test_what_is_no_snapshot_of_the_task_is_refused() -> None:
         ({"outdated": "no"}, "snapshot: outdated: expected true or false, got 'no'"),
         ({"options": {"discount": 7}}, "snapshot: discount: expected a number"),
         ({"options": {"luck": 7}}, "snapshot: unknown option 'luck'"),
+        ({"options": {"visible": 7}}, "snapshot: unknown option 'visible'"),
     ):
         with pytest.raises(InputError, match=message):
             Session.restore(serendipity.example("room2"), {**whole, **more})
