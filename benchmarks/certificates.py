@@ -25,7 +25,7 @@ from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 from time import perf_counter
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, Final, NamedTuple
 
 import typer
 
@@ -44,6 +44,11 @@ from verify.certificate.certify import certify
 from verify.proofs import checker
 
 FIGURES = ("write", "KiB", "check", "compare", "form", "OPB", "pbp", "columns", "rows", "leaves")
+
+_REQUIRED: Final = "--requireUnsat"
+
+_DOUBTS: Final = ("did not claim", "unjustified", "NO CONCLUSION")
+"""What VeriPB says beside an exit code of 0 where a proof has shown nothing."""
 
 
 class Asked(NamedTuple):
@@ -172,7 +177,7 @@ def _proof(job: Job, result: Result, limit: float | None) -> Row:
         proof = checker.read(file)
         files, form = timed(lambda: in_the_fields_form(Path(scratch, "proof.pbp"), proof))
         write_together(files)
-        outside = _by_veripb(job.veripb, sorted(files)) if job.veripb else {}
+        outside = by_veripb(job.veripb, sorted(files)) if job.veripb else {}
         figures = (write, file.stat().st_size / 1024, check, compare, form)
     by_end = grouped(files, lambda path: "".join(path.suffixes))
     sizes = [sum(len(files[path]) for path in by_end[end]) / 1024 for end in (".opb", ".pbp")]
@@ -181,17 +186,32 @@ def _proof(job: Job, result: Result, limit: float | None) -> Row:
     return {"accepted": found.verdict == "accepted", **dict(zip(FIGURES, figures, strict=True)), **outside}
 
 
-def _by_veripb(command: str, files: Sequence[Path]) -> Row:
+def by_veripb(command: str, files: Sequence[Path]) -> Row:
     """What VeriPB says of the proofs of all programs, and how long it takes by the clock."""
+    options = options_of_veripb(command)
     started, accepted = perf_counter(), True
     for formula in (path for path in files if path.suffix == ".opb"):
-        for suffix in (".v1.pbp", ".pbp"):
-            words = [command, str(formula), str(formula.with_suffix(suffix))]
-            done = subprocess.run(words, capture_output=True, text=True, check=False)
-            if "nsupported version" not in done.stderr:
-                break
-        accepted = accepted and not done.returncode and "did not claim" not in done.stderr
+        proofs = [formula.with_suffix(suffix) for suffix in (".v1.pbp", ".pbp")]
+        accepted = accepted and accepted_by_veripb([command, *options], formula, proofs)
     return {"by VeriPB": accepted, "VeriPB": perf_counter() - started}
+
+
+def options_of_veripb(command: str) -> list[str]:
+    """What makes VeriPB reject a proof that concludes nothing, where it knows such an option."""
+    told = subprocess.run([command, "--help"], capture_output=True, text=True, check=False).stdout
+    return [_REQUIRED] if _REQUIRED in told else []
+
+
+def accepted_by_veripb(command: Sequence[str], formula: Path, proofs: Iterable[Path]) -> bool:
+    """Whether VeriPB accepts the first proof of a version that it knows, and has no doubt about it."""
+    for proof in proofs:
+        done = subprocess.run(
+            [*command, str(formula), str(proof)], capture_output=True, text=True, check=False
+        )
+        told = done.stdout + done.stderr
+        if "nsupported version" not in told:
+            return done.returncode == 0 and not any(doubt in told for doubt in _DOUBTS)
+    return False
 
 
 def _certificates(rows: Sequence[Row]) -> Grid:

@@ -68,6 +68,12 @@ def _drop_all(pattern: str) -> Change:
     return _lines(lambda lines: [line for line in lines if not re.match(pattern, line)])
 
 
+def _assumed(lines: list[str]) -> list[str]:
+    """A contradiction assumed, and concluded from."""
+    ends = (line for line in lines if line.startswith(("c ", "output", "conclusion", "end")))
+    return [*lines[:2], "a >= 1 ;", *(re.sub(r"\d+$", "32", line) for line in ends)]
+
+
 def _in(number: int) -> Change:
     """Adds to the first number at the end of a line that a cover ends with."""
     return _swap(r">= 1 ;$", f">= {number} ;")
@@ -148,6 +154,13 @@ DOCTORED: Final[dict[str, Doctored]] = {
     "a conclusion from what is none": _proof("branched", _swap(r"(: |c )\d+$", r"\g<1>33", -1)),
     "a conclusion from a constraint": _proof("no help", _swap(r"(: |c )\d+", r"\g<1>1", -1)),
     "a conclusion from what is not there": _proof("help", _swap(r"(: |c )\d+", r"\g<1>99999", -1)),
+    "no conclusion": _proof("branched", _drop(r"(c|conclusion) .*")),
+    "no conclusion from a solution": _proof("help", _drop(r"(c|conclusion) .*")),
+    "a conclusion of nothing": _proof("branched", _swap(r"^(c|conclusion) .*$", "conclusion NONE")),
+    "a proof emptied": _proof("branched", _lines(lambda lines: lines[:1])),
+    "nothing but the problem": _proof("branched", _lines(lambda lines: lines[:2])),
+    "an empty file": _proof("branched", lambda _: ""),
     "an assumption": _proof("branched", _swap(r"^pol .*$", "a >= 1 ;")),
+    "an assumption in place of all steps": _proof("branched", _lines(_assumed)),
     "another version": _proof("help", _swap(r"version \S+", "version 9.9")),
 }

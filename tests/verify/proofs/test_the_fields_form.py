@@ -2,7 +2,7 @@
 
 import os
 import shutil
-import subprocess
+import sys
 from pathlib import Path
 from random import Random
 
@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 
 import serendipity
+from benchmarks.certificates import accepted_by_veripb, by_veripb, options_of_veripb
 from serendipity.model import UsageError
 from serendipity.testing.cases import case_1, case_4
 from serendipity.testing.pseudo_boolean.checker import ProofError, check
@@ -40,17 +41,10 @@ def _optimum(files: Files) -> int | None:
 def _told_by_veripb(files: Files, folder: Path) -> bool:
     """Whether VeriPB accepts the proof of version 1.1, or else that of version 2.0."""
     assert VERIPB is not None
-    formula, proof = folder / "help.opb", folder / "help.pbp"
-    formula.write_text(files.opb)
-    told = ""
-    for text in (files.old_proof, files.proof):
-        proof.write_text(text)
-        done = subprocess.run([VERIPB, str(formula), str(proof)], capture_output=True, text=True, check=False)
-        told = done.stdout + done.stderr
-        if "nsupported version" not in told:
-            doubts = any(words in told for words in ("did not claim", "unjustified"))
-            return done.returncode == 0 and not doubts
-    return False
+    formula, proofs = folder / "help.opb", [folder / "help.v1.pbp", folder / "help.pbp"]
+    for path, text in zip((formula, *proofs), (files.opb, files.old_proof, files.proof), strict=True):
+        path.write_text(text)
+    return accepted_by_veripb([VERIPB, *options_of_veripb(VERIPB)], formula, proofs)
 
 
 @pytest.mark.parametrize("name", SAMPLES)
@@ -110,6 +104,31 @@ def test_veripb_accepts_samples(name: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", DOCTORED)
 def test_veripb_rejects_doctored_proofs(name: str, tmp_path: Path) -> None:
     assert not _told_by_veripb(DOCTORED[name].files(), tmp_path)
+
+
+_KNOWS = "if '--help' in sys.argv: print('  --requireUnsat'); sys.exit()\n"
+_REJECTS = "sys.exit(5 if '--requireUnsat' in sys.argv else 0)"
+
+
+@pytest.mark.parametrize(
+    ("said", "accepted"),
+    [
+        (f"{_KNOWS}print('Verification succeeded.')", True),
+        (f"{_KNOWS}{_REJECTS}", False),
+        (f"{_KNOWS}print('Proof is based on unjustified assumptions.', file=sys.stderr)", False),
+        ("print('The provided proof did not claim contradiction.', file=sys.stderr)", False),
+        ("print('s VERIFIED NO CONCLUSION')", False),
+        ("sys.exit('Unsupported version.' if '.v1.' in sys.argv[-1] else 0)", True),
+        ("sys.exit('Unsupported version.')", False),
+    ],
+)
+def test_veripb_is_believed_only_without_a_doubt(said: str, accepted: bool, tmp_path: Path) -> None:
+    command = tmp_path / "veripb"
+    command.write_text(f"#!{sys.executable}\nimport sys\n{said}\n")
+    command.chmod(0o755)
+    for end in (".opb", ".pbp", ".v1.pbp"):
+        (tmp_path / f"proof{end}").touch()
+    assert by_veripb(str(command), sorted(tmp_path.glob("proof*")))["by VeriPB"] == accepted
 
 
 @pytest.mark.long
