@@ -124,8 +124,8 @@ def verify(
 
 def _write(path: Path, writer: "ProofWriter", certificate: Certificate, result: Result) -> None:
     """Write down what convinced, in the form that the file's name asks for."""
+    from serendipity.writing import veripb
     from serendipity.writing.together import write_together
-    from serendipity.writing.veripb import SUFFIX, in_the_fields_form
     from verify.certificate.provable import main_claim
     from verify.programs.effort import NoProgramError
     from verify.proofs.book import packed
@@ -136,7 +136,7 @@ def _write(path: Path, writer: "ProofWriter", certificate: Certificate, result: 
     if claim is None:
         return
     data = writer.to_dict(claim, certificate.encoding or "")
-    if path.suffix == SUFFIX:
-        write_together(in_the_fields_form(path, data))
+    if path.suffix == veripb.SUFFIX:
+        veripb.write(path, data)
     else:
         write_together({path: packed(data, small=path.suffix == ".gz")})

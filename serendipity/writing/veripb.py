@@ -17,11 +17,13 @@ node, that neither side of a branch can be taken, until nothing is left.
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
+from glob import escape
 from math import lcm
 from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from serendipity.model import UsageError
+from serendipity.writing.together import write_together
 
 SUFFIX: Final = ".pbp"
 """How the name of a proof in this form ends."""
@@ -41,6 +43,37 @@ class _Version(NamedTuple):
 _VERSIONS: Final = (_Version("2.0", ".pbp", "soli"), _Version("1.1", ".v1.pbp", "o"))
 
 _FORMULA: Final = ".opb"
+
+_HEAD: Final = 1000
+"""Characters at the beginning of a problem that say whose it is."""
+
+_SUFFIXES: Final = (_FORMULA, *(version.suffix for version in _VERSIONS))
+
+
+def write(path: Path, proof: Mapping[str, Any]) -> None:
+    """Write a proof's files, and remove those that an earlier proof of more programs has left beyond them.
+
+    Raises:
+        UsageError: a column has other values than 0 and 1.
+        OSError: the system refuses.
+    """
+    files = in_the_fields_form(path, proof)
+    write_together(files)
+    for formula in path.parent.glob(f"{escape(path.stem)}-*{_FORMULA}"):
+        if formula not in files and _is_further(formula, path):
+            for suffix in _SUFFIXES:
+                formula.with_suffix(suffix).unlink(missing_ok=True)
+
+
+def _is_further(formula: Path, path: Path) -> bool:
+    """Whether a file says of itself that it is the program that its name numbers, of a proof at a path."""
+    number = formula.stem.removeprefix(f"{path.stem}-")
+    ours = rf"\* #variable= \d+ #constraint= \d+\n\* [a-z_]+, program {re.escape(number)} of \d+: "
+    try:
+        with formula.open(encoding="utf-8", errors="replace") as file:
+            return number.isdecimal() and bool(re.match(ours, file.read(_HEAD)))
+    except OSError:
+        return False
 
 
 def in_the_fields_form(path: Path, proof: Mapping[str, Any]) -> dict[Path, bytes]:
@@ -70,7 +103,7 @@ def in_the_fields_form(path: Path, proof: Mapping[str, Any]) -> dict[Path, bytes
 
 def is_of(file: Path, path: Path) -> bool:
     """Whether a file's name is one that a proof has which is written to ``path``."""
-    ends = "|".join(map(re.escape, (_FORMULA, *(version.suffix for version in _VERSIONS))))
+    ends = "|".join(map(re.escape, _SUFFIXES))
     return file.parent == path.parent and bool(
         re.fullmatch(rf"{re.escape(path.stem)}(-\d+)?({ends})", file.name)
     )

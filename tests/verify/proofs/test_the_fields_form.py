@@ -16,6 +16,7 @@ from serendipity.testing.cases import case_1, case_4
 from serendipity.testing.pseudo_boolean.checker import ProofError, check
 from serendipity.testing.pseudo_boolean.opb import read
 from serendipity.testing.strategies import Call, calls
+from serendipity.writing.veripb import write
 from tests.cli.conftest import Runs
 from tests.verify.proofs.in_the_fields_form import DOCTORED, Files, files_of, first
 from tests.verify.proofs.samples import SAMPLES, Proof, entry, sample
@@ -171,6 +172,21 @@ def test_a_certificate_writes_three_files_for_each_program(tmp_path: Path) -> No
         problem = read((tmp_path / f"{name}.opb").read_text())
         for suffix in (".pbp", ".v1.pbp"):
             check(problem, (tmp_path / f"{name}{suffix}").read_text())
+
+
+def test_an_earlier_claim_leaves_nothing_behind(tmp_path: Path) -> None:
+    two, one = sample("two programs").proof, sample("branched").proof
+    write(tmp_path / "a[1].pbp", two)
+    write(tmp_path / "a[1]-3.pbp", one)
+    (tmp_path / "a[1]-4.opb").mkdir()
+    own = {"a[1]-5.opb": b"* #variable= 1 #constraint= 0\n", "a[1]-5.pbp": b"", "a[1]-six.opb": b"\xff"}
+    own["a[1]-07.opb"] = (tmp_path / "a[1]-2.opb").read_bytes()
+    for name, content in own.items():
+        (tmp_path / name).write_bytes(content)
+    before = {file.name for file in tmp_path.iterdir()}
+    write(tmp_path / "a[1].pbp", one)
+    left = before - {file.name for file in tmp_path.iterdir()}
+    assert left == {"a[1]-2.opb", "a[1]-2.pbp", "a[1]-2.v1.pbp"}
 
 
 def test_nothing_is_written_where_nothing_is_proved(tmp_path: Path) -> None:
