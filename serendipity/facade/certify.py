@@ -5,7 +5,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Literal
 
 from serendipity.facade.logs import recorded
-from serendipity.model import Certificate, Deadline, InputError, Result, Task
+from serendipity.model import Certificate, Deadline, InputError, Result, Task, UsageError
 from serendipity.model.arguments import PATH, RESULT_IN_TIME, TASK_IN_TIME, expect, expect_or_none
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.limits import limits_from
@@ -102,7 +102,7 @@ def verify(
     Raises:
         InputError: the result is for another task.
         UsageError: there is no such solver, encoding or method, or a limit has no legal value; there are
-            no programs for a proof of such a result.
+            no programs for a proof of such a result, or its name is that of a problem for VeriPB.
         OSError: the file can't be written.
     """
     limits = limits_from(time_limit, memory_limit, deadline)
@@ -110,6 +110,8 @@ def verify(
     require_few_epochs(task)
     expect(RESULT_IN_TIME, result=result)
     expect_or_none(PATH, proof=proof)
+    if proof is not None and Path(proof).suffix == ".opb":
+        raise UsageError(f"proof: expected a name that ends in .pbp for VeriPB, got {Path(proof).name!r}")
     from verify.certificate.certify import certify  # loads the solvers
     from verify.proofs.book import ProofWriter
 

@@ -5,7 +5,9 @@ from pathlib import Path
 
 import pytest
 
+import serendipity
 from serendipity.cli.app import main
+from serendipity.testing.cases import case_1
 from tests.cli.conftest import Runs, assert_one_line
 
 
@@ -69,6 +71,14 @@ def test_no_proof_no_file(answers: Path, run: Runs) -> None:
     assert not Path("proof.json").exists()
     done = run(f"verify --example room2 {answers}/room2.json --proof /none/x.json")
     assert_one_line(done, "--proof: there is no folder /none")
+
+
+def test_a_proof_is_not_named_as_a_problem(answers: Path, run: Runs) -> None:
+    done = run(f"verify --example room2 {answers}/room2.json --proof help.opb")
+    assert_one_line(done, "proof: expected a name that ends in .pbp for VeriPB, got 'help.opb'")
+    with pytest.raises(serendipity.UsageError, match="ends in"):
+        serendipity.verify(case_1(), serendipity.plan(case_1()), proof="help.opb")
+    assert not Path("help.opb").exists()
 
 
 def test_a_proof_for_veripb_is_sent_there(run: Runs) -> None:
