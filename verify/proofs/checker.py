@@ -265,7 +265,7 @@ def read(path: Path, each: Callable[..., Any] = iter) -> Any:
             text = content.read(MOST_BYTES + 1)
         if len(text) > MOST_BYTES:
             _malformed(f"expected no more than {MOST_BYTES:,} bytes")
-        return json.loads(text.decode(), object_pairs_hook=lambda pairs: _object([*each(pairs)]))
+        return json.loads(text.decode("utf-8-sig"), object_pairs_hook=lambda pairs: _object([*each(pairs)]))
     except MalformedProofError:
         raise
     except (EOFError, zlib.error, gzip.BadGzipFile):

@@ -2,6 +2,7 @@
 
 import gzip
 import json
+from collections.abc import Callable
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -63,6 +64,13 @@ def test_any_field_removed(name: str, seed: int) -> None:
 @given(_VALUES)
 def test_any_json(value: Any) -> None:
     _survives(value)
+
+
+@pytest.mark.parametrize("pack", [bytes, gzip.compress], ids=["json", "gzip"])
+def test_a_byte_order_mark(pack: Callable[[bytes], bytes], tmp_path: Path) -> None:
+    file, proof = tmp_path / "proof.json", sample("branched").proof
+    file.write_bytes(pack(b"\xef\xbb\xbf" + json.dumps(proof).encode()))
+    assert check(read(file))
 
 
 @pytest.mark.long
