@@ -37,13 +37,20 @@ class Question:
     suffixes: Sequence[tuple[int, frozenset[int]]] = ()
 
 
+def require_no_time(task: Task, options: Options) -> None:
+    """A NotMadeError for a call in time."""
+    if task.needs_time or task.due or options.waiting_cost or options.head_start:
+        raise NotMadeError("semantics 10")
+
+
 def question_of(task: Task, result: Result, entry: Mapping[str, Any]) -> Question:
-    """The question of a program; a NotMadeError for others, and for one of the human's several plans."""
+    """The question of a program; a NotMadeError for others, time, and one of the human's several plans."""
     told = _NAME.fullmatch(entry["name"])
     if told is None or "/" not in entry["unit"] or not int(told[2]):
         raise NotMadeError(f"{entry['name']}; unit {entry['unit']}")
     if len(result.ties or ()) > 1:
         raise NotMadeError("ties")
+    require_no_time(task, result.options)
     numbers = {fact: f for f, fact in enumerate(task.facts)}
     suffixes = [
         (each["epoch"], frozenset(numbers[f] for f in each["state"])) for each in entry.get("suffixes", ())

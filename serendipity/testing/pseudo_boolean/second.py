@@ -16,7 +16,7 @@ from math import lcm
 from serendipity.model import GroundAction
 from serendipity.testing.oracle import Alone, Moment
 from serendipity.testing.pseudo_boolean.opb import Problem
-from serendipity.testing.pseudo_boolean.question import NotMadeError, Question
+from serendipity.testing.pseudo_boolean.question import NotMadeError, Question, require_no_time
 
 Terms = dict[str, int]
 
@@ -24,8 +24,7 @@ Terms = dict[str, int]
 def program(question: Question) -> tuple[Problem, Fraction]:
     """The program of a question, and its unit; a NotMadeError for time, and states that are preserved."""
     options = question.options
-    if question.task.needs_time or question.task.due or options.waiting_cost or options.head_start:
-        raise NotMadeError("semantics 10")
+    require_no_time(question.task, options)
     if question.rule == "every window" and options.preservation == "state":
         raise NotMadeError("preservation state")
     return _Maker(question).made()

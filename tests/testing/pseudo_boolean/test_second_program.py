@@ -12,6 +12,7 @@ import serendipity
 from benchmarks.certificates import Asked
 from serendipity.model import Deadline, UsageError
 from serendipity.testing.builders import task
+from serendipity.testing.generator import random_call_in_time
 from serendipity.testing.oracle import best, optimal_human_plan
 from serendipity.testing.pseudo_boolean.comparison import difference
 from serendipity.testing.pseudo_boolean.opb import Problem
@@ -177,6 +178,17 @@ def test_what_is_not_made_says_so() -> None:
     literal = found.result.options.but(preservation="state")
     with pytest.raises(NotMadeError, match="preservation"):
         program(Question(found.task, literal, (), 3, "every window", most_cost=Fraction(2)))
+
+
+@pytest.mark.parametrize("seed", [537, 553])
+def test_calls_in_time_are_not_made(seed: int) -> None:
+    call, writer = random_call_in_time(seed), ProofWriter()
+    result = serendipity.plan(call.task, **call.keywords())
+    certify(call.task, result, proof=writer)
+    assert writer.programs
+    for entry in writer.programs:
+        with pytest.raises(NotMadeError, match="semantics 10"):
+            difference(call.task, result, entry, least)
 
 
 def test_every_program_of_a_call_is_compared(tmp_path: Path) -> None:
