@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import cached_property
 from math import lcm
 
-from serendipity.model import GroundAction
+from serendipity.model import GroundAction, Task
 from serendipity.testing.oracle import Alone, Moment
 from serendipity.testing.pseudo_boolean.opb import Problem
 from serendipity.testing.pseudo_boolean.question import NotMadeError, Question, require_no_time
@@ -224,10 +224,11 @@ class _Maker:
 
     def _optimal_suffixes(self) -> None:
         """Def. 2.0a: from states that are asked about, a suffix weighs as an optimal plan, or none fits."""
-        alone = Alone(self.task)
-        for xi2, state in self.question.suffixes:
+        alone, facts = Alone(self.task), _of_bearing(self.task)
+        for xi2, named in self.question.suffixes:
+            state = named & facts | self.task.init - facts
             differs, missing = {f"out_{xi2 - 1}": 1, f"out_{xi2}": -1}, 1
-            for f in range(len(self.task.facts)):
+            for f in facts:
                 terms, constant = self._fact(f, xi2 - 1, -1 if f in state else 1)
                 differs |= terms
                 missing += constant + (f in state)
@@ -253,3 +254,32 @@ class _Maker:
         )
         weights = (self.weight[i] + rest for i, rest in onward if i is not None and rest is not None)
         return min(weights, default=None)
+
+
+def _of_bearing(task: Task) -> frozenset[int]:
+    """Facts that say what the human's optimal plan is: those of the goals, and of how they come about."""
+    goals = (task.goal, task.robot_goal)
+    facts = {f for goal in goals for f in (*goal.positive, *goal.negative)}
+    his = [one for one in _possible(task) if one.participants == (task.human,)]
+    before: set[int] = set()
+    while before != facts:
+        before = set(facts)
+        for one in his:
+            if not before.isdisjoint((*one.add, *one.delete)):
+                facts.update(one.pre, one.neg)
+    return frozenset(facts)
+
+
+def _possible(task: Task) -> list[GroundAction]:
+    """Actions that may become applicable if what has once been true stays so, and what has been false."""
+    true, false = set(task.init), set(range(len(task.facts))) - task.init
+    found: dict[int, GroundAction] = {}
+    known = -1
+    while known < len(found):
+        known = len(found)
+        for i, one in enumerate(task.actions):
+            if i not in found and true.issuperset(one.pre) and false.issuperset(one.neg):
+                found[i] = one
+                true.update(one.add)
+                false.update(one.delete)
+    return [*found.values()]

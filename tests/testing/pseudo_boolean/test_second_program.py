@@ -20,7 +20,7 @@ from serendipity.testing.pseudo_boolean.question import NotMadeError, Question
 from serendipity.testing.pseudo_boolean.second import program
 from serendipity.testing.strategies import Call, calls
 from tests.testing.pseudo_boolean.every_program import compared
-from tests.verify.proofs.samples import Sample, optimum, sample
+from tests.verify.proofs.samples import DETOUR, Sample, optimum, proved, sample
 from verify.calls.solve import solve
 from verify.certificate.certify import certify
 from verify.proofs.book import Entry, ProofWriter
@@ -178,6 +178,21 @@ def test_what_is_not_made_says_so() -> None:
     literal = found.result.options.but(preservation="state")
     with pytest.raises(NotMadeError, match="preservation"):
         program(Question(found.task, literal, (), 3, "every window", most_cost=Fraction(2)))
+
+
+def test_suffixes_are_told_apart_by_facts_with_bearing_only() -> None:
+    """A fact that the human may make true in passing, and one that is never true, change no optimal plan."""
+    aside = {"hum h": "-> z", "fly h": "never -> p", "call h": "-> more", "wish h": "more never -> p"}
+    found = proved(task(goal="p", actions=DETOUR | aside), horizon=3, max_window=1)
+    (entry,) = found.proof["programs"]
+    assert entry["suffixes"]
+    assert _said(found, entry) is None
+    for each in entry["suffixes"]:
+        each["state"] = [*each["state"], "z"]
+    assert _said(found, entry) is None
+    for each in entry["suffixes"]:
+        each["state"] = [*each["state"], "never"]
+    assert _said(found, entry) is None
 
 
 @pytest.mark.parametrize("seed", [537, 553])
