@@ -1,18 +1,25 @@
 """Costs, discounts and weights may be any rationals: whatever they are, false claims are not proved."""
 
+import json
 from itertools import combinations_with_replacement, pairwise
+from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
 
 import serendipity
-from serendipity.model import Task
+from serendipity.model import Options, Task
 from serendipity.testing.builders import task as build
 from serendipity.testing.crosscheck.doctored import without_plan
+from serendipity.testing.oracle import Alone, Moment
+from serendipity.testing.pseudo_boolean.comparison import difference
+from serendipity.testing.pseudo_boolean.question import NotMadeError
 from tests.verify.denied import denied
 from verify.base.small_numbers import OrderOfSums
 from verify.limits import limited
+from verify.programs.alone import least_alone
+from verify.programs.effort import Effort
 
 METHODS = ("auto", "exhaustive", "program")
 
@@ -71,6 +78,47 @@ def test_a_proof_is_written_and_checked_of_small_numbers(tmp_path: Any) -> None:
     assert serendipity.check_proof(file, task, right).verdict == "accepted"
     lie = denied(task, right)
     assert serendipity.check_proof(file, task, lie).verdict == "rejected"
+
+
+_PRICES = ("1", "1.000000001", "2", "2.000000003")
+
+_ALONE = {"a h": "-> s @ 1.0000001", "b h": "s -> p @ 2", "c h": "-> p @ 3.0000002", "help r": "-> s"}
+
+
+def test_what_the_human_costs_alone_has_a_proof_of_small_numbers(tmp_path: Path) -> None:
+    task, file = build(goal="p", actions=_ALONE), tmp_path / "proof.json"
+    right = serendipity.plan(task, mode="individual")
+    assert serendipity.verify(task, right, proof=file).verdict == "proved"
+    assert serendipity.check_proof(file, task, right).verdict == "accepted"
+    (program,) = json.loads(file.read_bytes())["programs"]
+    assert program["unit"].startswith("none: ")
+    with pytest.raises(NotMadeError, match="unit none"):
+        difference(task, right, program, lambda _: 0)
+    cheaper = build(goal="p", actions={**_ALONE, "c h": "-> p @ 3.0000000"})
+    assert serendipity.verify(cheaper, right, proof=tmp_path / "none.json").verdict == "refuted"
+    assert serendipity.check_proof(file, cheaper, right).verdict == "rejected"
+
+
+def test_that_the_human_has_no_plan_has_a_proof_of_small_numbers(tmp_path: Path) -> None:
+    task = build(goal="p", actions={**_ALONE, "b h": "n -> p @ 2/1000003", "c h": "s -> o @ 7/999999937"})
+    file = tmp_path / "proof.json"
+    answer = serendipity.plan(task)
+    assert answer.status == "infeasible"
+    assert serendipity.verify(task, answer, proof=file).verdict == "proved"
+    assert serendipity.check_proof(file, task, answer).verdict == "accepted"
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_least_costs_alone_are_exact_whatever_their_digits(seed: int) -> None:
+    dice = Random(seed)
+    roads = {"help r": "-> v1"}
+    for number in range(9):
+        source, target = dice.sample(range(5), 2)
+        roads[f"go{number} h"] = f"v{source} -> v{target} !v{source} @ {dice.choice(_PRICES)}"
+    task = build(init="v0", goal="v4", actions=roads)
+    worth = Alone(task).worth(Moment(task.init))
+    found = least_alone(task, Options(mode="individual"), Effort(method="program"))
+    assert found == (None if worth is None else worth[0])
 
 
 DEAR = [("2000000", "0.000000001"), ("2000000000000000", "1"), ("1000000000000000", "1/999999999999989")]

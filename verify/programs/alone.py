@@ -7,6 +7,7 @@ from typing import Any, Final
 from serendipity.model import Options, Task
 from verify.base.beside_script import alone_of
 from verify.base.individual import IndividualOptimum
+from verify.base.small_numbers import OrderOfSums
 from verify.base.subproblem import prices
 from verify.base.undecided import TooManyStatesError, UndecidedError, during
 from verify.limits import limits
@@ -52,6 +53,7 @@ class _Alone:
         self.scale = prices(task, options, (), self._deadline).scale
         self.alone = alone_of(task, self._deadline, options)
         self._number: dict[Hashable, int] = {}
+        self._order = OrderOfSums()
         self.model = Model(self._deadline)
         self._write()
 
@@ -61,11 +63,14 @@ class _Alone:
         rows: list[dict[int, int]] = [{} for _ in self._number]
         arrivals: dict[int, int] = {}
         ends = set(self._ends)
-        for source, target, weight in moves:
+        paid = [int(self.alone.own.split(weight)[0] * self.scale) for _, _, weight in moves]
+        if not ends:
+            paid = [0] * len(moves)  # costs do not matter, and may have any number of digits
+        self._order = self._order_of(frozenset(paid))
+        for (source, target, _), units in zip(moves, paid, strict=True):
             x = self.model.binary()
-            paid = self.alone.own.split(weight)[0] * self.scale
-            if paid:
-                self.model.objective[x] = int(paid)
+            if units:
+                self.model.objective[x] = self._order(units)
             rows[source][x] = 1
             if target in ends:
                 arrivals[x] = 1
@@ -78,6 +83,11 @@ class _Alone:
         self.model.family = "eq. 3"
         if 0 not in ends:
             self.model.add(arrivals, ">=", 1)
+
+    def _order_of(self, paid: frozenset[int]) -> OrderOfSums:
+        """Smaller numbers where costs are too large for solvers: a path passes no state twice."""
+        few = max(paid, default=0) <= limits().coefficient
+        return OrderOfSums() if few else OrderOfSums.of(paid, 2 * len(self._number))
 
     def _moves(self) -> list[tuple[int, int, int]]:
         """All moves from states that the human reaches, the goal's left out: source, target, weight."""
@@ -110,13 +120,14 @@ class _Alone:
         if outcome.status == "undecided":
             raise UndecidedError(outcome.reason)
         values: Sequence[int] = outcome.values or ()
-        units = None
+        least = units = None
         if outcome.status == "optimal":
-            units = sum(weight * values[x] for x, weight in self.model.objective.items())
+            least = sum(weight * values[x] for x, weight in self.model.objective.items())
+            units = self._order.bound(least)
             self._effort.calls[-1].objective = self._effort.calls[-1].cost = units
         proof = self._effort.proof
         if proof is not None and not isinstance(proof, ProofReader):
-            limit = None if units is None else units - 1
+            limit = None if least is None else least - 1
             refute(proof, self._described(), self.model, limit, values, self._deadline)
         return units
 
@@ -133,8 +144,9 @@ class _Alone:
             return None
         if "solution" not in entry and self.model.upper:
             raise UndecidedError(f"program {entry['name']!r}: a solution is missing")
-        return limit + 1
+        return self._order.bound(limit + 1)
 
     def _described(self) -> Entry:
         words = f"the human alone, {len(self._number)} states"
-        return described(words, self.scale, self.model, self._deadline)
+        scale = self.scale if self._order.rests is None else 0
+        return described(words, scale, self.model, self._deadline)

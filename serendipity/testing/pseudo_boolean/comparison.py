@@ -36,6 +36,8 @@ def _optimum(task: Task, result: Result, entry: Mapping[str, Any], least: Solver
     if entry["name"].startswith("the human alone, ") and entry["name"].endswith(" states"):
         if task.needs_time or result.options.head_start:
             raise NotMadeError("semantics 10")
+        if "/" not in entry["unit"]:
+            raise NotMadeError(f"unit {entry['unit']}")
         worth = Alone(task).worth(Moment(task.init))
         return None if worth is None else worth[0]
     problem, unit = program(question_of(task, result, entry))
