@@ -44,11 +44,7 @@ from verify.certificate.certify import certify
 from verify.proofs import checker
 
 FIGURES = ("write", "KiB", "check", "compare", "form", "OPB", "pbp", "columns", "rows", "leaves")
-
-_REQUIRED: Final = "--requireUnsat"
-
-_DOUBTS: Final = ("did not claim", "unjustified", "NO CONCLUSION")
-"""What VeriPB says beside an exit code of 0 where a proof has shown nothing."""
+_DOUBTS: Final = ("did not claim", "unjustified", "NO CONCLUSION")  # beside exit code 0: nothing is shown
 
 
 class Asked(NamedTuple):
@@ -188,26 +184,15 @@ def _proof(job: Job, result: Result, limit: float | None) -> Row:
 
 def by_veripb(command: str, files: Sequence[Path]) -> Row:
     """What VeriPB says of the proofs of all programs, and how long it takes by the clock."""
-    options = options_of_veripb(command)
-    started, accepted = perf_counter(), True
-    for formula in (path for path in files if path.suffix == ".opb"):
-        proofs = [formula.with_suffix(suffix) for suffix in (".v1.pbp", ".pbp")]
-        accepted = accepted and accepted_by_veripb([command, *options], formula, proofs)
+    started, formulas = perf_counter(), [path for path in files if path.suffix == ".opb"]
+    accepted = all(is_accepted_by_veripb(command, formula) for formula in formulas)
     return {"by VeriPB": accepted, "VeriPB": perf_counter() - started}
 
 
-def options_of_veripb(command: str) -> list[str]:
-    """What makes VeriPB reject a proof that concludes nothing, where it knows such an option."""
-    told = subprocess.run([command, "--help"], capture_output=True, text=True, check=False).stdout
-    return [_REQUIRED] if _REQUIRED in told else []
-
-
-def accepted_by_veripb(command: Sequence[str], formula: Path, proofs: Iterable[Path]) -> bool:
-    """Whether VeriPB accepts the first proof of a version that it knows, and has no doubt about it."""
-    for proof in proofs:
-        done = subprocess.run(
-            [*command, str(formula), str(proof)], capture_output=True, text=True, check=False
-        )
+def is_accepted_by_veripb(command: str, formula: Path) -> bool:
+    """Whether VeriPB accepts the proof of a version that it knows, and has no doubt about it."""
+    for suffix in (".v1.pbp", ".pbp"):
+        done = subprocess.run([command, formula, formula.with_suffix(suffix)], capture_output=True, text=True)
         told = done.stdout + done.stderr
         if "nsupported version" not in told:
             return done.returncode == 0 and not any(doubt in told for doubt in _DOUBTS)
@@ -222,10 +207,7 @@ def _certificates(rows: Sequence[Row]) -> Grid:
     groups |= {("all", mode, ""): of for mode, of in grouped(rows, lambda row: row["mode"]).items()}
     columns: dict[str, Cell] = {
         "certificates": len,
-        **{
-            name: counted(lambda row, name=name: row["verdict"] == name)
-            for name in ("proved", "undecided", "refuted")
-        },
+        **{v: counted(lambda row, v=v: row["verdict"] == v) for v in ("proved", "undecided", "refuted")},
         "seconds: median": told(median, "seconds"),
         "95 %": told(partial(percentile, share=0.95), "seconds"),
         "longest": told(max, "seconds"),

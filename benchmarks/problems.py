@@ -69,11 +69,7 @@ def usar(stride: int = 1) -> list[Source]:
 
 
 def of_suite(
-    suite: Path,
-    able: Callable[[Problem, Roles], bool],
-    *,
-    stride: int = 1,
-    smallest: int | None = None,
+    suite: Path, able: Callable[[Problem, Roles], bool], *, stride: int = 1, smallest: int | None = None
 ) -> Iterator[tuple[Problem, Roles, Source]]:
     """Problems of a suite, with the human, who is ``able`` alone, and two robots; none where it is not there.
 

@@ -15,10 +15,7 @@ _NUMBERED = re.compile(r"test(\d+)")
 
 @dataclass(frozen=True, slots=True)
 class TaskFolder:
-    """A task of a suite: N for a folder ``testN``, if no other is called N, else the folder's name.
-
-    The fingerprint changes with its files.
-    """
+    """A task of a suite: N for ``testN`` if no other is N; and a fingerprint that changes with its files."""
 
     test: str
     path: Path
