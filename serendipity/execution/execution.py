@@ -26,7 +26,7 @@ from serendipity.model.table import Tabular
 from serendipity.model.task.execution import actions_named
 from serendipity.model.task.task import canonical_name, several
 from serendipity.recognition import CandidateGoal, GoalsGiven, LibraryGiven, Noise, plan_library
-from serendipity.recognition.recognise import candidate_goals
+from serendipity.recognition.recognise import candidate_goals, strictness
 from serendipity.robot import OUTCOMES, Adapter, Epoch, Order, Outcome
 
 _TRIES: Final = 3
@@ -131,7 +131,7 @@ class Execution(Tabular):
         self._world = world(task, options.discount, strict=options.strict)
         library = () if plans is None else plan_library(task, plans)
         candidates = [one.aim for one in library] if goals is None else candidate_goals(task, goals)
-        for name, asked in (("noise", noise is not None), ("beta", beta != 1)):
+        for name, asked in (("noise", noise is not None), ("beta", strictness(beta) != 1)):
             if asked and not candidates:
                 raise UsageError(f"{name}: goes with goals only")
         habits = [one.plan for one in library]
