@@ -200,7 +200,7 @@ def _fitting(known: Sequence[Episode], on: str | None, at: str | None, after: st
         clock = None if at is None else time.fromisoformat(at.zfill(5))
     except ValueError:
         raise UsageError(f"at: expected a time of day as 7:30, got '{at:.50}'") from None
-    minute = None if clock is None else clock.hour * 60 + clock.minute
+    minute = None if clock is None else _minute(clock)
     activities = sorted({one.activity for one in known if one.activity})
     if known and after not in (None, NOTHING, *activities):
         if not activities:
@@ -273,7 +273,7 @@ def _of_days(rows: Iterable[_Row]) -> Iterator[Episode]:
         for activity, part in groupby(day, key=lambda row: row.activity):
             first, *more = part
             actions = tuple(row.action for row in (first, *more))
-            yield Episode(activity, actions, first.at.hour * 60 + first.at.minute, first.weekday, before)
+            yield Episode(activity, actions, _minute(first.at), first.weekday, before)
             before = activity
 
 
@@ -321,6 +321,10 @@ def _moment(row: Mapping[str, str], file: object, line: int) -> tuple[str, time,
             raise InputError(f"day: expected a date as 2026-03-02, got '{day:.50}'", file, line) from None
         weekday = None
     return day, at.replace(tzinfo=None), weekday
+
+
+def _minute(clock: time) -> int:
+    return clock.hour * 60 + clock.minute
 
 
 def _action(task: Task, name: Any, file: object, line: int) -> str:

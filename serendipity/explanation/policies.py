@@ -132,12 +132,11 @@ def explain_policy(
         )
     library = _library(result, entries)
     asked: dict[str, Any] = {**result.options.but(ties="fixed", time_limit=None, memory_limit=None).to_dict()}
-    both = {
-        policy: result
-        if result.options.policy == policy
-        else plan(task, plans=library, deadline=limits, **asked | {"policy": policy})
-        for policy in ("fixed", "watching")
-    }
+    watches = result.options.policy == "watching"
+    other = plan(
+        task, plans=library, deadline=limits, **asked | {"policy": "fixed" if watches else "watching"}
+    )
+    committed, watching = (other, result) if watches else (result, other)
     known = [plan(task, plans=[one], deadline=limits, **asked) for one in library]
     costs = [
         Fraction(one["probability"]) * as_written(found.cost or 0)
@@ -146,10 +145,10 @@ def explain_policy(
     tree = histories(entries, result.human, int(result.horizon or 0))
     return PolicyExplanation(
         result,
-        _proved_cost(both["fixed"]),
+        _proved_cost(committed),
         sum(costs, Fraction(0)) if all(found.status == "optimal" for found in known) else None,
-        tuple(_signs(tree, result.human)) if result.options.policy == "watching" else (),
-        as_written(result.cost) if result.options.policy == "watching" else _proved_cost(both["watching"]),
+        tuple(_signs(tree, result.human)) if watches else (),
+        as_written(result.cost) if watches else _proved_cost(watching),
     )
 
 

@@ -14,6 +14,7 @@ from serendipity.facade.call import Request, Solver
 from serendipity.facade.rules import over_scenarios
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.errors import LIMITS, UsageError, limit_reason
+from serendipity.model.numbers import total
 from serendipity.model.task.actions import Condition
 from serendipity.model.task.horizon import common_horizon, horizon_of, require_few_epochs
 from serendipity.model.task.plans import Step, TimedPlan
@@ -128,7 +129,7 @@ def _served(units: UnitSteps, one: ServedGoal, discount: Fraction) -> ServedGoal
 
 def _paid(task: Task, steps: Iterable[Step], discount: Fraction) -> Fraction:
     """What the team pays for what is done."""
-    return sum((task.team_cost(task.actions[step.action], discount) for step in steps), Fraction(0))
+    return total(task.team_cost(task.actions[step.action], discount) for step in steps)
 
 
 def _is_alone(call: Request) -> bool:

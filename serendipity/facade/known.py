@@ -36,8 +36,8 @@ _NO_MORE: Final = 10**9
 """Actions of a task, at most."""
 
 
-def epochs(what: str, value: object, *, least: int = 0, most: int = MAX_EPOCH) -> int:
-    """A number of epochs.
+def whole(what: str, value: object, *, least: int = 0, most: int = MAX_EPOCH) -> int:
+    """A whole number within its bounds, by default those of epochs.
 
     Raises:
         UsageError: it is no whole number, or too small or too large.
@@ -84,7 +84,7 @@ def read(task: Task, value: Mapping[str, Any]) -> tuple[bool, Known]:
 
 def _read(task: Task, value: Mapping[str, Any]) -> WarmStart:
     steps = tuple(
-        Step(epochs("epoch", epoch, least=1), epochs("action", action, most=_NO_MORE))
+        Step(whole("epoch", epoch, least=1), whole("action", action, most=_NO_MORE))
         for epoch, action in value["steps"]
     )
     ends, bound, horizon = value["window"], value["bound"], value["horizon"]
@@ -96,7 +96,7 @@ def _read(task: Task, value: Mapping[str, Any]) -> WarmStart:
         is_sure,
         None if bound is None else exact(bound, "bound", MOST_IN_RESULTS),
         is_best,
-        horizon if horizon in (None, INFINITE) else epochs("horizon", horizon, least=-MAX_EPOCH),
+        horizon if horizon in (None, INFINITE) else whole("horizon", horizon, least=-MAX_EPOCH),
     )
     names = [task.actions[step.action].name for step in steps if step.action < len(task.actions)]
     return found if names == value["names"] else WarmStart()  # the task was read otherwise
@@ -104,7 +104,7 @@ def _read(task: Task, value: Mapping[str, Any]) -> WarmStart:
 
 def _window(ends: Mapping[str, Any]) -> Window:
     """A window, which may end with the last epoch that there is."""
-    return Window(*(epochs(end, ends[end], least=1, most=MAX_EPOCH + 1) for end in ("start", "end")))
+    return Window(*(whole(end, ends[end], least=1, most=MAX_EPOCH + 1) for end in ("start", "end")))
 
 
 def _text(bound: Fraction | None) -> str | None:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, Final
 
 from serendipity.facade.call import options_from
-from serendipity.facade.known import epochs
+from serendipity.facade.known import whole
 from serendipity.facade.planning import OF_GOALS, SessionOptions
 from serendipity.model import Options, Task, UsageError
 from serendipity.model.task.plans import PlanEntry, checked_entries, unknown_action
@@ -64,5 +64,5 @@ def time_of(snapshot: Mapping[str, Any]) -> tuple[int, Iterable[Mapping[str, Any
         KeyError, TypeError, ValueError, UsageError: it is none.
     """
     time = snapshot.get("time", {"passed": 0, "going": ()})
-    asleep = epochs("asleep", time["asleep"]) if "asleep" in time else None
-    return epochs("passed", time["passed"]), time["going"], asleep
+    asleep = whole("asleep", time["asleep"]) if "asleep" in time else None
+    return whole("passed", time["passed"]), time["going"], asleep

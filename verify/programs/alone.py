@@ -63,9 +63,8 @@ class _Alone:
         rows: list[dict[int, int]] = [{} for _ in self._number]
         arrivals: dict[int, int] = {}
         ends = set(self._ends)
-        paid = [int(self.alone.own.split(weight)[0] * self.scale) for _, _, weight in moves]
-        if not ends:
-            paid = [0] * len(moves)  # costs do not matter, and may have any number of digits
+        # Where nothing ends, costs do not matter, and may have any number of digits.
+        paid = [int(self.alone.own.split(weight)[0] * self.scale) if ends else 0 for _, _, weight in moves]
         self._order = self._order_of(frozenset(paid))
         for (source, target, _), units in zip(moves, paid, strict=True):
             x = self.model.binary()
