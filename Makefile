@@ -46,7 +46,7 @@ $(BASE): requirements.txt pyproject.toml
 	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.txt; \
 	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .; \
 	fi
-	@$(BIN)/python -m compileall -q serendipity search verify \
+	@$(BIN)/python -m compileall -q serendipity search verify serendipity_*/ \
 	  $$($(BIN)/python -c 'import typer, rich; print(*typer.__path__, *rich.__path__)')  # the first start counts
 	@touch $@
 
@@ -79,7 +79,7 @@ test-sanitized: $(READY)  ## run the search's tests on a kernel that looks for u
 	  $(BIN)/python -m search.kernel.build; exit $$status
 
 test-browser: browser  ## play the pages of `show` and `play` in a headless Chromium, which it installs where it may
-	@$(BIN)/python -m pytest -m "browser and not slow" -rs tests/show tests/live tests/docs
+	@$(BIN)/python -m pytest -m "browser and not slow" -rs tests/show serendipity_live/tests tests/docs
 
 test-robot: robot  ## let figures walk in physics; it installs pybullet where there is a wheel of it
 	@$(BIN)/python -m pytest -rs tests/robot

@@ -25,15 +25,15 @@ ROOT = Path(__file__).resolve().parents[1]
 USER_PROGRAM = ROOT / "tests" / "release" / "user_program.py"
 VERSIONS = ("3.11", "3.12", "3.13", "3.14")
 KERNEL = re.compile(r"search/kernel/_kernel\.(so|dylib|dll)")
-BELONGS = re.compile(r"(serendipity|search|verify|serendipity_planner-[^/]*\.dist-info)/.*")
+BELONGS = re.compile(r"(serendipity(_[a-z]+)?|search|verify|serendipity_planner-[^/]*\.dist-info)/.*")
 T = TypeVar("T")
 USES = {
     "plot": ("-m", "serendipity", "interruptions", "--example", "room2", "--heat-map", "windows.png"),
-    "live": ("-c", "import serendipity.live.guards.connections"),
+    "live": ("-c", "import serendipity_live.guards.connections"),
     "dask": ("-c", "import distributed"),
     "data": ("-m", "serendipity", "interruptions", "--example", "room2", "-o", "windows.parquet"),
     "up": ("-c", "import serendipity.up"),
-    "testing": ("-c", "import hypothesis, serendipity.testing"),
+    "testing": ("-c", "import hypothesis, serendipity.testing.league"),
 }
 """What each extra for users is there for, in short."""
 

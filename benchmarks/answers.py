@@ -22,7 +22,7 @@ import typer
 import serendipity
 from benchmarks.problems import PROBLEMS, run
 from serendipity import Result, SerendipityError, Task
-from serendipity.testing.generator.calls import random_call
+from serendipity_testing.generator.calls import random_call
 
 TIMED = ("elapsed_seconds", "seconds", "gap")
 """Fields that depend on the clock: improvements are told of now and then."""

@@ -9,7 +9,7 @@ from random import Random
 from typing import Final
 
 from serendipity import Task
-from serendipity.testing.builders import task
+from serendipity_testing.builders import task
 
 AGENTS: Final = ("h", "r", "s")
 
@@ -20,7 +20,7 @@ Edges = list[tuple[int, int]]
 def _each(names: str, values: Iterable[object], *texts: str) -> Actions:
     """Actions for every agent, ``{a}`` in their texts, and every value, or tuple of values, of other names.
 
-    Texts are ``action: body``, as :func:`serendipity.testing.builders.task` has it.
+    Texts are ``action: body``, as :func:`serendipity_testing.builders.task` has it.
     """
     found = {}
     for agent, value in product(AGENTS, [*values]):

@@ -19,12 +19,12 @@ import serendipity
 from benchmarks.problems import run
 from serendipity import Options, SerendipityError, Task
 from serendipity.model.task.plans_in_time import broken_script
-from serendipity.testing.generator.among_people import random_call_among
-from serendipity.testing.generator.in_time import random_call_in_time
-from serendipity.testing.generator.tasks import random_task, varied
-from serendipity.testing.oracle import Moment, optimal_human_plan
-from serendipity.testing.oracle.moments import World
-from serendipity.testing.oracle.nobody_pays import Rule
+from serendipity_testing.generator.among_people import random_call_among
+from serendipity_testing.generator.in_time import random_call_in_time
+from serendipity_testing.generator.tasks import random_task, varied
+from serendipity_testing.oracle import Moment, optimal_human_plan
+from serendipity_testing.oracle.moments import World
+from serendipity_testing.oracle.nobody_pays import Rule
 
 
 def main(runs: int = 10_000, first: int = 0) -> None:

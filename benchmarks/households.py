@@ -30,7 +30,7 @@ from serendipity.execution import Habits, learn
 from serendipity.model import Condition, PlanStep, Result, Script, Task
 from serendipity.model.task.actions import apply
 from serendipity.model.task.facts import Facts
-from serendipity.testing.builders import Builder
+from serendipity_testing.builders import Builder
 
 _ROOMS: Final = ("bed", "bath", "kitchen", "balcony", "store")
 _PLACES: Final = (*_ROOMS, "hall")

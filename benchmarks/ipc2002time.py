@@ -205,7 +205,7 @@ def is_valid(asked: Asked, task: Task, result: Result) -> bool:
     from unified_planning.io import PDDLReader
     from unified_planning.plans import ActionInstance, TimeTriggeredPlan
 
-    from serendipity.up.schedule import start_times
+    from serendipity_up.schedule import start_times
 
     get_environment().credits_stream = None
     source = Path(asked.source) / asked.domain

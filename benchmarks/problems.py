@@ -16,7 +16,7 @@ from serendipity.evaluation.measuring.suites import Problem, Roles, folders, pro
 from serendipity.evaluation.measuring.tables import grouped
 from serendipity.model import Condition
 from serendipity.pictures.map.names import natural
-from serendipity.testing.generator import FAMILIES, family_task
+from serendipity_testing.generator import FAMILIES, family_task
 
 PROBLEMS = Path(os.environ.get("SERENDIPITY_PROBLEMS") or Path(__file__).resolve().parents[2] / "shared")
 """The folder with ``usar200``, ``codmap15``, ``spa`` and ``home``, as far as they are there.

@@ -27,7 +27,7 @@ import httpx
 import serendipity
 from benchmarks.problems import PROBLEMS, run
 from serendipity.evaluation.measuring.figures import percentile
-from serendipity.live.guards.connections import listening, url
+from serendipity_live.guards.connections import listening, url
 
 EXAMPLES: Final = ("room2", "room5", "flights", "parcels", "morning", "office")
 BREAKFASTS: Final = ("p4", "p6")

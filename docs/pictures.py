@@ -14,7 +14,7 @@ from PIL import Image
 
 import serendipity
 from serendipity.pictures import build_scene, draw
-from tests.live.server import serving
+from serendipity_live.tests.server import serving
 from tests.show.browser import chromium, chromium_path
 
 IMAGES = Path(__file__).parent / "images"

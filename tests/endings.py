@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from typing import TypeVar
 
 from serendipity.model import Deadline, LimitReachedError
-from serendipity.testing.countdown import Countdown, time_is_up
+from serendipity_testing.countdown import Countdown, time_is_up
 
 T = TypeVar("T")
 

@@ -16,8 +16,8 @@ from serendipity.classical.fast_downward import LMCUT, SYMK, Found, run, run_tra
 from serendipity.facade import classical
 from serendipity.model import Deadline
 from serendipity.pddl.classical import ClassicalFiles
-from serendipity.testing.builders import task as build
-from serendipity.testing.generator import random_call
+from serendipity_testing.builders import task as build
+from serendipity_testing.generator import random_call
 
 FILES = ClassicalFiles("", "", scale=5)
 

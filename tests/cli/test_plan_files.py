@@ -10,9 +10,9 @@ import serendipity
 from serendipity.cli.files.plans import plan_file, timed_plan
 from serendipity.cli.options.planning import Planning
 from serendipity.model import PlanError, Result, Script, Task
-from serendipity.testing.builders import task
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import WORKED, Worked
+from serendipity_testing.builders import task
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import WORKED, Worked
 from tests.cli.conftest import Runs, assert_one_line
 from tests.cli.test_exit_codes import anytime
 

@@ -14,7 +14,7 @@ from serendipity.model.keywords import CHOICES
 from serendipity.model.telling import Grid, Line
 from serendipity.pictures import build_scene
 from serendipity.pictures.scene.scene import subtitle
-from serendipity.testing.builders import task
+from serendipity_testing.builders import task
 from tests.cli.conftest import Runs
 
 

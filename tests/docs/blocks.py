@@ -80,7 +80,7 @@ def run(block: Block, folder: Path) -> str:
         return _run_here(text, folder)
     if block.language == "bash":
         program = shlex.join([sys.executable, "-m", "serendipity"])
-        testing = shlex.join([sys.executable, "-m", "pytest", "-p", "serendipity.testing.plugin"])
+        testing = shlex.join([sys.executable, "-m", "pytest", "-p", "serendipity_testing.plugin"])
         functions = f'serendipity() {{ {program} "$@"; }}\npytest() {{ {testing} "$@"; }}\n'
         command = ["bash", "-c", f"set -e\nexport PYTEST_DISABLE_PLUGIN_AUTOLOAD=1\n{functions}{text}"]
     else:

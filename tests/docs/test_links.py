@@ -69,8 +69,8 @@ def test_all_public_names_are_in_the_reference() -> None:
     pages = [path.read_text(encoding="utf-8") for path in (ROOT / "docs/reference").glob("*.md")]
     listed = re.findall(r"^::: (.*)$", "\n".join(pages), re.MULTILINE)
     assert len(listed) == len(set(listed))
-    public = ("aio", "execution", "robot", "testing", "testing.league")
-    for module in (f"serendipity.{name}" for name in public):
+    rooms = ("serendipity.aio", "serendipity.execution", "serendipity.robot")
+    for module in (*rooms, "serendipity_testing", "serendipity_testing.league"):
         assert {f"{module}.{name}" for name in import_module(module).__all__} <= {*listed}
     elsewhere = {name.rpartition(".")[2] for name in listed if name.startswith("serendipity.execution.")}
     assert {f"serendipity.{n}" for n in {*serendipity.__all__} - elsewhere - {"__version__"}} <= {*listed}
@@ -102,12 +102,13 @@ def test_all_commands_are_in_the_reference(hooks: ModuleType) -> None:
 WIDTH = 120
 FILE = re.compile(r"`([\w.-]+(?:/[\w.-]+)*\.(?:py|c|h|md))`")
 PACKAGES = ("serendipity", "search", "verify")
+BESIDE = ("serendipity_live", "serendipity_testing", "serendipity_up")
 
 
 @pytest.fixture(scope="module")
 def files() -> list[str]:
     """Every file that a page may name."""
-    folders = (*PACKAGES, "tests", "benchmarks", "docs")
+    folders = (*PACKAGES, *BESIDE, "tests", "benchmarks", "docs")
     paths = [*ROOT.glob("*.*"), *(path for folder in folders for path in (ROOT / folder).rglob("*.*"))]
     return [f"/{path.relative_to(ROOT)}" for path in paths]
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from serendipity.execution import Execution, LogLine, Omniscient, Person, log_lines, moment_of, replay
 from serendipity.model import Condition, Task
-from serendipity.testing.oracle import human_plans
+from serendipity_testing.oracle import human_plans
 from verify.base.optimal_plans import OptimalPlans
 
 MOST_EPOCHS = 60

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity import Condition, Script, Task
-from serendipity.testing import strategies
-from serendipity.testing.builders import task as build
+from serendipity_testing import strategies
+from serendipity_testing.builders import task as build
 
 PERSONS = ("observant", "local", "omniscient")
 

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.execution import Execution, person_of
 from serendipity.model import Condition, PlanError, Script, Task, UsageError
-from serendipity.testing.builders import Builder
-from serendipity.testing.oracle import human_plans
-from serendipity.testing.strategies.time import tasks_in_time
+from serendipity_testing.builders import Builder
+from serendipity_testing.oracle import human_plans
+from serendipity_testing.strategies.time import tasks_in_time
 from tests.execution.living import arrives, lived, other_goals, replayed, verdicts
 
 DISCOUNTS = st.sampled_from(["0", "0.5", "0.9", "1"])

@@ -10,7 +10,7 @@ from serendipity.execution import as_text, learn
 from serendipity.execution.habits import read_episodes, wilson
 from serendipity.model import InputError, UsageError
 from serendipity.recognition import plan_library
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 from tests.cli.conftest import Runs, assert_one_line
 
 HOME = build(

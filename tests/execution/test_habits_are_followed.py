@@ -16,8 +16,8 @@ from serendipity.execution import Execution, Omniscient, Replanner
 from serendipity.execution.hypotheses import Hypotheses
 from serendipity.model import LimitReachedError, Task
 from serendipity.model.task.actions import apply
-from serendipity.testing.builders import task as build
-from serendipity.testing.strategies import tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.strategies import tasks
 from tests.execution.living import GOALS, ROOMS, aiming_at, as_lines, live, lived, other_goals, told, verdicts
 from verify.base.optimal_plans import OptimalPlans
 

@@ -10,10 +10,10 @@ import serendipity
 from serendipity.execution import Execution, Faults, Omniscient, Replanner, moment_of
 from serendipity.model import Task
 from serendipity.robot import Report, Simulated
-from serendipity.testing.builders import task as build
-from serendipity.testing.builders import usar
-from serendipity.testing.generator import random_call
-from serendipity.testing.strategies import tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.builders import usar
+from serendipity_testing.generator import random_call
+from serendipity_testing.strategies import tasks
 from tests.execution.living import MOST_EPOCHS, lived, told
 from tests.execution.test_adapters import Scripted
 

@@ -14,9 +14,9 @@ import serendipity
 from serendipity.execution import Execution, log_lines, moment_of, person_of
 from serendipity.model import Condition, InputError, Script, Task
 from serendipity.robot import Report, Simulated
-from serendipity.testing.builders import Builder
-from serendipity.testing.oracle import human_plans
-from serendipity.testing.strategies.time import tasks_in_time
+from serendipity_testing.builders import Builder
+from serendipity_testing.oracle import human_plans
+from serendipity_testing.strategies.time import tasks_in_time
 from tests.execution.living import arrives, lived_short_of_a_robot, replayed, verdicts
 from tests.execution.test_adapters import Scripted
 

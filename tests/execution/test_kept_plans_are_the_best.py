@@ -8,7 +8,7 @@ from serendipity.execution.guard import RobotActions
 from serendipity.execution.hypotheses import Hypothesis
 from serendipity.execution.world import World
 from serendipity.model import Deadline, Options, Task
-from serendipity.testing.strategies import corridor_tasks, usar_tasks
+from serendipity_testing.strategies import corridor_tasks, usar_tasks
 
 
 @settings(max_examples=25)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from serendipity.execution import Execution, Replanner, moment_of
 from serendipity.model import Task
 from serendipity.robot import Simulated
-from serendipity.testing.strategies import tasks, usar_tasks
+from serendipity_testing.strategies import tasks, usar_tasks
 from tests.execution.living import live, other_goals
 
 DISCOUNTS = st.sampled_from(["0", "0.5", "0.9", "1"])

@@ -3,7 +3,7 @@
 import pytest
 
 import serendipity
-from serendipity.testing.generator import random_call
+from serendipity_testing.generator import random_call
 from tests.execution.reasons import untrue
 from verify.base.optimal_plans import OptimalPlans
 

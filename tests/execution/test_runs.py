@@ -24,7 +24,7 @@ from serendipity.execution import (
 )
 from serendipity.model import InputError, Task, UsageError
 from serendipity.robot import Simulated
-from serendipity.testing.strategies import tasks
+from serendipity_testing.strategies import tasks
 from tests.execution.living import other_goals, replayed
 
 TIMES = ("slowest",)

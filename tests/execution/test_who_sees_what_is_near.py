@@ -19,11 +19,11 @@ from serendipity.facade.person.follower import Follower
 from serendipity.facade.person.ways import Ways, entries_of
 from serendipity.model import Condition, Deadline, Options, PlanStep, Result, Script, Task, UsageError
 from serendipity.robot import Simulated
-from serendipity.testing.builders import Builder, task
-from serendipity.testing.call import Call
-from serendipity.testing.generator.in_time import random_local_call
-from serendipity.testing.oracle import human_plans
-from serendipity.testing.strategies import calls_in_time
+from serendipity_testing.builders import Builder, task
+from serendipity_testing.call import Call
+from serendipity_testing.generator.in_time import random_local_call
+from serendipity_testing.oracle import human_plans
+from serendipity_testing.strategies import calls_in_time
 from tests.execution.living import lived, lived_short_of_a_robot, other_goals, replayed
 from tests.search.time.test_people_who_see_what_is_near import answered, kitchen
 

@@ -10,8 +10,8 @@ from serendipity.execution.beliefs import Beliefs
 from serendipity.model import Condition, Deadline, LimitReachedError, Task, UsageError
 from serendipity.model.task.actions import apply
 from serendipity.recognition.recognise import candidate_goals
-from serendipity.testing.builders import task as build
-from serendipity.testing.builders import usar
+from serendipity_testing.builders import task as build
+from serendipity_testing.builders import usar
 from tests.execution.living import lived, verdicts
 
 

@@ -10,7 +10,7 @@ import pytest
 import serendipity
 from serendipity import Explanation, Script
 from serendipity.model import Condition, InputError, UsageError
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 
 GOALS = [
     {"name": room, "goal": [f"conducted_triage commx {room}"], "prior": prior}

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity import Explanation, PlanError, UsageError
 from serendipity.model import Options
-from serendipity.testing import cases
-from serendipity.testing.builders import task
-from serendipity.testing.strategies import Call, calls, calls_in_time
+from serendipity_testing import cases
+from serendipity_testing.builders import task
+from serendipity_testing.strategies import Call, calls, calls_in_time
 
 WINDOWED = st.one_of(calls(modes=("serendipity",), ties=False), calls_in_time(modes=("serendipity",)))
 DISCOUNTS = st.fractions(0, 1, max_denominator=12)

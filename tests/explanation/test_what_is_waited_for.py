@@ -15,10 +15,10 @@ from serendipity import Explanation, PlanError, Script, Task, UsageError
 from serendipity.explanation.person import Played
 from serendipity.explanation.waiting import Wait, waits
 from serendipity.model import Deadline, TimedPlan
-from serendipity.testing.builders import Builder, task
-from serendipity.testing.call import Call
-from serendipity.testing.generator.in_time import random_call_in_time
-from serendipity.testing.strategies import bystander_tasks, calls_in_time, corridor_tasks, scripted_tasks
+from serendipity_testing.builders import Builder, task
+from serendipity_testing.call import Call
+from serendipity_testing.generator.in_time import random_call_in_time
+from serendipity_testing.strategies import bystander_tasks, calls_in_time, corridor_tasks, scripted_tasks
 
 
 def told(found: Explanation, topic: str = "waiting") -> list[str]:

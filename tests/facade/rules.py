@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 import serendipity
 from search.modes.scenarios import Candidate
 from serendipity import Condition, GroundAction, Options, Result, Script, Task, Timing, UsageError
-from serendipity.testing.generator.in_time import with_durations
-from serendipity.testing.oracle import best
-from serendipity.testing.oracle.scenarios import best_policy
-from serendipity.testing.strategies.tasks import DICE
+from serendipity_testing.generator.in_time import with_durations
+from serendipity_testing.oracle import best
+from serendipity_testing.oracle.scenarios import best_policy
+from serendipity_testing.strategies.tasks import DICE
 from tests.search.modes.scenarios.test_in_time import library
 
 _FREE = st.sampled_from([None, None, "at *"])

@@ -14,9 +14,9 @@ from search.packed.packed_task import PackedTask
 from serendipity import LimitReachedError, Task
 from serendipity.cli.text.answers import plan_report
 from serendipity.model import Deadline, Options, Result
-from serendipity.testing.builders import task as build
-from serendipity.testing.countdown import Countdown
-from serendipity.testing.generator.families import family_task
+from serendipity_testing.builders import task as build
+from serendipity_testing.countdown import Countdown
+from serendipity_testing.generator.families import family_task
 from tests.endings import endings
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")

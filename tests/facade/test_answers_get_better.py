@@ -12,7 +12,7 @@ import serendipity
 from serendipity import Result, Task, UsageError
 from serendipity.facade import one_plan
 from serendipity.model import Deadline
-from serendipity.testing.generator.calls import random_call
+from serendipity_testing.generator.calls import random_call
 
 CALLS = 150
 

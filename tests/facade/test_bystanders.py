@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity import Condition, Options, Script, Task, UsageError
-from serendipity.testing.builders import task
-from serendipity.testing.oracle import best
-from serendipity.testing.oracle.alone import with_predicted
-from serendipity.testing.strategies.tasks import strips_tasks
-from serendipity.testing.strategies.time import scripted_tasks, timed_tasks
+from serendipity_testing.builders import task
+from serendipity_testing.oracle import best
+from serendipity_testing.oracle.alone import with_predicted
+from serendipity_testing.strategies.tasks import strips_tasks
+from serendipity_testing.strategies.time import scripted_tasks, timed_tasks
 
 SEVERAL = strips_tasks(facts=(3, 4), robots=(2, 2))
 OPTIONS = {"discount": "0.5", "window_weight": "0.25"}

@@ -9,7 +9,7 @@ from search import PreparedTask, prepare
 from search.packed.packed_task import PackedTask
 from serendipity import Session, Task, pddl
 from serendipity.facade.prepared import HELD, LastPrepared
-from serendipity.testing.cases import case_1
+from serendipity_testing.cases import case_1
 
 
 def copies(count: int) -> list[Task]:

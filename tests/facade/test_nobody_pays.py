@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity import Condition, PlanError, Result, Script, Task, UsageError
 from serendipity.facade import one_plan
-from serendipity.testing.builders import task as build
-from serendipity.testing.call import Call
-from serendipity.testing.oracle import best
-from serendipity.testing.oracle.answers import Solver
-from serendipity.testing.strategies import calls
-from serendipity.testing.strategies.time import bystander_tasks, calls_in_time
+from serendipity_testing.builders import task as build
+from serendipity_testing.call import Call
+from serendipity_testing.oracle import best
+from serendipity_testing.oracle.answers import Solver
+from serendipity_testing.strategies import calls
+from serendipity_testing.strategies.time import bystander_tasks, calls_in_time
 from tests.search.exact_answers import proved
 
 _MODES = ("serendipity", "serendipity", "communication", "composite")

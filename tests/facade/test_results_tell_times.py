@@ -15,9 +15,9 @@ from serendipity import PlanError, Result, Script, Task, UsageError
 from serendipity.cli.files.plans import plan_file, timed_plan
 from serendipity.model import Condition, Options, PlanTimes
 from serendipity.model.task.plans_in_time import times_of
-from serendipity.testing.builders import task
-from serendipity.testing.call import Call
-from serendipity.testing.strategies.time import calls_in_time
+from serendipity_testing.builders import task
+from serendipity_testing.call import Call
+from serendipity_testing.strategies.time import calls_in_time
 from tests.search.exact_answers import proved
 
 DAY = {

@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity import Condition, Options, Task
 from serendipity.facade.front import drawn
-from serendipity.testing import strategies
-from serendipity.testing.builders import Builder
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle import best
-from serendipity.testing.strategies.time import tasks_in_time
+from serendipity_testing import strategies
+from serendipity_testing.builders import Builder
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle import best
+from serendipity_testing.strategies.time import tasks_in_time
 from tests.facade.rules import RULES, proved_as_brute_force_has_it, rooms, rooms_in_time
 from tests.search.exact_answers import proved
 

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 import serendipity
 from search.modes.scenarios import Candidate
 from serendipity import Condition, Options, Result, Task, Window
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle import human_plans
-from serendipity.testing.oracle.scenarios import best_policy
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle import human_plans
+from serendipity_testing.oracle.scenarios import best_policy
 from tests.facade.rules import RULES, policy_as_brute_force_has_it, rooms
 from tests.facade.test_rules_of_help import messy
 from tests.search.exact_answers import proved

@@ -7,7 +7,7 @@ import pytest
 
 import serendipity
 from serendipity import InputError, Session, UsageError
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 
 
 def begun() -> Session:

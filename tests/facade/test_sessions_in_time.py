@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity import PlanError, Result, Script, Session, Task, UsageError
 from serendipity.model import Condition
-from serendipity.testing.builders import task
-from serendipity.testing.call import Call
-from serendipity.testing.oracle import best
-from serendipity.testing.strategies import calls_in_time, timed_tasks
+from serendipity_testing.builders import task
+from serendipity_testing.call import Call
+from serendipity_testing.oracle import best
+from serendipity_testing.strategies import calls_in_time, timed_tasks
 from tests.search.exact_answers import proved
 
 

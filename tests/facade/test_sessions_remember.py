@@ -13,9 +13,9 @@ import serendipity
 from serendipity import PlanError, PlanStep, Result, SerendipityError, Session, Task, UsageError
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.keywords import Ties
-from serendipity.testing.builders import task
-from serendipity.testing.cases import case_1, usar
-from serendipity.testing.generator import PlanCall, random_call
+from serendipity_testing.builders import task
+from serendipity_testing.cases import case_1, usar
+from serendipity_testing.generator import PlanCall, random_call
 from tests.endings import endings
 from tests.facade.test_sessions_in_time import fresh, same
 

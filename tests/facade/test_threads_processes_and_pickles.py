@@ -16,7 +16,7 @@ import pytest
 import serendipity
 import serendipity.aio
 from serendipity import Deadline, Result, Session, Task, UsageError
-from serendipity.testing.cases import case_1, case_2
+from serendipity_testing.cases import case_1, case_2
 from tests.facade.conftest import ENDLESS
 
 OPTIONS: list[dict[str, Any]] = [

@@ -17,10 +17,10 @@ from serendipity.model import Condition, Options, Task, Window
 from serendipity.model.answers.answer import Answer
 from serendipity.model.keywords import Ties
 from serendipity.model.resources.deadline import Deadline
-from serendipity.testing.builders import task as build
-from serendipity.testing.builders import usar
-from serendipity.testing.oracle import best
-from serendipity.testing.strategies import Call, calls
+from serendipity_testing.builders import task as build
+from serendipity_testing.builders import usar
+from serendipity_testing.oracle import best
+from serendipity_testing.strategies import Call, calls
 from tests.search.exact_answers import proved
 
 

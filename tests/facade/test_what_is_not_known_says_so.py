@@ -13,7 +13,7 @@ import pytest
 
 import serendipity
 from serendipity import Execution, Options, Result, Script, SerendipityError, Session, Task, UsageError
-from serendipity.testing.builders import task
+from serendipity_testing.builders import task
 
 PAYING = {"nobody_pays": True}
 NOTICED = {"noticed": True}

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.lint.task_rules import relevant
 from serendipity.model import Condition, Deadline, Script, Task
-from serendipity.testing import cases
-from serendipity.testing.builders import task as built
-from serendipity.testing.strategies import tasks
-from serendipity.testing.strategies.time import bystander_tasks, scripted_tasks
+from serendipity_testing import cases
+from serendipity_testing.builders import task as built
+from serendipity_testing.strategies import tasks
+from serendipity_testing.strategies.time import bystander_tasks, scripted_tasks
 from tests.pddl.texts import action, domain, pair, problem
 from tests.show.conftest import WARDS
 

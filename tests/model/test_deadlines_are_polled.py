@@ -13,8 +13,8 @@ import serendipity
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.resources.collection import no_collection
 from serendipity.model.resources.memory import resident
-from serendipity.testing.cases import case_4
-from serendipity.testing.countdown import Countdown
+from serendipity_testing.cases import case_4
+from serendipity_testing.countdown import Countdown
 
 
 @pytest.mark.parametrize("count", [0, 1, 64, 65, 1000])

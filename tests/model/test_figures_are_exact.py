@@ -17,7 +17,7 @@ from serendipity import Result, plan, verify
 from serendipity.model import InputError
 from serendipity.model.numbers import Figure, as_written, exact, excess, unrounded
 from serendipity.model.options import Options
-from serendipity.testing import task
+from serendipity_testing import task
 
 _FLOATS = st.floats(min_value=0, max_value=1e300, allow_nan=False) | st.builds(
     lambda p, q, steps: _moved(p / q, steps),

@@ -19,8 +19,8 @@ from serendipity.execution import Run
 from serendipity.model import Certificate, Claim, PlanStep, UsageError
 from serendipity.model.answers.result import closing
 from serendipity.model.table import LIBRARIES, Table, Tabular, columns_of, table_of
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import case_4, case_5
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import case_4, case_5
 
 PARTS = ("gap", "ties", "optimal_plans", "bounds", "recognition", "goals")
 

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from serendipity.model import GroundAction, PlanError, Script, Task, TimedFact, TimedPlan, Timing, UsageError
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.plans_in_time import outlasts, plan_in_time
-from serendipity.testing.builders import task
-from serendipity.testing.oracle.moments import Moment, World
-from serendipity.testing.strategies import tasks_in_time
+from serendipity_testing.builders import task
+from serendipity_testing.oracle.moments import Moment, World
+from serendipity_testing.strategies import tasks_in_time
 
 
 def home() -> Task:

@@ -17,9 +17,9 @@ from serendipity.model import Condition, Deadline, GroundAction, LimitReachedErr
 from serendipity.model.task.exactly_one import Balance
 from serendipity.model.task.invariants import groups_by_form
 from serendipity.model.task.variables import find_variables
-from serendipity.testing.builders import task as build
-from serendipity.testing.builders import usar
-from serendipity.testing.strategies import Call, calls, tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.builders import usar
+from serendipity_testing.strategies import Call, calls, tasks
 
 ACTIONS = st.builds(
     lambda pre, neg, add, delete: GroundAction(

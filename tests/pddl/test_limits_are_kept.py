@@ -12,7 +12,7 @@ from serendipity.model.resources.deadline import MIB
 from serendipity.model.resources.memory import resident
 from serendipity.pddl import forget_parsed
 from serendipity.pddl.grounding.instantiate import Instantiator
-from serendipity.testing.countdown import Countdown
+from serendipity_testing.countdown import Countdown
 from tests.endings import endings
 from tests.pddl.texts import OFFICE, YARD, action, domain, names, one, pair, problem
 

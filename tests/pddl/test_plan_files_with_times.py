@@ -7,7 +7,7 @@ import pytest
 
 from serendipity.model import InputError, Task
 from serendipity.pddl.parsing.timed_plans import entries, plan_lines
-from serendipity.testing.builders import task
+from serendipity_testing.builders import task
 
 
 def home() -> Task:

@@ -7,7 +7,7 @@ import pytest
 from serendipity.model import InputError, Task, TimedFact
 from serendipity.pddl.layouts import read_folder
 from serendipity.pddl.write import write_pddl
-from serendipity.testing.oracle import human_plans
+from serendipity_testing.oracle import human_plans
 from tests.pddl import test_durative_actions as durative
 from tests.pddl.test_durative_actions import DOMAIN, PROBLEM
 

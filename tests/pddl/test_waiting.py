@@ -7,7 +7,7 @@ import pytest
 
 from serendipity import InputError, PlanError, load, plan, recognise
 from serendipity.model import GroundAction
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 from tests.pddl.texts import YARD, action, domain, names, one, problem, two
 
 WAIT = action("wait", "(home)", "(home) (increase (total-cost) 9)")

@@ -8,8 +8,8 @@ from hypothesis import given
 
 from serendipity import Task, load, load_pddl
 from serendipity.pddl.write import task_files, write_pddl
-from serendipity.testing.builders import task as build
-from serendipity.testing.strategies import tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.strategies import tasks
 from tests.pddl.texts import OFFICE, YARD
 
 

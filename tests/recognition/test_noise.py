@@ -18,12 +18,12 @@ import serendipity
 from search.modes.scenarios import Candidate
 from serendipity.model import Condition, Script, Task, UsageError
 from serendipity.recognition import Noise
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle import Alone, Moment
-from serendipity.testing.oracle.observed import costs_of_observed
-from serendipity.testing.oracle.scenarios import best_policy
-from serendipity.testing.strategies import tasks
-from serendipity.testing.strategies.time import tasks_in_time, timed_tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle import Alone, Moment
+from serendipity_testing.oracle.observed import costs_of_observed
+from serendipity_testing.oracle.scenarios import best_policy
+from serendipity_testing.strategies import tasks
+from serendipity_testing.strategies.time import tasks_in_time, timed_tasks
 from tests.search.exact_answers import proved
 from tests.verify.scenarios.three_ways import is_small
 

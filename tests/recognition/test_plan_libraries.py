@@ -14,7 +14,7 @@ import pytest
 import serendipity
 from serendipity.model import InputError, Result, UsageError
 from serendipity.recognition.library import SCHEMA, plan_library
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 
 MAKE, PACK = {"probability": 1, "goal": ["coffee"], "plan": ["make h"]}, "pack h"
 

@@ -90,7 +90,7 @@ def _plain(text: str) -> str:
         text = text.replace(old, new)
     text = _UNION.sub(lambda found: _COMMA.sub(" | ", found[1]), _OPTIONAL.sub(r"\1 | None", text))
     text = text.replace("NoneType", "None").replace(" = Ellipsis", " = ...")
-    return re.sub(r"serendipity(\.\w+)+\.(?=\w)", "", text)
+    return re.sub(r"serendipity(_[a-z]+)?(\.\w+)+\.(?=\w)", "", text)
 
 
 def _commands() -> Iterator[str]:
@@ -117,7 +117,7 @@ def _schemas() -> Iterator[str]:
     """The schemas in the code, whatever else is said about them."""
     found = {
         schema
-        for package in ("serendipity", "verify")
+        for package in ("serendipity", "verify", "serendipity_live", "serendipity_testing")
         for path in (ROOT / package).rglob("*.py")
         for schema in _SCHEMA.findall(path.read_text(encoding="utf-8"))
     }

@@ -48,7 +48,10 @@ def test_other_names_are_attribute_errors() -> None:
         serendipity.plans  # noqa: B018
 
 
-@pytest.mark.parametrize("package", ["serendipity", "search", "verify"])
+PACKAGES = ("serendipity", "search", "verify", "serendipity_live", "serendipity_testing", "serendipity_up")
+
+
+@pytest.mark.parametrize("package", PACKAGES)
 def test_annotations_are_for_others_too(package: str) -> None:
     assert (ROOT / package / "py.typed").exists()
 

@@ -10,7 +10,7 @@ from PIL import Image
 import serendipity
 from serendipity.model import Task, UsageError
 from serendipity.robot import Epoch, physics
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 from tests.cli.conftest import Runs
 from tests.robot.contract import LIFT, WALK, keeps_its_contract, told
 

@@ -7,8 +7,8 @@ from typing import Any, TypeVar
 import serendipity
 from serendipity import Options, PlanError, Result, Task, UsageError, Window
 from serendipity.model.numbers import as_written
-from serendipity.testing.call import Call
-from serendipity.testing.oracle import best
+from serendipity_testing.call import Call
+from serendipity_testing.oracle import best
 from verify.calls.solve import solve
 
 T = TypeVar("T")

@@ -11,9 +11,9 @@ from search.packed.operators import Operator, applicable
 from search.packed.packed_task import PackedTask
 from search.short_windows.question import ShortWindowQuestion
 from serendipity.model import Deadline, Options, Task
-from serendipity.testing.builders import task as build
-from serendipity.testing.builders import usar
-from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
+from serendipity_testing.builders import task as build
+from serendipity_testing.builders import usar
+from serendipity_testing.generator.families import AGENTS, FAMILIES, SMALL
 
 CORRIDOR = usar("a-b-c-d", human="a", robots={"r": "d"}, kits={"m": "d"}, triage="a")
 """The kit is at the other end."""

@@ -5,7 +5,7 @@ from search.call.context import SearchContext
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 
 
 def _door() -> Task:

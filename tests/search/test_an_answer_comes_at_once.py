@@ -9,8 +9,8 @@ from search.human.individual_planner import IndividualPlanner
 from search.kernel.library import library
 from search.strategies.portfolio import solve
 from serendipity.model import Options
-from serendipity.testing.builders import task as build
-from serendipity.testing.generator.families import family_task
+from serendipity_testing.builders import task as build
+from serendipity_testing.generator.families import family_task
 
 pytestmark = pytest.mark.skipif(library() is None, reason="there is no kernel here")
 

@@ -2,7 +2,7 @@
 
 from search.packed.parallelise import schedule
 from serendipity import Task
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 
 
 def epochs_of(task: Task, order: list[int]) -> list[list[int]]:

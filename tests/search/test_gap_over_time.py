@@ -13,8 +13,8 @@ from search.engine import best_first
 from serendipity import Result, plan_anytime
 from serendipity.model import Options
 from serendipity.model.resources.deadline import Deadline
-from serendipity.testing.cases import case_2
-from serendipity.testing.strategies import Call, calls
+from serendipity_testing.cases import case_2
+from serendipity_testing.strategies import Call, calls
 
 FREE: list[dict[str, Any]] = [
     {"mode": "communication", "discount": "0.9"},

@@ -10,8 +10,8 @@ from search.spaces.factory import free_bounds
 from serendipity.facade.planning import plan
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
-from serendipity.testing.builders import task, usar
-from serendipity.testing.strategies import family_tasks, strips_tasks, tasks
+from serendipity_testing.builders import task, usar
+from serendipity_testing.strategies import family_tasks, strips_tasks, tasks
 from tests.shortest import distances
 
 _DISCOUNTED = Options(mode="composite", discount="0.9", horizon="inf")  # type: ignore[arg-type]

@@ -8,11 +8,11 @@ from hypothesis import given
 import serendipity
 from serendipity import Task, UsageError, Window
 from serendipity.facade.interruptibility import Interruption, InterruptionReport, removal
-from serendipity.testing import cases
-from serendipity.testing.oracle import action_sets, optimal_human_plan
-from serendipity.testing.oracle.epochs import after, holds
-from serendipity.testing.oracle.interruptions import best_by_window
-from serendipity.testing.strategies import Call, calls
+from serendipity_testing import cases
+from serendipity_testing.oracle import action_sets, optimal_human_plan
+from serendipity_testing.oracle.epochs import after, holds
+from serendipity_testing.oracle.interruptions import best_by_window
+from serendipity_testing.strategies import Call, calls
 
 
 def report_of(call: Call) -> InterruptionReport:

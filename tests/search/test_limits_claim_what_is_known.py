@@ -8,8 +8,8 @@ import pytest
 import serendipity
 from serendipity import Task
 from serendipity.model import Result
-from serendipity.testing.builders import task as build
-from serendipity.testing.countdown import Countdown
+from serendipity_testing.builders import task as build
+from serendipity_testing.countdown import Countdown
 from tests.endings import answers
 
 

@@ -13,7 +13,7 @@ from search import PreparedTask
 from serendipity.model import Result
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.resources.memory import resident
-from serendipity.testing.builders import task
+from serendipity_testing.builders import task
 
 STATUS = Path("/proc/self/status")
 

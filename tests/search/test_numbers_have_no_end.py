@@ -11,7 +11,7 @@ from search.call.prepared_task import PreparedTask
 from search.packed.cost_vector import ACTIONS_BITS
 from serendipity import Deadline, Options, Task, UsageError
 from serendipity.model.numbers import as_written
-from serendipity.testing import task
+from serendipity_testing import task
 
 
 @pytest.fixture(autouse=True, params=["on", "off"])

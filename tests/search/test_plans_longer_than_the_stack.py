@@ -6,7 +6,7 @@ import pytest
 
 import serendipity
 from serendipity import Task, UsageError
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 
 STEPS = 1_100
 """More than Python allows calls inside each other, which is 1,000."""

@@ -9,8 +9,8 @@ from search import PreparedTask, prepare, solve
 from serendipity.model import Condition, Deadline, Options, Task
 from serendipity.model.answers.answer import Answer
 from serendipity.model.errors import LimitReachedError
-from serendipity.testing.cases import case_1, case_4
-from serendipity.testing.strategies import tasks
+from serendipity_testing.cases import case_1, case_4
+from serendipity_testing.strategies import tasks
 
 OPTIONS = Options(mode="composite", horizon="inf", discount=Fraction(1, 2))
 

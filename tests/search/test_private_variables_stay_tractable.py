@@ -11,9 +11,9 @@ from search.kernel.library import library
 from search.packed.packed_task import PackedTask
 from serendipity.facade.call import options_from
 from serendipity.model import Deadline, Task
-from serendipity.testing.builders import task
-from serendipity.testing.countdown import Countdown
-from serendipity.testing.strategies import Call, calls, family_tasks, tasks
+from serendipity_testing.builders import task
+from serendipity_testing.countdown import Countdown
+from serendipity_testing.strategies import Call, calls, family_tasks, tasks
 from tests.search.exact_answers import assert_answered
 from tests.search.small_tasks import tower
 

@@ -12,7 +12,7 @@ from hypothesis.strategies import SearchStrategy
 
 from search.call.context import SearchContext
 from serendipity import Task
-from serendipity.testing.strategies import Call, calls, family_tasks, oddly_priced_tasks, tasks
+from serendipity_testing.strategies import Call, calls, family_tasks, oddly_priced_tasks, tasks
 from tests.search.exact_answers import assert_answered
 
 

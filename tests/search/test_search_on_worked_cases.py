@@ -4,8 +4,8 @@ import pytest
 
 import serendipity
 from serendipity import UsageError, Window
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import WORKED, Worked, case_8
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import WORKED, Worked, case_8
 from tests.search.exact_answers import proved
 
 EXAMPLES = [

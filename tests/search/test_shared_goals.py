@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 
 import search.classical.planner
 import search.classical.team
@@ -15,9 +15,9 @@ from search.classical.team import Sets, Team
 from search.kernel.library import library
 from serendipity.model import Deadline, LimitReachedError, Options, Task, UsageError
 from serendipity.model.options import INFINITE
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle import best
-from serendipity.testing.strategies import Call, calls, family_tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle import best
+from serendipity_testing.strategies import Call, calls, family_tasks
 from tests.search.exact_answers import assert_answered, proved
 
 
@@ -120,6 +120,7 @@ def test_where_the_joint_optimum_is_interrupted_and_goes_on(monkeypatch: pytest.
     monkeypatch.setattr(ClassicalPlanner, "cheapest_plan", hasty)
     monkeypatch.setattr(Team, "go_on", going_on)
 
+    @settings(max_examples=50)  # not each has anything to go on with
     @given(calls(modes=("serendipity", "communication", "composite"), ties=False, of=family_tasks()))
     def law(call: Call) -> None:
         if call.options.horizon == INFINITE:

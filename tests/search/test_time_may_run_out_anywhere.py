@@ -13,9 +13,9 @@ from serendipity.facade.interruptibility import Interruption, InterruptionReport
 from serendipity.model import Result
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import case_2, case_4
-from serendipity.testing.countdown import Countdown, time_is_up
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import case_2, case_4
+from serendipity_testing.countdown import Countdown, time_is_up
 from tests.endings import answers
 
 CALLS: list[dict[str, Any]] = [

@@ -4,7 +4,7 @@ import pytest
 
 from serendipity import Task
 from serendipity.model import Deadline, PlanStep, Window
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 from tests.search.exact_answers import agreed
 from verify.rules.replay import replay
 

@@ -9,7 +9,7 @@ from search import PreparedTask
 from search.call.context import SearchContext
 from serendipity.model import Window
 from serendipity.model.resources.deadline import Deadline
-from serendipity.testing import builders
+from serendipity_testing import builders
 from tests.verify.claims import verdicts
 
 OPTIONS = (

@@ -5,7 +5,7 @@ import pytest
 import serendipity
 from serendipity import Task
 from serendipity.model import Options, Window
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 from tests.search.exact_answers import agreed, proved
 from verify.calls.solve import solve
 

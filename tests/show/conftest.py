@@ -9,7 +9,7 @@ import pytest
 import serendipity
 from serendipity.model import Task
 from serendipity.pictures import Scene, build_scene
-from serendipity.testing import cases
+from serendipity_testing import cases
 
 WARDS = Path(__file__).parent / "data" / "wards"
 

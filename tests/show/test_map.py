@@ -22,9 +22,9 @@ from serendipity.pictures.map.places import Places, Whereabouts, find_places
 from serendipity.pictures.picture.map_picture import MARGIN, map_picture
 from serendipity.pictures.scene.scene import Meeting
 from serendipity.scenarios.usar import figure2
-from serendipity.testing import cases
-from serendipity.testing.builders import task as build
-from serendipity.testing.builders import usar
+from serendipity_testing import cases
+from serendipity_testing.builders import task as build
+from serendipity_testing.builders import usar
 from tests.show.conftest import ground, spaced, walk
 from tests.show.drawn import SVG, Drawn, drawn_tokens
 

@@ -20,10 +20,10 @@ from serendipity.pictures.picture.drawing import Group, Polyline, Rect, Shape, T
 from serendipity.pictures.picture.timeline_picture import column, lane_labels, timeline_picture
 from serendipity.pictures.picture.tree_picture import tree, tree_height
 from serendipity.pictures.scene.scene import headline, scenario_lines
-from serendipity.testing.builders import task
-from serendipity.testing.call import Call
-from serendipity.testing.oracle.epochs import after, parts_of
-from serendipity.testing.strategies import calls_in_time
+from serendipity_testing.builders import task
+from serendipity_testing.call import Call
+from serendipity_testing.oracle.epochs import after, parts_of
+from serendipity_testing.strategies import calls_in_time
 from tests.facade.test_results_tell_times import answered
 from tests.show.drawn import SVG
 

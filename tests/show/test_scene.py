@@ -14,9 +14,9 @@ from serendipity.pictures import Scene, build_scene
 from serendipity.pictures.map.places import Whereabouts, find_places
 from serendipity.pictures.picture.map_picture import initials
 from serendipity.pictures.scene.scene import headline
-from serendipity.testing import cases
-from serendipity.testing.builders import task
-from serendipity.testing.cases import WORKED, Worked
+from serendipity_testing import cases
+from serendipity_testing.builders import task
+from serendipity_testing.cases import WORKED, Worked
 from tests.show.conftest import WARDS, ground
 
 

@@ -11,10 +11,10 @@ from typing import Any
 import serendipity
 from serendipity.model import Condition, Deadline, Options, PlanStep, Policy, Result, Task, Window
 from serendipity.model.answers.result_parts import TiedAnswer
-from serendipity.testing.builders import task as build
-from serendipity.testing.by_hand import moved, result, step, with_steps
-from serendipity.testing.cases import case_7, case_8, case_9
-from serendipity.testing.crosscheck.doctored import without_plan
+from serendipity_testing.builders import task as build
+from serendipity_testing.by_hand import moved, result, step, with_steps
+from serendipity_testing.cases import case_7, case_8, case_9
+from serendipity_testing.crosscheck.doctored import without_plan
 from tests.verify.edits.corpus import walk
 from tests.verify.untrue import UNTRUE
 from tests.verify.valid import (

@@ -13,8 +13,8 @@ from typing import Final
 
 import serendipity
 from serendipity.model import Result, Task, UsageError
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import case_4
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import case_4
 from tests.verify.edits.corpus import Good, corpus
 from tests.verify.test_ties_share_their_plans import errands
 

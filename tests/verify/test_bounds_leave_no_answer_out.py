@@ -7,12 +7,12 @@ import pytest
 
 import serendipity
 from serendipity.model import Result, Task
-from serendipity.testing.builders import task as build
-from serendipity.testing.by_hand import result
-from serendipity.testing.cases import case_4
-from serendipity.testing.countdown import Countdown
-from serendipity.testing.crosscheck.doctored import without_plan
-from serendipity.testing.generator import random_call
+from serendipity_testing.builders import task as build
+from serendipity_testing.by_hand import result
+from serendipity_testing.cases import case_4
+from serendipity_testing.countdown import Countdown
+from serendipity_testing.crosscheck.doctored import without_plan
+from serendipity_testing.generator import random_call
 from tests.verify.valid import CASE_4_PI_H
 
 METHODS = ["auto", "exhaustive", "program"]

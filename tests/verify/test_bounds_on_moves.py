@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from serendipity.model import Options, Task
-from serendipity.testing.builders import task
+from serendipity_testing.builders import task
 from verify.base.relevance import relevant_part
 from verify.base.subproblem import WINDOW, Subproblem, prices
 from verify.limits import limited

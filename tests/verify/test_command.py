@@ -9,7 +9,7 @@ import pytest
 import serendipity
 from serendipity.model import Options
 from serendipity.pddl.write import write_pddl
-from serendipity.testing.cases import case_10
+from serendipity_testing.cases import case_10
 from tests.cli.conftest import Run, Runs, assert_one_line
 from tests.verify.claims import claim_of
 from verify.calls.solve import solve

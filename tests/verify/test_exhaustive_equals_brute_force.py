@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 
 from serendipity.model import Options
-from serendipity.testing.cases import WORKED, Worked
-from serendipity.testing.strategies import Call, calls, oddly_priced_tasks, tasks
+from serendipity_testing.cases import WORKED, Worked
+from serendipity_testing.strategies import Call, calls, oddly_priced_tasks, tasks
 from tests.verify.test_ip_equals_brute_force import check
 from verify.base.execution import conflicting
 from verify.calls.solve import solve

@@ -7,9 +7,9 @@ from hypothesis import given
 
 import serendipity
 from serendipity.model import InputError, LimitReachedError, Options, UsageError
-from serendipity.testing.by_hand import result
-from serendipity.testing.cases import case_4, case_10
-from serendipity.testing.strategies import Call, calls
+from serendipity_testing.by_hand import result
+from serendipity_testing.cases import case_4, case_10
+from serendipity_testing.strategies import Call, calls
 from tests.verify.claims import claim_of
 from tests.verify.denied import denied
 from tests.verify.doctored import ANOTHER_TASK, DOCTORED

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 
 from serendipity.model import UsageError
-from serendipity.testing.oracle import best
-from serendipity.testing.strategies import Call, calls
+from serendipity_testing.oracle import best
+from serendipity_testing.strategies import Call, calls
 from verify.calls.solve import solve
 
 

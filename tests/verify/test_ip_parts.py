@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 
 from serendipity.model import Deadline, Options, Task
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import case_4
-from serendipity.testing.oracle import best, human_plans
-from serendipity.testing.strategies import tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import case_4
+from serendipity_testing.oracle import best, human_plans
+from serendipity_testing.strategies import tasks
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.relevance import Relevant, relevant_part
 from verify.base.subproblem import FREE, WINDOW, Subproblem, prices

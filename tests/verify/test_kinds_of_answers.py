@@ -7,9 +7,9 @@ import pytest
 
 import serendipity
 from serendipity.model import Task, UsageError
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import case_4
-from serendipity.testing.generator.calls import random_call
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import case_4
+from serendipity_testing.generator.calls import random_call
 from tests.verify.kinds import alike, kinds, table
 from tests.verify.test_ties_share_their_plans import errands
 from verify.base.optimal_plans import OptimalPlans

@@ -10,11 +10,11 @@ import pytest
 
 import serendipity
 from serendipity.model import Options, Task
-from serendipity.testing.builders import task as build
-from serendipity.testing.crosscheck.doctored import without_plan
-from serendipity.testing.oracle import Alone, Moment
-from serendipity.testing.pseudo_boolean.comparison import difference
-from serendipity.testing.pseudo_boolean.question import NotMadeError
+from serendipity_testing.builders import task as build
+from serendipity_testing.crosscheck.doctored import without_plan
+from serendipity_testing.oracle import Alone, Moment
+from serendipity_testing.pseudo_boolean.comparison import difference
+from serendipity_testing.pseudo_boolean.question import NotMadeError
 from tests.verify.denied import denied
 from verify.base.small_numbers import OrderOfSums
 from verify.limits import limited

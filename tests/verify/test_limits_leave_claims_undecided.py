@@ -8,8 +8,8 @@ import pytest
 
 import serendipity
 from serendipity.model import Deadline, LimitReachedError, Options, Result, Task
-from serendipity.testing.cases import case_4, case_10
-from serendipity.testing.countdown import Countdown
+from serendipity_testing.cases import case_4, case_10
+from serendipity_testing.countdown import Countdown
 from tests.endings import endings
 from tests.verify.claims import verdicts
 from tests.verify.doctored import ANOTHER_TASK, DOCTORED

@@ -7,7 +7,7 @@ import pytest
 
 import serendipity
 from serendipity.model import Certificate, Claim
-from serendipity.testing.crosscheck.doctored import without_plan
+from serendipity_testing.crosscheck.doctored import without_plan
 from tests.verify.edits.corpus import corpus
 from verify.base.obligations import BEST, NEEDED, complete, kind_of, needed
 

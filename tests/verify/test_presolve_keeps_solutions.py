@@ -10,8 +10,8 @@ import pytest
 
 from serendipity.facade.call import options_from
 from serendipity.model import Deadline
-from serendipity.testing.builders import task as build
-from serendipity.testing.generator import PlanCall, random_call
+from serendipity_testing.builders import task as build
+from serendipity_testing.generator import PlanCall, random_call
 from verify.calls.solve import solve
 from verify.limits import limited
 from verify.solvers import highs, worker

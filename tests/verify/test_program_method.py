@@ -7,7 +7,7 @@ import pytest
 
 import serendipity
 from serendipity.model import Claim, Options, Result, Task
-from serendipity.testing.cases import case_1, case_4, case_8, case_10
+from serendipity_testing.cases import case_1, case_4, case_8, case_10
 from tests.verify.claims import claim_of
 from verify.calls.solve import solve
 from verify.certificate.certify import certify

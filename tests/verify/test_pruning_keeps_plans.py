@@ -8,7 +8,7 @@ from hypothesis import given, settings
 
 import serendipity
 from serendipity.model import Result, Task
-from serendipity.testing.strategies import Call, calls
+from serendipity_testing.strategies import Call, calls
 from tests.verify.claims import claim_of
 from tests.verify.test_ip_equals_brute_force import check
 from verify.calls.solve import solve

@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.model import Options, Task
 from serendipity.model.answers.result_parts import TiedAnswer
-from serendipity.testing.builders import task as build
-from serendipity.testing.countdown import Countdown
-from serendipity.testing.generator import random_call
-from serendipity.testing.oracle import Alone as OracleAlone
-from serendipity.testing.oracle import Moment
-from serendipity.testing.oracle.epochs import after
-from serendipity.testing.strategies import family_tasks, tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.countdown import Countdown
+from serendipity_testing.generator import random_call
+from serendipity_testing.oracle import Alone as OracleAlone
+from serendipity_testing.oracle import Moment
+from serendipity_testing.oracle.epochs import after
+from serendipity_testing.strategies import family_tasks, tasks
 from tests.verify.claims import verdicts
 from tests.verify.doctored import RULE_BROKEN
 from tests.verify.valid import VALID, Given, helped, idle
@@ -148,7 +148,7 @@ def test_what_is_too_hard_for_a_rule_is_not_proved() -> None:
 
 def test_an_end_of_pi_h_may_be_done_in_other_variants(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two actions of one name; after the window it is the other one that the human can do."""
-    monkeypatch.setattr("serendipity.testing.generator.calls._ODD", 1.0)
+    monkeypatch.setattr("serendipity_testing.generator.calls._ODD", 1.0)
     call = random_call(1011733)
     answer = serendipity.plan(call.task, **call.options)  # type: ignore[arg-type]
     assert answer.options.preservation == "state"

@@ -5,9 +5,9 @@ from hypothesis import given
 
 import serendipity
 from serendipity.model import Options, Script, Task, UsageError
-from serendipity.testing.builders import task as build
-from serendipity.testing.call import Call
-from serendipity.testing.strategies import calls_in_time
+from serendipity_testing.builders import task as build
+from serendipity_testing.call import Call
+from serendipity_testing.strategies import calls_in_time
 from verify.calls.solve import solve
 
 FIGURES = (

@@ -11,9 +11,9 @@ import pytest
 import serendipity
 from serendipity.model import Options, Task
 from serendipity.model.answers.result_parts import TiedAnswer
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import case_4
-from serendipity.testing.generator.calls import random_call
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import case_4
+from serendipity_testing.generator.calls import random_call
 from tests.verify.claims import claim_of
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.plan_graph import OptimalPlanGraph

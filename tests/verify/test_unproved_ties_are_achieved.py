@@ -8,9 +8,9 @@ import pytest
 import serendipity
 from serendipity.model import Result
 from serendipity.model.answers.result_parts import TiedAnswer
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import case_4
-from serendipity.testing.countdown import Countdown
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import case_4
+from serendipity_testing.countdown import Countdown
 
 TIES = ("expected", "robust", "optimistic")
 

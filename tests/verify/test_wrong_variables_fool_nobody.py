@@ -7,7 +7,7 @@ import pytest
 import serendipity
 from serendipity import Task
 from serendipity.model.task.variables import Variable
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 
 TASK = build(
     init="a k",

@@ -5,8 +5,8 @@ from dataclasses import replace
 from typing import Any
 
 from serendipity.model import Condition, Options, Result, Task
-from serendipity.testing.by_hand import result
-from serendipity.testing.cases import CASE_3_PLAN, case_2, case_3, case_4, case_8, case_9, case_10
+from serendipity_testing.by_hand import result
+from serendipity_testing.cases import CASE_3_PLAN, case_2, case_3, case_4, case_8, case_9, case_10
 from tests.verify.valid import CASE_2_FETCHED, CASE_2_PI_H, CASE_4_HELP, CASE_4_PI_H
 from verify.calls.solve import solve
 

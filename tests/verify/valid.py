@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from serendipity.model import Condition, Result, Task
-from serendipity.testing.builders import task as build
-from serendipity.testing.by_hand import result
-from serendipity.testing.cases import case_2, case_4, case_9, case_10
+from serendipity_testing.builders import task as build
+from serendipity_testing.by_hand import result
+from serendipity_testing.cases import case_2, case_4, case_9, case_10
 
 CASE_4_PI_H = (
     "move h a b",

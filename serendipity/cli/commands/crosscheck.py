@@ -13,8 +13,8 @@ from serendipity.cli.streams import output, progress
 from serendipity.model import Deadline, UsageError
 
 if TYPE_CHECKING:
-    from serendipity.testing.disagreement import Disagreement
-    from serendipity.testing.generator import PlanCall
+    from serendipity_testing.disagreement import Disagreement
+    from serendipity_testing.generator import PlanCall
 
 _MODES: Final = ("individual", "serendipity", "communication", "composite")
 _DISCOUNTS: Final = ("0", "0.5", "0.9")
@@ -87,11 +87,11 @@ def crosscheck(
     Judges from outside are asked for the best plan of all agents: where there are any, every call is
     one in composite mode without a horizon.
     """
-    from serendipity.testing import crosscheck as checking
-    from serendipity.testing import shrinking
-    from serendipity.testing.generator import PlanCall
-    from serendipity.testing.judges import by_command, by_name
-    from serendipity.testing.written_case import write_case
+    from serendipity_testing import crosscheck as checking
+    from serendipity_testing import shrinking
+    from serendipity_testing.generator import PlanCall
+    from serendipity_testing.judges import by_command, by_name
+    from serendipity_testing.written_case import write_case
 
     kind, drawn = _drawn(in_time, people)
     names = (judges or ("search,automata" if kind else "search,automata,paper")).split(",")
@@ -163,7 +163,7 @@ def crosscheck(
 
 def _drawn(in_time: bool, people: int | None) -> tuple[str, Callable[[int], "PlanCall"]]:
     """The words that ask for a kind of random calls, and what draws them from a seed."""
-    from serendipity.testing.generator import random_call, random_call_among, random_call_in_time
+    from serendipity_testing.generator import random_call, random_call_among, random_call_in_time
 
     if in_time and people is not None:
         raise UsageError("--people: goes without --in-time")

@@ -49,8 +49,8 @@ def league(
     ],
 ) -> int:
     """Score helpers, yours too, against the proved optimum."""
-    from serendipity.testing.league import SHIPPED
-    from serendipity.testing.league import league as played
+    from serendipity_testing.league import SHIPPED
+    from serendipity_testing.league import league as played
 
     form = to.prepare(_FORMATS)
     with progress.counting("cases") as on_progress:
@@ -70,7 +70,7 @@ def league(
 def _given(folder: Path) -> Iterator[Task]:
     """The tasks of a suite whose person soon finds something to do alone, the smallest first."""
     from serendipity.evaluation.measuring.suites import is_suite, may_alone, problems, roles
-    from serendipity.testing.league.cases import LONGEST
+    from serendipity_testing.league.cases import LONGEST
 
     if not folder.is_dir() or not is_suite(folder):
         raise InputError(

@@ -18,8 +18,8 @@ def mcp(
 ) -> int:
     """Tools for agents that talk (Model Context Protocol). It needs serendipity-planner[mcp]."""
     try:
-        from serendipity.live.guards import connections
-        from serendipity.live.mcp import transports
+        from serendipity_live.guards import connections
+        from serendipity_live.mcp import transports
     except ImportError as missing:
         raise UsageError(f"mcp: needs {missing.name}: install serendipity-planner[mcp]") from None
     if not http:

@@ -15,7 +15,7 @@ from serendipity.model import UsageError, exact
 from serendipity.model.options import limit_of
 
 if TYPE_CHECKING:
-    from serendipity.live.play.application import Host
+    from serendipity_live.play.application import Host
 
 _EXAMPLE: Final = "room2"
 _VIEWS: Final = ("observant", "local")
@@ -100,14 +100,14 @@ def play(
     if rounds is not None and not 1 <= rounds <= 50:
         raise UsageError(f"--rounds: expected a number from 1 to 50, got {rounds}")
     try:
-        from serendipity.live.guards import connections
-        from serendipity.live.play.application import application
+        from serendipity_live.guards import connections
+        from serendipity_live.play.application import application
     except ImportError as missing:
         raise UsageError(f"play: needs {missing.name}: install serendipity-planner[live]") from None
     opened: Host
     if study is not None:
-        from serendipity.live.study.design import open_design
-        from serendipity.live.study.study import Study
+        from serendipity_live.study.design import open_design
+        from serendipity_live.study.study import Study
 
         settings = {"rounds": rounds, "seed": seed, **given}
         if "discount" in given:
@@ -128,10 +128,10 @@ def play(
                 tell(f"Warning: {fault}")
             connections.serve(application(opened, connections.hosts(host, allow_host or ())), listener)
         return ExitCode.ANSWERED
-    from serendipity.live.play.labels import labels_for
-    from serendipity.live.play.records import record_in
-    from serendipity.live.play.round import RoundSetting
-    from serendipity.live.play.rounds import SharedRounds
+    from serendipity_live.play.labels import labels_for
+    from serendipity_live.play.records import record_in
+    from serendipity_live.play.round import RoundSetting
+    from serendipity_live.play.rounds import SharedRounds
 
     shown = task.example if named else _EXAMPLE
     loaded = task.but(example=shown).load()

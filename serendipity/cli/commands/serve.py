@@ -20,9 +20,9 @@ def serve(
 ) -> int:
     """Answer requests over HTTP: plan, verify, sessions. It needs serendipity-planner[live]."""
     try:
-        from serendipity.live.guards import connections
-        from serendipity.live.guards.draining import Draining
-        from serendipity.live.service.application import ServiceLimits, service
+        from serendipity_live.guards import connections
+        from serendipity_live.guards.draining import Draining
+        from serendipity_live.service.application import ServiceLimits, service
 
         pool = limits.pool()
     except ImportError as missing:

@@ -11,7 +11,7 @@ from serendipity.model import UsageError
 from serendipity.model.options import limit_of
 
 if TYPE_CHECKING:
-    from serendipity.live.workers.pool import PoolLimits
+    from serendipity_live.workers.pool import PoolLimits
 
 _TOKEN: Final = "SERENDIPITY_TOKEN"
 _MIB: Final = 2**20
@@ -31,7 +31,7 @@ class Listening(Group):
 
     def token(self) -> str | None:
         """The token, or None."""
-        from serendipity.live.guards import connections
+        from serendipity_live.guards import connections
 
         token = os.environ.get(_TOKEN) if self.token_file is None else read_text(self.token_file)
         if token is None:
@@ -59,7 +59,7 @@ class Serving(Group):
 
     def pool(self) -> "PoolLimits":
         """What the workers may use."""
-        from serendipity.live.workers.pool import PoolLimits
+        from serendipity_live.workers.pool import PoolLimits
 
         for name, number, least in (("--workers", self.workers, 1), ("--queue", self.queue, 0)):
             if number is not None and number < least:

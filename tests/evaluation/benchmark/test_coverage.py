@@ -24,8 +24,8 @@ from serendipity.evaluation.measuring.suites import Roles, problems
 from serendipity.model import Options
 from serendipity.model.telling import Grid
 from serendipity.pddl.write import composite_files
-from serendipity.testing.strategies import tasks
 from serendipity.writing.rows import written
+from serendipity_testing.strategies import tasks
 
 
 def row(

@@ -23,7 +23,7 @@ from serendipity.evaluation.reproduction.tables import Tables, as_json, table_1
 from serendipity.evaluation.reproduction.work import Assignment, Call, TaskRows, unknown
 from serendipity.model import Window
 from serendipity.pddl.write import write_pddl
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 from tests.evaluation.reproduction.conftest import PRESETS
 
 MODES = ("individual", "serendipity", "communication")

@@ -5,7 +5,7 @@ import pytest
 import serendipity
 from benchmarks.techniques import NAMES, without
 from search.kernel.library import library
-from serendipity.testing.generator.families import FAMILIES, family_task
+from serendipity_testing.generator.families import FAMILIES, family_task
 
 CALLS = (
     {"mode": "individual"},

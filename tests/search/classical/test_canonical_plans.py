@@ -13,9 +13,9 @@ from search.packed.cost_vector import INFINITE_KEY
 from search.packed.packed_task import PackedTask
 from serendipity import Task
 from serendipity.model import Deadline, LimitReachedError
-from serendipity.testing.builders import task
-from serendipity.testing.countdown import Countdown
-from serendipity.testing.strategies import tasks
+from serendipity_testing.builders import task
+from serendipity_testing.countdown import Countdown
+from serendipity_testing.strategies import tasks
 from tests.search.classical.exact_costs import exact
 from tests.search.classical.test_kernel_equals_brute_force import assert_leads_to_goal, planner_of
 from tests.search.small_tasks import CORRIDOR, packed_of

@@ -7,7 +7,7 @@ from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.packed.cost_vector import own_actions
 from serendipity.model import Deadline, Options
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 
 
 def test_a_circle_counts_all_its_actions() -> None:

@@ -20,8 +20,8 @@ from search.packed.operators import applicable
 from search.packed.packed_task import PackedTask
 from serendipity import Task, plan
 from serendipity.model import Deadline, LimitReachedError
-from serendipity.testing.generator.families import family_task
-from serendipity.testing.strategies import family_tasks, tasks
+from serendipity_testing.generator.families import family_task
+from serendipity_testing.strategies import family_tasks, tasks
 from tests.search.classical.exact_costs import exact
 from tests.search.small_tasks import CORRIDOR, packed_of
 

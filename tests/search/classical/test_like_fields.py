@@ -10,8 +10,8 @@ from search.kernel.library import library
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model import Deadline, Task
 from serendipity.model.numbers import as_written
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle import best
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle import best
 from tests.search.classical.exact_costs import exact
 from tests.search.classical.test_kernel_equals_brute_force import assert_leads_to_goal, planner_of
 from tests.search.small_tasks import fetching, packed_of

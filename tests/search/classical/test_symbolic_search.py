@@ -13,8 +13,8 @@ from search.classical.symbolic import cheapest_plan
 from search.kernel.library import library
 from serendipity import Task
 from serendipity.model import Deadline, LimitReachedError
-from serendipity.testing.generator.families import FAMILIES, family_task
-from serendipity.testing.strategies import tasks
+from serendipity_testing.generator.families import FAMILIES, family_task
+from serendipity_testing.strategies import tasks
 from tests.search.classical.exact_costs import exact
 from tests.search.classical.test_canonical_plans import first_of_all
 from tests.search.classical.test_kernel_equals_brute_force import planner_of

@@ -13,8 +13,8 @@ from search.kernel.library import library
 from search.strategies.portfolio import STRATEGIES, TURNS, chosen, solve
 from serendipity import Result, Task, UsageError
 from serendipity.model import Options
-from serendipity.testing.builders import usar
-from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
+from serendipity_testing.builders import usar
+from serendipity_testing.generator.families import AGENTS, FAMILIES, SMALL
 
 NAMES = list(dict.fromkeys([*STRATEGIES, *(turn.name for turn in TURNS)]))
 """Strategies, and single turns of theirs."""

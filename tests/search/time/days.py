@@ -13,7 +13,7 @@ from typing import Final
 from serendipity.model import Script, Task, Timing
 from serendipity.model.task.course import BrokenPlanError
 from serendipity.model.task.passing import epoch_later
-from serendipity.testing.builders import Builder
+from serendipity_testing.builders import Builder
 
 _LAST: Final = 1_000
 _WAYS: Final = (("bed", "hall"), ("kitchen", "hall"), ("bath", "hall"), ("hall", "garden"), ("hall", "shop"))

@@ -16,8 +16,8 @@ from search.packed.packed_task import PackedTask
 from serendipity.model import Deadline, Task, UsageError
 from serendipity.model.task.unit_steps import unit_steps
 from serendipity.model.task.whole_actions import whole_actions
-from serendipity.testing.oracle import optimal_human_plan
-from serendipity.testing.strategies.time import timed_tasks
+from serendipity_testing.oracle import optimal_human_plan
+from serendipity_testing.strategies.time import timed_tasks
 
 
 @given(timed_tasks(), st.integers(0, 2), st.sampled_from((0, 1, 2)))

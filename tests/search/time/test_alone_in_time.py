@@ -13,10 +13,10 @@ from search import PreparedTask, canonical_human_plan
 from serendipity.model import Deadline, HumanPlan, Options, Script, Task
 from serendipity.model.task.passing import epoch_later
 from serendipity.model.task.unit_steps import unit_steps
-from serendipity.testing.builders import task
-from serendipity.testing.generator import random_call_in_time
-from serendipity.testing.oracle import best, optimal_human_plan
-from serendipity.testing.strategies.time import tasks_in_time
+from serendipity_testing.builders import task
+from serendipity_testing.generator import random_call_in_time
+from serendipity_testing.oracle import best, optimal_human_plan
+from serendipity_testing.strategies.time import tasks_in_time
 from tests.search.time.days import day, slowed, with_a_robot_at_work
 
 Told = tuple[list[str], tuple[int, ...], int] | None

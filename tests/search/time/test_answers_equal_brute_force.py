@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity.model.keywords import Ties
-from serendipity.testing.call import Call
-from serendipity.testing.strategies.time import calls_in_time
+from serendipity_testing.call import Call
+from serendipity_testing.strategies.time import calls_in_time
 from tests.search.exact_answers import assert_answered
 
 

@@ -7,9 +7,9 @@ import pytest
 import serendipity
 from serendipity import Task
 from serendipity.model import Options, Script
-from serendipity.testing.builders import task
-from serendipity.testing.call import Call
-from serendipity.testing.oracle import best
+from serendipity_testing.builders import task
+from serendipity_testing.call import Call
+from serendipity_testing.oracle import best
 from tests.search.exact_answers import assert_answered, proved
 from tests.verify.edits.corpus import shop
 

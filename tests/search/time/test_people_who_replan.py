@@ -12,11 +12,11 @@ from search.modes.simulation.human import Human
 from search.modes.simulation.in_time import BesideOthers, HumanInTime
 from serendipity.model import Options, PlanError, Result, Script, Task, TimedPlan, UsageError
 from serendipity.model.task.plans_in_time import cost_alone
-from serendipity.testing.builders import task
-from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.generator.in_time import random_call_in_time
-from serendipity.testing.oracle.alone import human_plans
-from serendipity.testing.oracle.reactions import best_reaction
+from serendipity_testing.builders import task
+from serendipity_testing.generator.calls import PlanCall
+from serendipity_testing.generator.in_time import random_call_in_time
+from serendipity_testing.oracle.alone import human_plans
+from serendipity_testing.oracle.reactions import best_reaction
 
 _KEPT = ("discount", "interference", "head_start")
 

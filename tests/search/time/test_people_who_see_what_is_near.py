@@ -12,11 +12,11 @@ import serendipity
 from search.modes.simulation.eyes import SeesWork
 from serendipity.model import Result, Task, UsageError, surroundings
 from serendipity.model.task.plans_in_time import cost_alone
-from serendipity.testing.builders import Builder
-from serendipity.testing.generator.calls import PlanCall
-from serendipity.testing.generator.in_time import random_local_call
-from serendipity.testing.oracle.alone import human_plans
-from serendipity.testing.oracle.reactions import best_reaction
+from serendipity_testing.builders import Builder
+from serendipity_testing.generator.calls import PlanCall
+from serendipity_testing.generator.in_time import random_local_call
+from serendipity_testing.oracle.alone import human_plans
+from serendipity_testing.oracle.reactions import best_reaction
 
 SEEDS = st.integers(0, 10**6)
 

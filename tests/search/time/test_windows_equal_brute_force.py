@@ -8,10 +8,10 @@ from hypothesis import given
 import serendipity
 from serendipity.model import PlanError, UsageError, Window
 from serendipity.model.keywords import InterruptionOptions
-from serendipity.testing.call import Call
-from serendipity.testing.oracle.best import shifted
-from serendipity.testing.oracle.interruptions import best_by_window
-from serendipity.testing.strategies.time import calls_in_time
+from serendipity_testing.call import Call
+from serendipity_testing.oracle.best import shifted
+from serendipity_testing.oracle.interruptions import best_by_window
+from serendipity_testing.strategies.time import calls_in_time
 
 
 def _expected(call: Call) -> dict[Window, tuple[Fraction, Fraction]] | None:

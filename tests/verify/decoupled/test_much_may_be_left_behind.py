@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from serendipity.model import LimitReachedError
-from serendipity.testing.countdown import Countdown
+from serendipity_testing.countdown import Countdown
 from verify.exhaustive.decoupled import leavings, rows
 from verify.exhaustive.decoupled.leavings import differences, together
 from verify.limits import limited

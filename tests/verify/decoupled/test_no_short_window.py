@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity.model import Condition, Options, Task
-from serendipity.testing.builders import task as written
-from serendipity.testing.generator.families import family_task
-from serendipity.testing.oracle import best, optimal_human_plan
-from serendipity.testing.strategies import family_tasks, tasks
+from serendipity_testing.builders import task as written
+from serendipity_testing.generator.families import family_task
+from serendipity_testing.oracle import best, optimal_human_plan
+from serendipity_testing.strategies import family_tasks, tasks
 from verify.base.individual import IndividualOptimum
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.subproblem import Subproblem

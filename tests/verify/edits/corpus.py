@@ -7,9 +7,9 @@ from typing import Any
 
 import serendipity
 from serendipity.model import Condition, Options, Result, Script, Task
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import CASE_3_PLAN, case_3, case_4, case_5, case_6, case_8, case_9, case_10
-from serendipity.testing.countdown import Countdown
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import CASE_3_PLAN, case_3, case_4, case_5, case_6, case_8, case_9, case_10
+from serendipity_testing.countdown import Countdown
 from tests.search.modes.goals.test_worked_cases import workshop
 from tests.verify.scenarios.studio import TWO_ROADS, studio, two_roads
 from verify.calls.solve import solve

@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis.strategies import sampled_from
 
 from serendipity.model import Deadline, Task, UsageError
-from serendipity.testing.builders import task as build
-from serendipity.testing.generator.families import family_task
-from serendipity.testing.oracle import best
-from serendipity.testing.strategies import Call, calls, tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.generator.families import family_task
+from serendipity_testing.oracle import best
+from serendipity_testing.strategies import Call, calls, tasks
 from tests.shortest import distances
 from verify.base.execution import State, after, applicable, states_of_pi_h
 from verify.base.individual import IndividualOptimum

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import case_1, case_4
-from serendipity.testing.generator.calls import PlanCall
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import case_1, case_4
+from serendipity_testing.generator.calls import PlanCall
 
 
 def hand_made() -> Iterator[PlanCall]:

@@ -8,9 +8,9 @@ import pytest
 import serendipity
 from serendipity.facade.certify import verify
 from serendipity.model import PlanError, UsageError
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import WORKED, case_4
-from serendipity.testing.generator.calls import PlanCall, random_call
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import WORKED, case_4
+from serendipity_testing.generator.calls import PlanCall, random_call
 from tests.verify.planted.bug import Bug
 from tests.verify.planted.hand_made import hand_made
 

@@ -7,8 +7,8 @@ from typing import Any, Final, NamedTuple
 
 import serendipity
 from serendipity.model import Deadline, Result, Task
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import case_1, case_4, case_8
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import case_1, case_4, case_8
 from tests.verify.test_ip_parts import DETOUR
 from verify.certificate.certify import certify
 from verify.certificate.provable import main_claim

@@ -7,7 +7,7 @@ import pytest
 
 import serendipity
 from serendipity.cli.app import main
-from serendipity.testing.cases import case_1
+from serendipity_testing.cases import case_1
 from tests.cli.conftest import Runs, assert_one_line
 
 

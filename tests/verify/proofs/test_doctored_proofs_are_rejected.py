@@ -9,7 +9,7 @@ import pytest
 
 import serendipity
 from serendipity.model import InputError, ProofCheck
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 from tests.verify.proofs.doctored import DOCTORED
 from tests.verify.proofs.samples import SAMPLES, Sample, sample
 from verify.base.optimal_plans import OptimalPlans

@@ -9,8 +9,8 @@ import pytest
 
 import serendipity
 from serendipity.model import Deadline, LimitReachedError, ProofCheck, Result, Task
-from serendipity.testing.cases import case_1
-from serendipity.testing.countdown import Countdown
+from serendipity_testing.cases import case_1
+from serendipity_testing.countdown import Countdown
 from tests.endings import endings
 from tests.verify.proofs.samples import sample
 from verify.proofs import checker

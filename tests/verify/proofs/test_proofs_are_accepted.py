@@ -19,9 +19,9 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.model import Deadline, Options, Result, Task, UsageError
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import case_1, case_4, case_10
-from serendipity.testing.strategies import Call, calls
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import case_1, case_4, case_10
+from serendipity_testing.strategies import Call, calls
 from tests.verify.proofs.samples import entry
 from tests.verify.test_ip_solver import least
 from tests.verify.untrue import dearer

@@ -12,11 +12,11 @@ from hypothesis import given, settings
 import serendipity
 from benchmarks.certificates import by_veripb, is_accepted_by_veripb
 from serendipity.model import UsageError
-from serendipity.testing.cases import case_1, case_4
-from serendipity.testing.pseudo_boolean.checker import ProofError, check
-from serendipity.testing.pseudo_boolean.opb import read
-from serendipity.testing.strategies import Call, calls
 from serendipity.writing.veripb import write
+from serendipity_testing.cases import case_1, case_4
+from serendipity_testing.pseudo_boolean.checker import ProofError, check
+from serendipity_testing.pseudo_boolean.opb import read
+from serendipity_testing.strategies import Call, calls
 from tests.cli.conftest import Runs
 from tests.verify.proofs.in_the_fields_form import DOCTORED, Files, files_of, first
 from tests.verify.proofs.samples import SAMPLES, Proof, entry, sample

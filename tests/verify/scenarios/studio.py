@@ -4,7 +4,7 @@ from typing import Any, Final
 
 import serendipity
 from serendipity.model import Result, Task
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 
 
 def studio() -> Task:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import serendipity
 from search.modes.scenarios import Candidate
 from serendipity.model import Certificate, Condition, Deadline, InputError, Options, Result, Task
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 from tests.cli.conftest import Runs
 from tests.recognition.test_noise import HELPED
 from tests.search.modes.goals.strategies import FIXED_OPTIONS, literals, rivals

@@ -6,7 +6,7 @@ import pytest
 
 import serendipity
 from serendipity.model import Result
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 from tests.verify.scenarios.edit import Edit, assert_refuted, certified, edit, together
 from tests.verify.scenarios.studio import TWO_ROADS, helped, studio, two_roads
 

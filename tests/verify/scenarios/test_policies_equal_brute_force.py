@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 
 from serendipity.model import Condition, HumanPlan, Options, Task
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle.scenarios import PolicyOptimum, best_policy
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle.scenarios import PolicyOptimum, best_policy
 from tests.verify.scenarios.three_ways import Asked, calls_over_scenarios, is_small
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.undecided import UndecidedError

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import serendipity
 from search.modes.scenarios import Candidate
 from serendipity.model import Options, Task, UsageError
-from serendipity.testing.oracle.scenarios import best_policy
+from serendipity_testing.oracle.scenarios import best_policy
 from tests.search.modes.scenarios.strategies import options_over, scenarios
 from tests.search.modes.scenarios.test_in_time import library
 

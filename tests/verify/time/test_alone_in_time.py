@@ -10,10 +10,10 @@ from hypothesis import given
 import serendipity
 from serendipity.model import Deadline, Options, Script, Task
 from serendipity.model.task.unit_steps import unit_steps
-from serendipity.testing.builders import task as build
-from serendipity.testing.generator import random_call_in_time
-from serendipity.testing.oracle import optimal_human_plan
-from serendipity.testing.strategies.time import tasks_in_time
+from serendipity_testing.builders import task as build
+from serendipity_testing.generator import random_call_in_time
+from serendipity_testing.oracle import optimal_human_plan
+from serendipity_testing.strategies.time import tasks_in_time
 from tests.search.time.days import day, with_a_robot_at_work
 from verify.base.beside_script import AloneBesideScript, alone_of
 from verify.base.due import onward

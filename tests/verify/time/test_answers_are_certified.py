@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity.model import Result, Task, UsageError
 from serendipity.model.keywords import Ties
-from serendipity.testing.builders import task as build
-from serendipity.testing.call import Call
-from serendipity.testing.crosscheck.doctored import without_plan
-from serendipity.testing.oracle import best
-from serendipity.testing.strategies.time import calls_in_time
+from serendipity_testing.builders import task as build
+from serendipity_testing.call import Call
+from serendipity_testing.crosscheck.doctored import without_plan
+from serendipity_testing.oracle import best
+from serendipity_testing.strategies.time import calls_in_time
 from tests.facade import test_results_tell_times as times
 from tests.verify.denied import denied
 from verify.certificate.certify import certify

@@ -10,8 +10,8 @@ import serendipity
 from search.packed.due import Due
 from search.packed.joint_actions import NOTHING
 from serendipity.model import SerendipityError
-from serendipity.testing.call import Call
-from serendipity.testing.strategies.time import calls_in_time
+from serendipity_testing.call import Call
+from serendipity_testing.strategies.time import calls_in_time
 
 BUGS: dict[str, tuple[str, Any, int]] = {
     "the human may leave what goes on": ("human", lambda *_: None, 12),

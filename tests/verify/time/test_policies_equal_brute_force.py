@@ -10,8 +10,8 @@ import serendipity
 from search.modes.scenarios import Candidate
 from serendipity.model import Condition, Options, Result, Task, UsageError
 from serendipity.model.task.unit_steps import unit_steps
-from serendipity.testing.oracle.scenarios import best_policy
-from serendipity.testing.strategies.time import tasks_in_time
+from serendipity_testing.oracle.scenarios import best_policy
+from serendipity_testing.strategies.time import tasks_in_time
 from tests.search.modes.scenarios.test_in_time import calls_in_time, library
 from tests.verify.scenarios.test_policies_equal_brute_force import require_least
 from verify.base.beside_script import alone_of

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.model import Condition, Result, Script, Task, UsageError
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle.observed import costs_of_observed
-from serendipity.testing.strategies.time import tasks_in_time
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle.observed import costs_of_observed
+from serendipity_testing.strategies.time import tasks_in_time
 from tests.verify.scenarios.edit import Edit, assert_refuted, certified, edit
 
 WAYS = {

@@ -3,7 +3,7 @@
 from hypothesis import strategies as st
 
 from serendipity.model import Task
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 
 _COSTS = st.sampled_from(["1", "1", "1", "2", "0", "0.5", "3"])
 

@@ -12,8 +12,8 @@ from serendipity import Result, Task
 from serendipity.model import Deadline, Options, Policy
 from serendipity.model.answers.answer import PolicyBounds
 from serendipity.model.numbers import as_written
-from serendipity.testing.builders import task
-from serendipity.testing.cases import case_5, case_6
+from serendipity_testing.builders import task
+from serendipity_testing.cases import case_5, case_6
 from tests.search.modes.assistance.strategies import games
 from tests.verify.claims import verdicts
 from verify.policy import check_policy

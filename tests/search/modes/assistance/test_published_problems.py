@@ -12,7 +12,7 @@ from search.modes.assistance.game.game import Game
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity import Task
 from serendipity.model import Deadline
-from serendipity.testing.oracle.assistance import Costs
+from serendipity_testing.oracle.assistance import Costs
 
 PROBLEMS = [
     *(("car_assistance1", n) for n in (2, 12, 17)),

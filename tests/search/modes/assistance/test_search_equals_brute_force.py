@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 import serendipity
 from search.modes.assistance.distances import closure
 from serendipity import Result, Task
-from serendipity.testing.oracle.assistance import Costs, by_rounds, explore, mean_over_all_policies
+from serendipity_testing.oracle.assistance import Costs, by_rounds, explore, mean_over_all_policies
 from tests.search.modes.assistance.strategies import games
 
 _MOST_POLICIES = 400

@@ -10,7 +10,7 @@ from search.modes.assistance.distances.perimeter import PackedPlaces, ball_aroun
 from search.packed.cost_vector import ACTIONS_BITS
 from search.packed.packed_task import PackedGoal
 from serendipity.model import Deadline, LimitReachedError
-from serendipity.testing.cases import case_5
+from serendipity_testing.cases import case_5
 
 
 class Full(Deadline):

@@ -17,9 +17,9 @@ from search.modes.assistance.solvers import lao_star
 from serendipity.model import Options, Task
 from serendipity.model.answers.answer import Answer
 from serendipity.model.resources.deadline import Deadline
-from serendipity.testing.builders import task
-from serendipity.testing.cases import case_5, case_6
-from serendipity.testing.countdown import Countdown
+from serendipity_testing.builders import task
+from serendipity_testing.cases import case_5, case_6
+from serendipity_testing.countdown import Countdown
 from tests.search.modes.assistance.strategies import games
 
 TIES = ("optimistic", "fixed", "robust", "expected")

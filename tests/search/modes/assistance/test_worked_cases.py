@@ -7,8 +7,8 @@ import pytest
 import serendipity
 from serendipity import Result, UsageError
 from serendipity.cli.text.answers import policy_lines
-from serendipity.testing.builders import task
-from serendipity.testing.cases import case_5, case_6, case_8
+from serendipity_testing.builders import task
+from serendipity_testing.cases import case_5, case_6, case_8
 from tests.search.exact_answers import proved
 
 

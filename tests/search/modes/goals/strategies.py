@@ -1,4 +1,4 @@
-"""Candidate goals for the small tasks of ``serendipity.testing.strategies``; everything by construction."""
+"""Candidate goals for the small tasks of ``serendipity_testing.strategies``; everything by construction."""
 
 from dataclasses import replace
 from fractions import Fraction
@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from search.modes.scenarios import Candidate
 from serendipity.model import Condition, Options, Task
-from serendipity.testing.oracle import optimal_human_plan
-from serendipity.testing.strategies import tasks
-from serendipity.testing.strategies.tasks import walks
+from serendipity_testing.oracle import optimal_human_plan
+from serendipity_testing.strategies import tasks
+from serendipity_testing.strategies.tasks import walks
 
 FIXED_OPTIONS = st.builds(
     Options,

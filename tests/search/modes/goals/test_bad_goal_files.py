@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from serendipity.pddl.write import write_pddl
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 from tests.cli.conftest import Runs, assert_one_line
 
 TRIAGE = "conducted_triage commx room1"

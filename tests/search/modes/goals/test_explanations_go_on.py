@@ -10,7 +10,7 @@ from search import PreparedTask
 from search.modes.goals import Explainer
 from serendipity.model import Condition, Task
 from serendipity.model.task.actions import apply
-from serendipity.testing.strategies import tasks, usar_tasks
+from serendipity_testing.strategies import tasks, usar_tasks
 
 
 def _walk(task: Task, dice: Random, epochs: int) -> Iterator[tuple[list[str], frozenset[int]]]:

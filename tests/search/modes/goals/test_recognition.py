@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.model import Condition, Task, UsageError
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle import Alone, Moment, optimal_human_plan
-from serendipity.testing.strategies import tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle import Alone, Moment, optimal_human_plan
+from serendipity_testing.strategies import tasks
 from tests.search.modes.goals.strategies import literals, reachable_goals
 
 

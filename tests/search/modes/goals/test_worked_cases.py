@@ -4,8 +4,8 @@ import pytest
 
 import serendipity
 from serendipity.model import InputError, Result, Task, UsageError, Window
-from serendipity.testing.builders import task as build
-from serendipity.testing.cases import CASE_3_PLAN, case_3
+from serendipity_testing.builders import task as build
+from serendipity_testing.cases import CASE_3_PLAN, case_3
 from tests.model.test_parts_of_results import rivals
 
 

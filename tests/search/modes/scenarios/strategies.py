@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from search.modes.scenarios import Candidate
 from serendipity.model import Condition, HumanPlan, Options, Task
 from serendipity.model.keywords import CHOICES
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle import human_plans, optimal_human_plan
-from serendipity.testing.strategies import plans, tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle import human_plans, optimal_human_plan
+from serendipity_testing.strategies import plans, tasks
 from tests.search.modes.goals.strategies import reachable_goals
 
 _SHARES: Final = ((1, 1, 1), (1, 2, 3), (9, 1, 1), (1, 9, 5), (99, 1, 1))

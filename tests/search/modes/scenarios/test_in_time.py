@@ -12,10 +12,10 @@ from serendipity import plan, verify
 from serendipity.facade.results import named_plan
 from serendipity.model import Condition, HumanPlan, Options, PlanError, Task
 from serendipity.model.task.plans_in_time import outlasts
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle import human_plans
-from serendipity.testing.oracle.scenarios import best_policy
-from serendipity.testing.strategies.time import scripts, tasks_in_time, timed_plans, timed_tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle import human_plans
+from serendipity_testing.oracle.scenarios import best_policy
+from serendipity_testing.strategies.time import scripts, tasks_in_time, timed_plans, timed_tasks
 from tests.search.modes.scenarios.strategies import options_over, turning_tasks
 
 _LONGEST = 6

@@ -11,7 +11,7 @@ import serendipity
 from search.modes.scenarios import Candidate
 from serendipity.model import Condition, Options, Task
 from serendipity.model.keywords import CHOICES, Risk
-from serendipity.testing.strategies import Call, calls
+from serendipity_testing.strategies import Call, calls
 from tests.search.modes.goals.strategies import literals
 from tests.search.modes.scenarios.strategies import scenarios
 from tests.search.modes.scenarios.test_policies_equal_brute_force import solved

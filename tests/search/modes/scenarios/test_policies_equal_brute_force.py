@@ -10,8 +10,8 @@ from search import PreparedTask
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.model import Condition, Deadline, Options, Task
 from serendipity.model.answers.answer import Answer
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle.scenarios import best_policy
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle.scenarios import best_policy
 from tests.endings import endings
 from tests.search.modes.scenarios.strategies import options_over, scenarios
 

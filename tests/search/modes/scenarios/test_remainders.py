@@ -16,7 +16,7 @@ from search.spaces.windowed import Windowed
 from serendipity.model import Deadline, Options
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.task.plans import Step, Window
-from serendipity.testing.builders import task as build
+from serendipity_testing.builders import task as build
 from tests.search.modes.scenarios.test_policies_equal_brute_force import lifted
 
 

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 from serendipity.model import Condition, HumanPlan, Options, Step, Task, surroundings
 from serendipity.model.task.actions import State
 from serendipity.model.task.visibility import Visible
-from serendipity.testing.oracle import Alone, Moment, human_plans
-from serendipity.testing.oracle.epochs import after, usable
-from serendipity.testing.strategies import tasks
+from serendipity_testing.oracle import Alone, Moment, human_plans
+from serendipity_testing.oracle.epochs import after, usable
+from serendipity_testing.strategies import tasks
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,10 +9,10 @@ from hypothesis import given, settings
 
 import serendipity
 from serendipity.model import Certificate, Options, Result, Task, surroundings
-from serendipity.testing.builders import task as build
-from serendipity.testing.by_hand import result
-from serendipity.testing.cases import case_1, case_4
-from serendipity.testing.oracle.reactions import best_reaction
+from serendipity_testing.builders import task as build
+from serendipity_testing.by_hand import result
+from serendipity_testing.cases import case_1, case_4
+from serendipity_testing.oracle.reactions import best_reaction
 from tests.search.exact_answers import proved
 from tests.search.modes.simulation.strategies import Reaction, reactions
 from tests.verify.claims import claim_of, verdicts

@@ -9,8 +9,8 @@ from search import PreparedTask, optimal_human_plans
 from search.modes.simulation.companion import Companion
 from search.modes.simulation.human import Start
 from serendipity.model import Deadline, Options, Task
-from serendipity.testing.builders import usar
-from serendipity.testing.strategies import tasks, usar_tasks
+from serendipity_testing.builders import usar
+from serendipity_testing.strategies import tasks, usar_tasks
 
 NOTHING = frozenset[int]()
 

@@ -7,8 +7,8 @@ import pytest
 
 import serendipity
 from serendipity import UsageError
-from serendipity.testing.builders import task
-from serendipity.testing.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8
+from serendipity_testing.builders import task
+from serendipity_testing.cases import CASE_3_PLAN, case_1, case_3, case_4, case_8
 from tests.search.exact_answers import proved
 
 MODELS = ["observant", "local"]

@@ -7,7 +7,7 @@ from search import PreparedTask
 from search.modes.simulation import simulate
 from search.modes.simulation.planner import solve_for_human
 from serendipity.model.answers.answer import Answer
-from serendipity.testing.oracle.reactions import best_reaction
+from serendipity_testing.oracle.reactions import best_reaction
 from tests.search.modes.simulation.strategies import Reaction, reactions
 
 MODELS = ["observant", "local"]

@@ -2,7 +2,7 @@
 
 import serendipity
 from serendipity.model import Task, surroundings
-from serendipity.testing.builders import task
+from serendipity_testing.builders import task
 
 
 def _named(built: Task, *names: str) -> frozenset[int]:

@@ -8,7 +8,7 @@ import pytest
 
 import serendipity
 from serendipity import Task
-from serendipity.testing.cases import case_1, case_2, case_4, case_8
+from serendipity_testing.cases import case_1, case_2, case_4, case_8
 from tests.search.modes.simulation.test_planning_for_humans import _everything
 from verify.certificate.simulator import realised_claim
 

@@ -18,10 +18,10 @@ from search.short_windows.independent.short_windows import ShortWindows, short_w
 from search.spaces.windowed import Windowed
 from serendipity.model import Options, Task
 from serendipity.model.resources.deadline import Deadline
-from serendipity.testing.builders import task as build
-from serendipity.testing.generator.families import AGENTS, FAMILIES, SMALL
-from serendipity.testing.oracle import best
-from serendipity.testing.strategies import Call, calls, family_tasks
+from serendipity_testing.builders import task as build
+from serendipity_testing.generator.families import AGENTS, FAMILIES, SMALL
+from serendipity_testing.oracle import best
+from serendipity_testing.strategies import Call, calls, family_tasks
 from tests.search.exact_answers import assert_answered
 from tests.search.small_tasks import ONE_EPOCH, beside_the_plan, of_a_family
 

@@ -8,7 +8,7 @@ from search.short_windows.independent.rows import cheapest
 from search.short_windows.independent.timeline import Layer, TooManyStatesError
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
-from serendipity.testing.countdown import Countdown
+from serendipity_testing.countdown import Countdown
 
 FIELDS = [1 << bit for bit in range(40)]
 

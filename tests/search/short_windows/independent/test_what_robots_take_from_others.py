@@ -8,8 +8,8 @@ import pytest
 from search.packed.packed_task import PackedTask
 from search.short_windows.independent import timeline
 from serendipity.model import Task
-from serendipity.testing.builders import task as build
-from serendipity.testing.oracle import best
+from serendipity_testing.builders import task as build
+from serendipity_testing.oracle import best
 from tests.search.short_windows.independent.test_bounds_are_admissible import admissible_bound, bound_and_cost
 from tests.search.small_tasks import ONE_EPOCH
 

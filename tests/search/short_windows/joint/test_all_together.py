@@ -23,10 +23,10 @@ from serendipity.model.errors import LimitReachedError
 from serendipity.model.numbers import as_written
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.actions import conflicting
-from serendipity.testing.builders import task as build
-from serendipity.testing.generator.calls import random_call
-from serendipity.testing.generator.families import AGENTS, FAMILIES
-from serendipity.testing.oracle import best
+from serendipity_testing.builders import task as build
+from serendipity_testing.generator.calls import random_call
+from serendipity_testing.generator.families import AGENTS, FAMILIES
+from serendipity_testing.oracle import best
 from tests.search.small_tasks import ONE_EPOCH, beside_the_plan, fetching, of_a_family
 
 pytestmark = pytest.mark.skipif(library() is None, reason="the kernel is not compiled here")
