@@ -23,8 +23,8 @@ from serendipity_testing.generator.among_people import random_call_among
 from serendipity_testing.generator.in_time import random_call_in_time
 from serendipity_testing.generator.tasks import random_task, varied
 from serendipity_testing.oracle import Moment, optimal_human_plan
-from serendipity_testing.oracle.moments import World
-from serendipity_testing.oracle.nobody_pays import Rule
+from serendipity_testing.oracle.moments import OracleWorld
+from serendipity_testing.oracle.nobody_pays import LastMomentRule
 
 
 def main(runs: int = 10_000, first: int = 0) -> None:
@@ -68,10 +68,10 @@ def _bystanders_paid(task: Task, log: Iterable[Mapping[str, Any]]) -> bool:
     """Whether help keeps somebody from what they would do and get, by brute force."""
     if not task.script.people or broken_script(task):
         return False
-    world, epochs = World(task), [line["steps"] for line in log if "steps" in line]
+    world, epochs = OracleWorld(task), [line["steps"] for line in log if "steps" in line]
     plan = optimal_human_plan(task) or ()
     last = max(len(epochs), task.epochs_of(plan))
-    rule = Rule(world, Options(nobody_pays=True), plan, last)
+    rule = LastMomentRule(world, Options(nobody_pays=True), plan, last)
     now: Moment | None = Moment(task.init)
     for epoch, steps in zip_longest(range(1, last + 1), epochs, fillvalue=()):
         if now is not None:

@@ -28,7 +28,7 @@ import serendipity
 from benchmarks.problems import PROBLEMS, Record, run
 from serendipity import Result, SerendipityError, Task
 from serendipity.evaluation.measuring.record import apart, measured
-from serendipity.evaluation.measuring.suites import Problem, Roles, may_alone, problems, roles
+from serendipity.evaluation.measuring.suites import Roles, SuiteProblem, may_alone, problems, roles
 from serendipity.evaluation.measuring.tables import Cell, Row, as_markdown, counted, grouped, table
 from serendipity.facade.planning import plan_anytime
 from serendipity.model.errors import PlanError, told
@@ -129,7 +129,7 @@ def answered(asked: Asked) -> Row:
 def _task(asked: Asked) -> Task:
     """The task of a call: of one who does all, or of an agent that might do it alone and the next other."""
     folder = Path(asked.source if asked.call == "one" else asked.suite) / asked.domain
-    problem = Problem(asked.domain, asked.name, folder / "domain.pddl", folder / f"{asked.name}.pddl")
+    problem = SuiteProblem(asked.domain, asked.name, folder / "domain.pddl", folder / f"{asked.name}.pddl")
     if asked.call == "one":
         return serendipity.load_agents({"one": (problem.domain_file, problem.problem_file)})
     objects = problem.unit().problem.objects.items()

@@ -12,7 +12,7 @@ import typer
 
 import serendipity
 from serendipity import SerendipityError, Task
-from serendipity.evaluation.measuring.suites import Problem, Roles, folders, problems, roles
+from serendipity.evaluation.measuring.suites import Roles, SuiteProblem, folders, problems, roles
 from serendipity.evaluation.measuring.tables import grouped
 from serendipity.model import Condition
 from serendipity.pictures.map.names import natural
@@ -69,8 +69,8 @@ def usar(stride: int = 1) -> list[Source]:
 
 
 def of_suite(
-    suite: Path, able: Callable[[Problem, Roles], bool], *, stride: int = 1, smallest: int | None = None
-) -> Iterator[tuple[Problem, Roles, Source]]:
+    suite: Path, able: Callable[[SuiteProblem, Roles], bool], *, stride: int = 1, smallest: int | None = None
+) -> Iterator[tuple[SuiteProblem, Roles, Source]]:
     """Problems of a suite, with the human, who is ``able`` alone, and two robots; none where it is not there.
 
     Of each domain every so many, or only so many of the smallest.
@@ -84,12 +84,12 @@ def of_suite(
             yield problem, who, (*files, who.human, *who.robots)
 
 
-def can_alone(problem: Problem, who: Roles) -> bool:
+def can_alone(problem: SuiteProblem, who: Roles) -> bool:
     """True if a human is found to have a plan alone, in three seconds."""
     return _decides(lambda: problem.task(who), 3)
 
 
-def can_some(problem: Problem, who: Roles) -> bool:
+def can_some(problem: SuiteProblem, who: Roles) -> bool:
     """True if a human is found to reach two of the goals alone."""
 
     def with_two_goals() -> Task:

@@ -20,7 +20,7 @@ from serendipity.model.task.plans import PlanEntry
 from serendipity_up.kinds import ENGINE, with_metric
 from serendipity_up.plans import human_plan_of, plan_of
 from serendipity_up.predicting import predict
-from serendipity_up.reading import Reading, read
+from serendipity_up.reading import ReadProblem, read
 
 _HELP: Final = ("serendipity", "communication", "assistance")
 _OWN: Final = ("human", "robots", "human_plan", "predict_with")
@@ -164,14 +164,14 @@ class Answers:
         if last is not None:
             yield self._answer(last, reading, self._status(last, reading))
 
-    def _human_plan(self, reading: Reading, limits: Deadline) -> tuple[PlanEntry, ...] | None:
+    def _human_plan(self, reading: ReadProblem, limits: Deadline) -> tuple[PlanEntry, ...] | None:
         if self._call.human_plan is not None:
             return human_plan_of(self._call.human_plan, reading)
         if self._call.predict_with is not None:
             return predict(reading.task, self._call.predict_with, time_limit=limits.left())
         return None
 
-    def _status(self, result: Result, reading: Reading) -> PlanGenerationResultStatus:
+    def _status(self, result: Result, reading: ReadProblem) -> PlanGenerationResultStatus:
         whole = self._call.exact and not reading.left_out and not reading.in_time
         match result.status:
             case "optimal" if whole and with_metric(self._problem):
@@ -183,7 +183,7 @@ class Answers:
         return Status.MEMOUT if result.reason == "memory-limit" else Status.TIMEOUT
 
     def _answer(
-        self, result: Result, reading: Reading, status: PlanGenerationResultStatus
+        self, result: Result, reading: ReadProblem, status: PlanGenerationResultStatus
     ) -> PlanGenerationResult:
         try:
             plan = plan_of(result, reading)

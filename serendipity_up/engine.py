@@ -20,7 +20,7 @@ from serendipity.model.task.actions import apply
 from serendipity_up.answers import Answers, call_of
 from serendipity_up.kinds import ENGINE, PLANS, in_time, supported_kind, with_metric
 from serendipity_up.plans import depend, in_order
-from serendipity_up.reading import Reading, read
+from serendipity_up.reading import ReadProblem, read
 
 _MOST: Final = 100_000
 """Sets of actions that are looked at, where their order matters."""
@@ -40,7 +40,7 @@ class PlanVerdict:
     at_fault: ActionInstance | None = None
 
 
-def judged(plan: Plan, reading: Reading) -> PlanVerdict:
+def judged(plan: Plan, reading: ReadProblem) -> PlanVerdict:
     """Whether a plan is one of a problem."""
     instances = in_order(plan)
     run = _PlanRun(reading, instances)
@@ -53,7 +53,7 @@ def judged(plan: Plan, reading: Reading) -> PlanVerdict:
 class _PlanRun:
     """Executes the actions of a plan."""
 
-    def __init__(self, reading: Reading, instances: list[ActionInstance]) -> None:
+    def __init__(self, reading: ReadProblem, instances: list[ActionInstance]) -> None:
         self._task: Task = reading.task
         self._instances = instances
         self._names = {instance: reading.vocabulary.name_of(instance) for instance in instances}

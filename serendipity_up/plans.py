@@ -26,7 +26,7 @@ from unified_planning.plans import (
 from serendipity.model import GroundAction, PlanError, PlanStep, Result, Task, UsageError
 from serendipity.model.task.actions import apply, in_turn
 from serendipity.model.task.plans import PlanEntry, checked_entries
-from serendipity_up.reading import Reading, read
+from serendipity_up.reading import ReadProblem, read
 from serendipity_up.schedule import start_times, variant_in
 from serendipity_up.vocabulary import ALONE, UPProblem, Vocabulary
 
@@ -131,7 +131,7 @@ def to_plan(result: Result, problem: UPProblem, *, sequential: bool = False) -> 
     return plan_of(result, read(problem, None if alone else human, robots or None), sequential=sequential)
 
 
-def plan_of(result: Result, reading: Reading, *, sequential: bool = False) -> Plan | None:
+def plan_of(result: Result, reading: ReadProblem, *, sequential: bool = False) -> Plan | None:
     """:func:`to_plan` for those who have read the problem."""
     if result.plan is None:
         return None
@@ -149,7 +149,7 @@ def plan_of(result: Result, reading: Reading, *, sequential: bool = False) -> Pl
     return EpochPlan(after, environment, epochs)
 
 
-def _in_time(steps: Sequence[PlanStep], reading: Reading) -> TimeTriggeredPlan:
+def _in_time(steps: Sequence[PlanStep], reading: ReadProblem) -> TimeTriggeredPlan:
     task = reading.task
     instances = [reading.vocabulary.instance(step.action) for step in steps]
     lasting = [isinstance(instance.action, DurativeAction) for instance in instances]
@@ -162,7 +162,7 @@ def _in_time(steps: Sequence[PlanStep], reading: Reading) -> TimeTriggeredPlan:
     return TimeTriggeredPlan(timed, reading.vocabulary.problem.environment)
 
 
-def human_plan_of(plan: Plan | Iterable[str], reading: Reading) -> tuple[PlanEntry, ...]:
+def human_plan_of(plan: Plan | Iterable[str], reading: ReadProblem) -> tuple[PlanEntry, ...]:
     """What the human does in a plan, others apart, by names; with epochs where the plan has times."""
     if not isinstance(plan, Plan):
         return checked_entries(plan, "human plan")

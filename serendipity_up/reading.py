@@ -41,7 +41,7 @@ _OVER: Final = lifted.Literal(("~over",))
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class ReadProblem:
     """A problem that was read, and the actions left out, in which none of the agents takes part."""
 
     task: Task
@@ -88,14 +88,14 @@ def read(
     human: Named | None = None,
     robots: Named | Iterable[Named] | None = None,
     deadline: Deadline | None = None,
-) -> Reading:
+) -> ReadProblem:
     """:func:`from_problem` with what it takes to write plans of the problem."""
     vocabulary = Vocabulary(problem)
     require_supported(problem)
     cast = cast_of(vocabulary, human, robots)
     left_out: list[str] = []
     task = within_limits(lambda work: _read(vocabulary, cast, left_out, work), deadline)
-    return Reading(task, vocabulary, left_out)
+    return ReadProblem(task, vocabulary, left_out)
 
 
 def _read(vocabulary: Vocabulary, cast: Cast, left_out: list[str], work: Work) -> Task:

@@ -6,7 +6,7 @@ from inspect import Parameter, Signature, signature
 from typing import Annotated, Any, Self, get_args, get_origin, get_type_hints
 
 
-class Group:
+class OptionGroup:
     """Options that belong together: attributes that are annotated as typer has it, each with its default.
 
     A command has a parameter of that type, and on the command line an option for each attribute in its place.
@@ -38,7 +38,7 @@ class Group:
         ]
 
 
-def spread(command: Callable[..., int], last: type[Group]) -> Callable[..., int]:
+def spread(command: Callable[..., int], last: type[OptionGroup]) -> Callable[..., int]:
     """A command as typer takes it: each of its groups is spread out into options.
 
     Args:
@@ -46,11 +46,11 @@ def spread(command: Callable[..., int], last: type[Group]) -> Callable[..., int]
         last: a group behind all other options, whose values the command is not given.
     """
     hints = get_type_hints(command, include_extras=True)
-    groups: dict[str, tuple[type[Group], list[str]]] = {}
+    groups: dict[str, tuple[type[OptionGroup], list[str]]] = {}
     shown: list[Parameter] = []
     for name, parameter in signature(command).parameters.items():
         kind, *more = get_args(hints[name]) if get_origin(hints[name]) is Annotated else (hints[name],)
-        if isinstance(kind, type) and issubclass(kind, Group):
+        if isinstance(kind, type) and issubclass(kind, OptionGroup):
             own = kind.parameters(*more)
             groups[name] = kind, [option.name for option in own]
             shown += own

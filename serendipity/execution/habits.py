@@ -259,7 +259,7 @@ def _entry(task: Task, line: LogLine, file: object) -> tuple[int, str]:
     return epoch, action
 
 
-class _Row(NamedTuple):
+class _LogRow(NamedTuple):
     day: str
     at: time
     weekday: int | None
@@ -267,7 +267,7 @@ class _Row(NamedTuple):
     activity: str
 
 
-def _of_days(rows: Iterable[_Row]) -> Iterator[Episode]:
+def _of_days(rows: Iterable[_LogRow]) -> Iterator[Episode]:
     for _, day in groupby(sorted(rows, key=lambda row: row[:2]), key=lambda row: row.day):
         before = NOTHING
         for activity, part in groupby(day, key=lambda row: row.activity):
@@ -277,7 +277,7 @@ def _of_days(rows: Iterable[_Row]) -> Iterator[Episode]:
             before = activity
 
 
-def _rows(task: Task, text: str, file: object) -> Iterator[_Row]:
+def _rows(task: Task, text: str, file: object) -> Iterator[_LogRow]:
     """The rows of the human's."""
     reader = csv.DictReader(text.splitlines(), skipinitialspace=True)
     reader.fieldnames = [name.strip().lower() for name in reader.fieldnames or ()]
@@ -299,7 +299,7 @@ def _rows(task: Task, text: str, file: object) -> Iterator[_Row]:
         if canonical_name(row["actor"]) == task.agents[task.human]:
             activity, action = row.get("activity", "").strip(), _action(task, row["action"], file, line)
             if not task.waits(action):
-                yield _Row(*_moment(row, file, line), action, activity)
+                yield _LogRow(*_moment(row, file, line), action, activity)
 
 
 def _moment(row: Mapping[str, str], file: object, line: int) -> tuple[str, time, int | None]:

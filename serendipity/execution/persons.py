@@ -319,7 +319,7 @@ class Persona:
         from serendipity.execution.clock import persons  # only here: most tasks have no time
 
         if self.name == "omniscient":
-            return persons.Told(task)
+            return persons.ToldInTime(task)
         if self.name == "noisy":
             return persons.Unsteady(task, self.probability, dice, drawn=drawn)
         if self.name == "recorded":

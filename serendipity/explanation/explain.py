@@ -6,7 +6,7 @@ from typing import Final, TypeVar, Unpack
 
 from serendipity.explanation.ask import PROVED, Ask, discount_threshold, parts_of, window_weight_threshold
 from serendipity.explanation.explanation import TOLD, Explanation, misses, moments, removal_of
-from serendipity.explanation.person import Played, Reaction
+from serendipity.explanation.person import PlayedAnswer, Reaction
 from serendipity.explanation.waiting import waits
 from serendipity.explanation.wording import sentences
 from serendipity.facade.call import options_from
@@ -166,7 +166,7 @@ def _explained(ask: Ask, answer: Result, on_progress: OnProgress) -> Explanation
 
 def _reaction(ask: Ask, answer: Result, findings: _Findings) -> Reaction | None:
     """What a human who replans makes of help; None where a limit came before anything was known of it."""
-    played = Played(ask.task, answer, ask.deadline)
+    played = PlayedAnswer(ask.task, answer, ask.deadline)
     turns = findings.about("person", played.turns, wanted=True)
     alone = findings.about("contrast", played.alone, wanted=True)
     contrasts = findings.about("contrast", played.contrasts, wanted=True)

@@ -19,7 +19,7 @@ from serendipity.model.task.execution import actions_named
 
 
 @dataclass(frozen=True, slots=True)
-class Turn(Written):
+class ChangeOfMind(Written):
     """A moment in which the person turns to something else; costs are their own, undiscounted.
 
     Attributes:
@@ -80,7 +80,7 @@ class Reaction(Written):
         contrasts: what hinges on each action of robots', and on when it begins.
     """
 
-    turns: tuple[Turn, ...]
+    turns: tuple[ChangeOfMind, ...]
     alone: Contrast | None = None
     contrasts: tuple[Contrast, ...] = ()
 
@@ -98,7 +98,7 @@ def play(task: Task, answer: Result, human_model: str, deadline: Deadline) -> Tr
     return trace
 
 
-class Played:
+class PlayedAnswer:
     """An answer's plan beside the person it was made for.
 
     Args:
@@ -114,7 +114,7 @@ class Played:
         """What happens without any robot."""
         return self._contrast("without", self._theirs, ())
 
-    def turns(self) -> tuple[Turn, ...]:
+    def turns(self) -> tuple[ChangeOfMind, ...]:
         """When and why the person turns to something else."""
         found, last = [], 0
         plan = tuple(self._answer.human_plan or ())
@@ -182,7 +182,7 @@ class Played:
         begun = (step for one in self._trace.epochs for step in one.steps if human in step.agents)
         return any(step.epoch < epoch.epoch <= step.end for step in begun)
 
-    def _turn(self, epoch: TraceEpoch, last: int, former: tuple[str, ...]) -> Turn:
+    def _turn(self, epoch: TraceEpoch, last: int, former: tuple[str, ...]) -> ChangeOfMind:
         """What happens in an epoch, the person having looked up before that in the epoch ``last``."""
         joint = self._joint(epoch)
         why = "joins" if joint else "tries" if epoch.failed else epoch.decision
@@ -190,7 +190,7 @@ class Played:
         matters = self._matters((*former, *epoch.plan, *(() if joint is None else (joint.action,))))
         since = [one for one in self._trace.epochs if last < one.epoch <= epoch.epoch]
         saw = dict.fromkeys(fact for one in since for fact in one.saw if fact.removeprefix("not ") in matters)
-        return Turn(
+        return ChangeOfMind(
             epoch.epoch,
             why,
             epoch.did if joint or epoch.failed else None,

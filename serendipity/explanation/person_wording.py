@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from serendipity.explanation.person import Contrast, Turn
+from serendipity.explanation.person import ChangeOfMind, Contrast
 from serendipity.explanation.telling_time import begin
 from serendipity.model.numbers import plain
 
@@ -48,7 +48,7 @@ def _contrasts(found: "Explanation", change: str) -> list[Contrast]:
     return [one for one in (found.reaction.contrasts if found.reaction else ()) if one.change == change]
 
 
-def _turn(turn: Turn, who: str) -> str:
+def _turn(turn: ChangeOfMind, who: str) -> str:
     if turn.why == "joins":
         alone = (
             "alone there would be no way" if turn.best is None else f"alone it would be {plain(turn.best)}"
@@ -63,7 +63,7 @@ def _turn(turn: Turn, who: str) -> str:
     return f"replans: {plain(turn.best)} from here instead of {plain(turn.kept)}{_gone(turn)}"
 
 
-def _seen(turn: Turn) -> str:
+def _seen(turn: ChangeOfMind) -> str:
     facts, deeds = ", ".join(turn.saw), "; ".join(f"'{name}'" for name in turn.because)
     if facts and deeds:
         return f"finds {facts} (after {deeds}), and "
@@ -72,7 +72,7 @@ def _seen(turn: Turn) -> str:
     return f"sees {deeds}, and " if deeds else ""
 
 
-def _gone(turn: Turn) -> str:
+def _gone(turn: ChangeOfMind) -> str:
     left, instead = "; ".join(turn.removed), "; ".join(turn.replacement)
     if left and instead:
         return f"; left out: {left}; instead: {instead}"

@@ -22,7 +22,7 @@ Keep = Callable[[frozenset[L], frozenset[L]], Iterator[Answer]]
 """Answers to the call without prices, with some priced literals kept, and some paid for in any case."""
 
 
-class Question(Protocol[L]):
+class PricedQuestion(Protocol[L]):
     """A call whose answers pay for what they leave.
 
     Attributes:
@@ -48,7 +48,7 @@ class Question(Protocol[L]):
         """The best answer, proved: doing nothing where it is no opportunity."""
 
 
-class _Call(NamedTuple, Generic[L]):
+class _OpenCall(NamedTuple, Generic[L]):
     """A call without prices that is to be answered; ordered by its bound.
 
     Attributes:
@@ -64,7 +64,7 @@ class _Call(NamedTuple, Generic[L]):
     paid: frozenset[L]
 
 
-class Prices:
+class LeftoverPrices:
     """What has to be paid at least for what is left.
 
     Who is no more where they would be is somewhere else: of a group of facts of which exactly one is true the
@@ -111,7 +111,7 @@ class OnePlan:
     adds_up = True
 
     def __init__(self, call: Request, rule: Kept) -> None:
-        self._call, self._rule, self._prices = call, rule, Prices(call.task, rule)
+        self._call, self._rule, self._prices = call, rule, LeftoverPrices(call.task, rule)
         self._options = call.options
 
     def least(self, kept: frozenset[Literal], paid: frozenset[Literal]) -> Fraction:
@@ -160,7 +160,7 @@ def paying(answer: Answer, found: Iterable[tuple[int, Fraction]]) -> Answer:
     )
 
 
-def priced(options: Options, question: Question[L], keep: Keep[L]) -> Iterator[Answer]:
+def priced(options: Options, question: PricedQuestion[L], keep: Keep[L]) -> Iterator[Answer]:
     """Answers with what they leave among their costs, as they get better.
 
     Args:
@@ -169,7 +169,7 @@ def priced(options: Options, question: Question[L], keep: Keep[L]) -> Iterator[A
         keep: answers it without prices.
     """
     nothing = frozenset[L]()
-    calls, number = [_Call(Fraction(0), 0, nothing, nothing)], 0
+    calls, number = [_OpenCall(Fraction(0), 0, nothing, nothing)], 0
     best: Answer | None = None
     alone: Fraction | None = None  # known where nothing is kept, which would be a goal of the robots'
     while calls and (best is None or calls[0].bound <= question.total(best)):
@@ -191,12 +191,12 @@ def priced(options: Options, question: Question[L], keep: Keep[L]) -> Iterator[A
         unsettled = question.open(found, kept, paid)
         if unsettled and not question.adds_up:
             number += 1
-            heapq.heappush(calls, _Call(question.total(found), number, kept, paid.union(unsettled)))
+            heapq.heappush(calls, _OpenCall(question.total(found), number, kept, paid.union(unsettled)))
         for literal in unsettled:
             number += 1
             more = kept | {literal}
             least = question.total(found) + question.least(more, paid)
-            heapq.heappush(calls, _Call(max(bound, least), number, more, paid))
+            heapq.heappush(calls, _OpenCall(max(bound, least), number, more, paid))
             paid |= {literal}
         if best is not None and calls:
             yield _unproved(options, question, best, calls[0].bound)
@@ -204,11 +204,11 @@ def priced(options: Options, question: Question[L], keep: Keep[L]) -> Iterator[A
         yield question.settled(best)
 
 
-def _order(question: Question[L], answer: Answer) -> tuple[Fraction, Fraction]:
+def _order(question: PricedQuestion[L], answer: Answer) -> tuple[Fraction, Fraction]:
     return question.total(answer), answer.cost or Fraction(0)
 
 
-def _unproved(options: Options, question: Question[L], answer: Answer, bound: Fraction) -> Answer:
+def _unproved(options: Options, question: PricedQuestion[L], answer: Answer, bound: Fraction) -> Answer:
     """An answer on the way, or at a limit."""
     if answer.cost is None:
         return answer

@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade.call import Request
 from serendipity.facade.kept import Kept, Literal, left_by
-from serendipity.facade.leftovers import Prices, paying, priced
+from serendipity.facade.leftovers import LeftoverPrices, paying, priced
 from serendipity.model import Deadline, Options, Task
 from serendipity.model.answers.answer import Answer, ServedGoal
 
@@ -54,7 +54,7 @@ class OverScenarios:
     def __init__(self, asked: PricedScenarios, idle: Answer) -> None:
         self._task, self._options, candidates, self._rules, self._last = asked
         self._shares, self._idle = [one.weight for one in candidates], idle
-        self._prices = [Prices(self._task, rule) for rule in self._rules]
+        self._prices = [LeftoverPrices(self._task, rule) for rule in self._rules]
 
     def least(self, kept: Literals, paid: Literals) -> Fraction:
         """See :class:`.Question`."""

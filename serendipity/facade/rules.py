@@ -29,7 +29,7 @@ from serendipity.model import Condition, Deadline, HumanPlan, Options, Step, Tas
 from serendipity.model.answers.answer import Answer, ServedGoal
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import INFINITE
-from serendipity.model.task.disturbance import Weighed, disturbance_from
+from serendipity.model.task.disturbance import DisturbanceTask, disturbance_from
 from serendipity.model.task.gate import is_bound, require_metered
 from serendipity.model.task.horizon import common_horizon
 from serendipity.model.task.leftovers import leftovers
@@ -273,7 +273,7 @@ class Calm:
     """A task in which help disturbs the human no more than it may (semantics 13)."""
 
     def __init__(self, task: Task, original: Task, options: Options, deadline: Deadline) -> None:
-        self._weighed = Weighed(task, disturbance_from(options.disturbance), original)
+        self._weighed = DisturbanceTask(task, disturbance_from(options.disturbance), original)
         most, weights = options.max_disturbance or Fraction(0), self._weighed.weights
         self._metered = Metered(self._weighed.task, most, deadline, weights, "disturbed")
         self.task = self._metered.task
@@ -349,7 +349,7 @@ def _is_known(call: Request, task: Task, answer: Answer | ServedGoal, last: int)
 def disturbance_of(call: Request, answer: Answer | ServedGoal) -> Fraction:
     """How much an answer disturbs the human."""
     task = call.task
-    weighed = Weighed(task, disturbance_from(call.options.disturbance), call.original or task)
+    weighed = DisturbanceTask(task, disturbance_from(call.options.disturbance), call.original or task)
     variants: dict[int, list[int]] = {}
     for new, number in enumerate(weighed.original):
         variants.setdefault(number, []).append(new)

@@ -25,7 +25,7 @@ _STREAMED: Final = b"text/event-stream"
 
 
 @dataclass(slots=True)
-class _Kept:
+class _KeptReply:
     """A request under a key, and its answer."""
 
     digest: bytes
@@ -46,7 +46,7 @@ class Repeats:
         self._most = most
         self._bytes = bytes_
         self._seconds = seconds
-        self._kept: OrderedDict[str, _Kept] = OrderedDict()
+        self._kept: OrderedDict[str, _KeptReply] = OrderedDict()
         self._working: set[asyncio.Task[None]] = set()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -76,7 +76,7 @@ class Repeats:
             return
         repeated = known is not None
         if known is None:
-            known = self._kept[key] = _Kept(digest, time.monotonic())
+            known = self._kept[key] = _KeptReply(digest, time.monotonic())
             work = asyncio.create_task(self._work(key, known, body, scope))
             self._working.add(work)
             work.add_done_callback(self._working.discard)
@@ -89,7 +89,7 @@ class Repeats:
                 MutableHeaders(scope=message)["Idempotency-Replayed"] = "true"
             await send(message)
 
-    async def _work(self, key: str, kept: _Kept, body: bytes, scope: Scope) -> None:
+    async def _work(self, key: str, kept: _KeptReply, body: bytes, scope: Scope) -> None:
         """Have a request answered, whoever still waits for it."""
         whole: list[Message] = [{"type": "http.request", "body": body, "more_body": False}]
 
@@ -114,7 +114,7 @@ class Repeats:
                 self._kept.pop(key, None)
             kept.done.set()
 
-    def _forget(self, asked: str) -> OrderedDict[str, _Kept]:
+    def _forget(self, asked: str) -> OrderedDict[str, _KeptReply]:
         """What is kept, with room for a key that is asked; nothing that is worked on is forgotten."""
         oldest = time.monotonic() - self._seconds
         most = self._most if asked in self._kept else self._most - 1

@@ -17,7 +17,7 @@ _IN_VAIN: Final = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Played:
+class PersonPlayed:
     """What became of one person: what they paid (alone at least, if late), and when they were there."""
 
     scenario: Scenario
@@ -68,7 +68,7 @@ class Run:
         """Play an epoch."""
         self.loop.step(self._person.choose(moment_of(self.loop)))
 
-    def played(self) -> Played:
+    def played(self) -> PersonPlayed:
         """What has become of it."""
         run, alone = self.loop, self._scenario.alone
         away = [passed.epoch for passed in run.passed if not passed.done]
@@ -80,10 +80,14 @@ class Run:
             paid = max(paid, alone)
         verdicts = [passed.decided.verdict for passed in run.passed]
         faults = self._robots.faults if isinstance(self._robots, AskedRobots) else ()
-        return Played(self._scenario, paid, arrived, len(verdicts), verdicts.count("late"), tuple(faults))
+        return PersonPlayed(
+            self._scenario, paid, arrived, len(verdicts), verdicts.count("late"), tuple(faults)
+        )
 
 
-def played(case: Case, helper: Helper, deadline: float | None, setup: float = SETUP) -> Iterator[Played]:
+def played(
+    case: Case, helper: Helper, deadline: float | None, setup: float = SETUP
+) -> Iterator[PersonPlayed]:
     """A case, for each of its scenarios once: what it comes to in the mean is not left to chance."""
     for scenario in case.scenarios:
         seconds = helper.seconds or deadline

@@ -11,7 +11,7 @@ from serendipity.model import Table
 from serendipity.model.table import Tabular, table_of
 from serendipity.model.telling import Grid, Line, Output, as_html, as_page, counted, wide
 from serendipity_testing.league.cases import Case
-from serendipity_testing.league.play import Played
+from serendipity_testing.league.play import PersonPlayed
 
 SCHEMA: Final = "serendipity.league/1"
 
@@ -77,16 +77,16 @@ class Score:
     fault: str | None
 
 
-def score(helper: str, case: Case, played: Sequence[Played]) -> Score:
+def score(helper: str, case: Case, played: Sequence[PersonPlayed]) -> Score:
     """The row of a case."""
 
-    def mean(figure: Callable[[Played], Fraction | int]) -> Fraction:
+    def mean(figure: Callable[[PersonPlayed], Fraction | int]) -> Fraction:
         return sum((one.scenario.probability * figure(one) for one in played), Fraction(0))
 
-    def more(one: Played) -> Fraction:
+    def more(one: PersonPlayed) -> Fraction:
         return max(one.paid - one.scenario.alone, Fraction(0))
 
-    def later(one: Played) -> int:
+    def later(one: PersonPlayed) -> int:
         return max((one.arrived or 0) - len(one.scenario.plan), 0)
 
     paid = mean(lambda one: one.paid)

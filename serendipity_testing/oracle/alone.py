@@ -8,7 +8,7 @@ from functools import cache
 from typing import NamedTuple
 
 from serendipity.model import Condition, HumanPlan, Script, Task, TimedPlan, UsageError
-from serendipity_testing.oracle.moments import Moment, World
+from serendipity_testing.oracle.moments import Moment, OracleWorld
 from serendipity_testing.oracle.noticing import Notices
 
 Worth = tuple[Fraction, int, int]
@@ -46,7 +46,7 @@ class Alone:
         notices: Notices | None = None,
     ) -> None:
         self.task = task
-        self.world = World(task, strict=strict, notices=notices)
+        self.world = OracleWorld(task, strict=strict, notices=notices)
         self.waiting_cost = waiting_cost
         self.worth, self.acting = cache(self._worth), cache(self._least)
         self._settled: dict[Moment, Worth | None] = {}

@@ -6,7 +6,7 @@ from math import lcm
 from serendipity.model import Options
 from serendipity.model.task.disturbance import disturbance_from
 from serendipity.model.task.visibility import surroundings
-from serendipity_testing.oracle.moments import Moment, World
+from serendipity_testing.oracle.moments import Moment, OracleWorld
 
 
 class Disturbing:
@@ -20,7 +20,7 @@ class Disturbing:
         scale: amounts are counted in that part of 1.
     """
 
-    def __init__(self, world: World, options: Options) -> None:
+    def __init__(self, world: OracleWorld, options: Options) -> None:
         self._world, self._task = world, world.task
         kinds = disturbance_from(options.disturbance)
         self.scale = lcm(*(weight.denominator for weight in (kinds.ask, kinds.meet, kinds.sight)))

@@ -33,7 +33,7 @@ class Moment(NamedTuple):
     noticing: Noticing = FRESH
 
 
-class World:
+class OracleWorld:
     """What may happen in an epoch of a task, bystanders and the script included.
 
     Args:
@@ -192,4 +192,4 @@ def action_sets(
     task: Task, state: State, candidates: Iterable[int], *, strict: bool = False
 ) -> Iterator[tuple[int, ...]]:
     """Every set of actions of one epoch each that is applicable in a state, the empty one included."""
-    return (chosen for chosen, _ in World(task, strict=strict).sets(Moment(state), 1, candidates))
+    return (chosen for chosen, _ in OracleWorld(task, strict=strict).sets(Moment(state), 1, candidates))

@@ -5,7 +5,7 @@ from fractions import Fraction
 from serendipity.model import Condition, HumanPlan, Options, Task
 from serendipity.model.task.leftovers import leftovers
 from serendipity_testing.oracle.epochs import State, after, holds, usable
-from serendipity_testing.oracle.moments import Going, Moment, World
+from serendipity_testing.oracle.moments import Going, Moment, OracleWorld
 
 
 def counts_everybody(task: Task, options: Options) -> bool:
@@ -13,7 +13,7 @@ def counts_everybody(task: Task, options: Options) -> bool:
     return bool(task.script.people) if options.nobody_pays is None else options.nobody_pays
 
 
-class Rule:
+class LastMomentRule:
     """What a last moment has to be like.
 
     Args:
@@ -23,7 +23,7 @@ class Rule:
         last: ``T``.
     """
 
-    def __init__(self, world: World, options: Options, plan: HumanPlan | None, last: int) -> None:
+    def __init__(self, world: OracleWorld, options: Options, plan: HumanPlan | None, last: int) -> None:
         self._world, self._task, self._last = world, world.task, last
         self._goals = dict(self._task.own_goals)
         idle = _idle(world, plan or (), last)
@@ -107,7 +107,7 @@ def unpriced(options: Options) -> Options:
     return options.but(leave_price=free or None)
 
 
-def _idle(world: World, plan: HumanPlan, last: int) -> Moment | None:
+def _idle(world: OracleWorld, plan: HumanPlan, last: int) -> Moment | None:
     """The moment after ``T`` if the human follows a plan, and robots do nothing; None if that can't be."""
     begun = dict(zip(world.task.starts_of(plan), plan, strict=True))
     now: Moment | None = Moment(world.task.init)

@@ -14,7 +14,7 @@ from serendipity_testing.oracle.disturbing import Disturbing
 from serendipity_testing.oracle.epochs import holds
 from serendipity_testing.oracle.labels import NOTHING, Label, Layer, Moves, advance, front, plus
 from serendipity_testing.oracle.moments import Moment
-from serendipity_testing.oracle.nobody_pays import Rule, counts_everybody
+from serendipity_testing.oracle.nobody_pays import LastMomentRule, counts_everybody
 from serendipity_testing.oracle.noticing import Notices
 from serendipity_testing.oracle.suffixes import Suffixes
 
@@ -65,7 +65,7 @@ class Plans:
         self._steps: dict[object, list[tuple[Moment, Label]]] = {}
         self._priced = cache(self.price)
         self._require_plan()
-        self._rule: Rule | None = None
+        self._rule: LastMomentRule | None = None
         self._disturbing = Disturbing(self.world, options)
         self._most: int | None = None
         self._set_rule()
@@ -80,7 +80,7 @@ class Plans:
         if options.mode == "individual" or not isinstance(last, int):
             return
         if nobody_pays or leftovers(options) is not None:
-            self._rule = Rule(self.world, options, self.human_plan, last)
+            self._rule = LastMomentRule(self.world, options, self.human_plan, last)
         if nobody_pays and self.human_plan is not None:
             self._most = self.units(self.cost_of_plan())
 

@@ -29,7 +29,7 @@ class BeliefState:
 
 
 @dataclass(frozen=True, slots=True)
-class Best:
+class LeastCost:
     """Least (cost, number of actions) over all sequences; None if none reaches the goals."""
 
     cost: Fraction | None
@@ -38,7 +38,7 @@ class Best:
 
 def best_reaction(
     task: Task, options: Options, human_plan: HumanPlan | None = None, visible: Visible | None = None
-) -> Best:
+) -> LeastCost:
     """The optimum over robots' action sequences of at most ``T`` epochs.
 
     Args:
@@ -68,7 +68,7 @@ def best_reaction(
                     label = (cost + paid, actions + len(chosen))
                     following[onward] = min(label, following.get(onward, label))
         layer = following
-    return Best(*min(reached)) if reached else Best(None, None)
+    return LeastCost(*min(reached)) if reached else LeastCost(None, None)
 
 
 def _slots(task: Task, starts: tuple[int, ...], plan: HumanPlan, end: int, over: int = 0) -> Slots:

@@ -17,8 +17,8 @@ from typing import NamedTuple, Protocol
 from serendipity.model import Condition, HumanPlan, Options, Task, UsageError
 from serendipity.model.task.leftovers import leftovers
 from serendipity_testing.oracle.disturbing import Disturbing
-from serendipity_testing.oracle.moments import Moment, World
-from serendipity_testing.oracle.nobody_pays import Rule, counts_everybody, unpriced
+from serendipity_testing.oracle.moments import Moment, OracleWorld
+from serendipity_testing.oracle.nobody_pays import LastMomentRule, counts_everybody, unpriced
 from serendipity_testing.oracle.noticing import Notices
 from serendipity_testing.oracle.plans import smallest_unit
 from serendipity_testing.oracle.suffixes import CanonicalSuffix
@@ -132,7 +132,7 @@ class _Situation(NamedTuple):
 _Group = tuple[_Situation, ...]
 
 
-class _Way(NamedTuple):
+class _Outcome(NamedTuple):
     """What may come of an epoch in a scenario."""
 
     seen: str | None
@@ -157,7 +157,7 @@ class _Policies:
         self.scenarios = scenarios
         self.unit = smallest_unit(task, options)
         self.weight = int(options.window_weight * self.unit)
-        self.world = World(task, strict=options.strict)
+        self.world = OracleWorld(task, strict=options.strict)
         self.starts = [dict(zip(task.starts_of(one.plan), one.plan, strict=True)) for one in scenarios]
         tasks = [replace(task, goal=one.goal) for one in scenarios]
         notices = [
@@ -165,7 +165,8 @@ class _Policies:
             for own, one in zip(tasks, scenarios, strict=True)
         ]
         self.worlds = [
-            World(own, strict=options.strict, notices=seen) for own, seen in zip(tasks, notices, strict=True)
+            OracleWorld(own, strict=options.strict, notices=seen)
+            for own, seen in zip(tasks, notices, strict=True)
         ]
         self.suffixes = [
             CanonicalSuffix(own, options, one.plan, horizon, seen)
@@ -175,10 +176,10 @@ class _Policies:
         self.own = [i for i, a in enumerate(task.actions) if robots and task.human not in a.participants]
         human = [i for i, a in enumerate(task.actions) if task.human in a.participants]
         self.parts: list[int | None] = [None, *(i for i in human if robots or not task.actions[i].joint)]
-        self.rules: list[Rule] = []
+        self.rules: list[LastMomentRule] = []
         self.limited = counts_everybody(task, options)
         if self.limited or leftovers(options) is not None:
-            self.rules = [Rule(self.world, options, one.plan, horizon) for one in scenarios]
+            self.rules = [LastMomentRule(self.world, options, one.plan, horizon) for one in scenarios]
         self.front, self.part, self.ways = cache(self._front), cache(self._part), cache(self._ways)
 
     def vectors(self) -> Iterator[tuple[Worth, ...]]:
@@ -226,15 +227,15 @@ class _Policies:
 
     def _ways(
         self, epoch: int, now: _Situation, robots: tuple[int, ...]
-    ) -> Mapping[str | None, Sequence[_Way]]:
+    ) -> Mapping[str | None, Sequence[_Outcome]]:
         """Everything that the human may do beside the robots, by what these see of it."""
-        found: dict[str | None, list[_Way]] = {}
+        found: dict[str | None, list[_Outcome]] = {}
         for way in self._human(epoch, now, robots):
             seen = way.seen if self.options.policy == "watching" else None
             found.setdefault(seen, []).append(way)
         return found
 
-    def _human(self, epoch: int, now: _Situation, robots: tuple[int, ...]) -> Iterator[_Way]:
+    def _human(self, epoch: int, now: _Situation, robots: tuple[int, ...]) -> Iterator[_Outcome]:
         """Rules 1 to 3 of semantics 3.1."""
         if now.rest is not None:
             his = now.rest[0] if now.rest else None
@@ -261,7 +262,7 @@ class _Policies:
         *,
         since: int | None = None,
         rest: Rest | None = None,
-    ) -> Iterator[_Way]:
+    ) -> Iterator[_Outcome]:
         """The epoch in which the human begins an action, or none, if they can do that beside the robots."""
         begun = robots if his is None else (*robots, his)
         moment, most = self.worlds[now.scenario].after(now.moment, epoch, begun), self.options.max_disturbance
@@ -276,9 +277,9 @@ class _Policies:
                 if paid > self.task.cost_of(self.scenarios[now.scenario].plan):
                     return
             after = _Situation(now.scenario, moment, since, rest, paid, disturbed)
-            yield _Way(seen, (cost, cost), after)
+            yield _Outcome(seen, (cost, cost), after)
 
-    def _closed(self, epoch: int, inside: _Way) -> Iterator[_Way]:
+    def _closed(self, epoch: int, inside: _Outcome) -> Iterator[_Outcome]:
         """The same epoch, as the last one of the window, by when robots have ended what they began."""
         scenario, moment, since, *_ = inside.now
         assert since is not None

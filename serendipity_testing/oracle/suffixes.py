@@ -9,7 +9,7 @@ from serendipity.model import HumanPlan, Options, Task
 from serendipity_testing.oracle.alone import Alone
 from serendipity_testing.oracle.epochs import State, after, holds, usable
 from serendipity_testing.oracle.labels import Front, Label, front, plus
-from serendipity_testing.oracle.moments import Moment, World
+from serendipity_testing.oracle.moments import Moment, OracleWorld
 from serendipity_testing.oracle.noticing import Notices
 
 
@@ -133,7 +133,7 @@ class Suffixes:
         return front(labels)
 
 
-def _states(world: World, human_plan: HumanPlan) -> list[State]:
+def _states(world: OracleWorld, human_plan: HumanPlan) -> list[State]:
     """What has to hold after the first j actions of ``pi_H``: what the human's own domain mentions."""
     task = world.task
     mentioned = set(task.goal.positive) | set(task.goal.negative)

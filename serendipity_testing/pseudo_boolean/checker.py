@@ -7,7 +7,7 @@ Anything else is an error, so that nothing is accepted which is not understood.
 from collections import defaultdict
 from itertools import chain
 
-from serendipity_testing.pseudo_boolean.opb import Constraint, Problem, constraint_of
+from serendipity_testing.pseudo_boolean.opb import Constraint, PseudoBooleanProblem, constraint_of
 
 _SOLUTIONS = {"1.1": "o", "2.0": "soli"}
 
@@ -16,7 +16,7 @@ class ProofError(ValueError):
     """A proof does not hold; the text says which line."""
 
 
-def check(problem: Problem, proof: str) -> int | None:
+def check(problem: PseudoBooleanProblem, proof: str) -> int | None:
     """The optimum that a proof shows; None where it shows that nothing satisfies the constraints.
 
     Raises:
@@ -38,7 +38,7 @@ def check(problem: Problem, proof: str) -> int | None:
 class _Checked:
     """What a proof has derived so far."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: PseudoBooleanProblem) -> None:
         self.best: int | None = None
         self.ended = False
         self._problem = problem

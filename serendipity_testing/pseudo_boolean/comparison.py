@@ -6,11 +6,11 @@ from typing import Any
 
 from serendipity.model import Result, Task
 from serendipity_testing.oracle import Alone, Moment
-from serendipity_testing.pseudo_boolean.opb import Problem
+from serendipity_testing.pseudo_boolean.opb import PseudoBooleanProblem
 from serendipity_testing.pseudo_boolean.question import NotMadeError, question_of
 from serendipity_testing.pseudo_boolean.second import program
 
-Solver = Callable[[Problem], int | None]
+Solver = Callable[[PseudoBooleanProblem], int | None]
 """The least objective of a problem; None where nothing satisfies it."""
 
 

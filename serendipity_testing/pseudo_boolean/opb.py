@@ -22,7 +22,7 @@ class Constraint(NamedTuple):
 
 
 @dataclass(slots=True)
-class Problem:
+class PseudoBooleanProblem:
     """A problem; an equality is two constraints, first ``>=``, as VeriPB counts them.
 
     Attributes:
@@ -69,9 +69,9 @@ def constraint_of(text: str) -> tuple[dict[str, int], str, int]:
     return terms, sense, int(right) - constant
 
 
-def read(text: str) -> Problem:
+def read(text: str) -> PseudoBooleanProblem:
     """The problem that an OPB file states, or a ValueError."""
-    problem = Problem()
+    problem = PseudoBooleanProblem()
     for line in text.splitlines():
         if line.startswith("*") or not line.strip():
             continue

@@ -18,7 +18,7 @@ class NotMadeError(ValueError):
 
 
 @dataclass(frozen=True)
-class Question:
+class PlansAsked:
     """Which plans are asked about, at what price.
 
     Attributes:
@@ -43,7 +43,7 @@ def require_no_time(task: Task, options: Options) -> None:
         raise NotMadeError("semantics 10")
 
 
-def question_of(task: Task, result: Result, entry: Mapping[str, Any]) -> Question:
+def question_of(task: Task, result: Result, entry: Mapping[str, Any]) -> PlansAsked:
     """The question of a program; a NotMadeError for others, time, and one of the human's several plans."""
     told = _NAME.fullmatch(entry["name"])
     if told is None or "/" not in entry["unit"] or not int(told[2]):
@@ -57,4 +57,4 @@ def question_of(task: Task, result: Result, entry: Mapping[str, Any]) -> Questio
     ]
     plan = task.plan_from_names(result.human_plan) if result.human_plan else ()
     most = None if told[5] is None else int(told[5]) * Fraction(entry["unit"])
-    return Question(task, result.options, plan, int(told[2]), told[1], told[3] is None, most, suffixes)
+    return PlansAsked(task, result.options, plan, int(told[2]), told[1], told[3] is None, most, suffixes)

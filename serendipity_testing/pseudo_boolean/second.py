@@ -15,13 +15,13 @@ from math import lcm
 
 from serendipity.model import GroundAction, Task
 from serendipity_testing.oracle import Alone, Moment
-from serendipity_testing.pseudo_boolean.opb import Problem
-from serendipity_testing.pseudo_boolean.question import NotMadeError, Question, require_no_time
+from serendipity_testing.pseudo_boolean.opb import PseudoBooleanProblem
+from serendipity_testing.pseudo_boolean.question import NotMadeError, PlansAsked, require_no_time
 
 Terms = dict[str, int]
 
 
-def program(question: Question) -> tuple[Problem, Fraction]:
+def program(question: PlansAsked) -> tuple[PseudoBooleanProblem, Fraction]:
     """The program of a question, and its unit; a NotMadeError for time, and states that are preserved."""
     options = question.options
     require_no_time(question.task, options)
@@ -31,11 +31,11 @@ def program(question: Question) -> tuple[Problem, Fraction]:
 
 
 class _Maker:
-    def __init__(self, question: Question) -> None:
+    def __init__(self, question: PlansAsked) -> None:
         self.question, self.task, self.options = question, question.task, question.options
         self.epochs = range(1, question.epochs + 1)
         self.human = self.task.human
-        self.problem = Problem()
+        self.problem = PseudoBooleanProblem()
         prices = [self.task.team_cost(one, self.options.discount) for one in self.task.actions]
         talk = [self._talk(i) for i in range(len(self.task.actions))]
         amounts = (*prices, *talk, self.options.window_weight)
@@ -43,7 +43,7 @@ class _Maker:
         self.price = [int(amount * self.scale) for amount in prices]
         self.weight = [int((a + b) * self.scale) for a, b in zip(prices, talk, strict=True)]
 
-    def made(self) -> tuple[Problem, Fraction]:
+    def made(self) -> tuple[PseudoBooleanProblem, Fraction]:
         """The program and its unit."""
         self.problem.objective = self._sum(self.weight, self.epochs)
         self._states()

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity import Explanation, PlanError, Script, Task, UsageError
-from serendipity.explanation.person import Played
+from serendipity.explanation.person import PlayedAnswer
 from serendipity.explanation.waiting import Wait, waits
 from serendipity.model import Deadline, TimedPlan
 from serendipity_testing.builders import Builder, task
@@ -260,7 +260,7 @@ def test_what_hinges_on_robots_is_what_happens_otherwise(seed: int, discount: st
     except (UsageError, PlanError):
         assume(False)
     assume(answer.opportunity)
-    played = Played(call.task, answer, Deadline())
+    played = PlayedAnswer(call.task, answer, Deadline())
     assert [float(cost) for cost in played.alone().costs] == [answer.human_cost]
     assert played.alone().as_planned
     for turn in played.turns():

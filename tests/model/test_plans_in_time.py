@@ -15,7 +15,7 @@ from serendipity.model import GroundAction, PlanError, Script, Task, TimedFact, 
 from serendipity.model.task.course import BrokenPlanError, PlayedPlan
 from serendipity.model.task.plans_in_time import outlasts, plan_in_time
 from serendipity_testing.builders import task
-from serendipity_testing.oracle.moments import Moment, World
+from serendipity_testing.oracle.moments import Moment, OracleWorld
 from serendipity_testing.strategies import tasks_in_time
 
 
@@ -117,7 +117,7 @@ def test_the_course_of_plans_is_that_of_brute_force(data: st.DataObject, strict:
     """Both go through the same epochs, with any actions begun in them, and say the same of each."""
     built = data.draw(tasks_in_time())
     course = PlayedPlan(built.facts, built.init, built.script, strict=strict)
-    world, moment = World(built, strict=strict), Moment(built.init)
+    world, moment = OracleWorld(built, strict=strict), Moment(built.init)
     for epoch in range(1, data.draw(st.integers(1, 7)) + 1):
         begun = data.draw(st.lists(st.sampled_from(range(len(built.actions))), max_size=2, unique=True))
         wanted = tuple(sorted(begun))

@@ -16,7 +16,7 @@ import serendipity
 from serendipity.model import GroundAction, Result, Script, UsageError
 from serendipity.pictures import Scene, build_scene, draw
 from serendipity.pictures.map.names import ems
-from serendipity.pictures.picture.drawing import Group, Polyline, Rect, Shape, Text
+from serendipity.pictures.picture.drawing import Polyline, Rect, Shape, ShapeGroup, Text
 from serendipity.pictures.picture.timeline_picture import column, lane_labels, timeline_picture
 from serendipity.pictures.picture.tree_picture import tree, tree_height
 from serendipity.pictures.scene.scene import headline, scenario_lines
@@ -53,7 +53,7 @@ def scene_of(result: Result, scenario: str | None = None) -> Scene:
 def texts(shapes: tuple[Shape, ...], x: float = 0, y: float = 0) -> Iterator[Text]:
     """The words of a picture, where they stand on its sheet."""
     for shape in shapes:
-        if isinstance(shape, Group):
+        if isinstance(shape, ShapeGroup):
             yield from texts(shape.shapes, x + shape.x, y + shape.y)
         elif isinstance(shape, Text) and shape.text:
             yield replace(shape, x=x + shape.x, y=y + shape.y)
@@ -112,8 +112,8 @@ def test_no_line_runs_through_words(rooms: int, column: int) -> None:
 def test_the_frame_of_the_shown_epoch_stands_behind_words(watching: Result, room2: Scene) -> None:
     for scene in (scene_of(watching), room2):
         shapes = timeline_picture(scene, now=2).shapes
-        frame = next(i for i, s in enumerate(shapes) if isinstance(s, Group) and "cursor" in s.data)
-        behind = [s for s in shapes[:frame] if not (isinstance(s, Group) and "column" in s.data)]
+        frame = next(i for i, s in enumerate(shapes) if isinstance(s, ShapeGroup) and "cursor" in s.data)
+        behind = [s for s in shapes[:frame] if not (isinstance(s, ShapeGroup) and "column" in s.data)]
         assert not [*texts(tuple(behind))]
 
 
@@ -126,7 +126,7 @@ def test_bars_in_time_stand_below_the_clock_and_are_as_long_as_actions() -> None
     answer = serendipity.plan(task, plans=library, discount="0.9")
     scene = build_scene(task, answer)
     require_apart(scene, (0, None), (0, 10), (11, 20))
-    acts = [shape for shape in tree(scene, 0, 0, 25, 10) if isinstance(shape, Group)]
+    acts = [shape for shape in tree(scene, 0, 0, 25, 10) if isinstance(shape, ShapeGroup)]
     bars = [next(s.width for s in act.shapes if isinstance(s, Rect)) for act in acts]
     durations = [step.duration for history in scene.histories for step in history.robots]
     assert len({bar // 10 for bar in bars}) == len(set(durations)) > 1

@@ -14,7 +14,7 @@ from verify.base.due import Moments, going_on, onward, waited
 from verify.base.execution import State, applicable, awake, due, idling, is_calm
 from verify.base.individual import Graph, IndividualOptimum
 from verify.base.shortest_paths import PathSearch
-from verify.base.undecided import SEARCHING, TooManyStatesError, during
+from verify.base.undecided import SEARCHING, HumanTooLargeError, during
 from verify.limits import limits
 
 
@@ -104,7 +104,7 @@ class AloneBesideScript(IndividualOptimum):
             if self._task.goal.holds(here):
                 return search.distance[here]
             if expansions >= limits().own_states:
-                raise TooManyStatesError
+                raise HumanTooLargeError
         return None
 
     def _bound(self, state: State) -> int | None:

@@ -14,7 +14,7 @@ from verify.base.bit_distances import BitDistances
 from verify.base.execution import after, applicable, awake, states_of_pi_h
 from verify.base.operators import OwnActions
 from verify.base.shortest_paths import PathSearch
-from verify.base.undecided import SEARCHING, TooManyStatesError, during
+from verify.base.undecided import SEARCHING, HumanTooLargeError, during
 from verify.limits import limits
 
 if TYPE_CHECKING:
@@ -156,7 +156,7 @@ class IndividualOptimum:
                 if packed is not None:
                     return packed if packed >= 0 else None
             if expansions >= most:
-                raise TooManyStatesError
+                raise HumanTooLargeError
         return None
 
     def _packed_least(self, state: State, below: int | None) -> int | None:
@@ -174,7 +174,7 @@ class IndividualOptimum:
             self._long = False
             return None
         except cheapest_path.TooManyPackedStatesError:
-            raise TooManyStatesError from None
+            raise HumanTooLargeError from None
         return -1 if weight is None else weight
 
     @cached_property

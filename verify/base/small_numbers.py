@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final
 
-from verify.base.subproblem import Prices, Subproblem, least
+from verify.base.subproblem import IntegerPrices, Subproblem, least
 from verify.limits import limits
 
 _STEPS: Final = 50_000
@@ -102,7 +102,7 @@ def with_small_numbers(question: Subproblem) -> tuple[Subproblem, OrderOfSums]:
     (epoch,) = _within((prices.epoch,), most)
     an_epoch = len(question.task.agents) + any(talk) + (epoch > 0)  # only the human talks
     order = OrderOfSums.of(frozenset((*team, *talk, epoch)), 2 * question.horizon * an_epoch)
-    small = Prices(0, tuple(map(order, team)), tuple(map(order, talk)), order(epoch))
+    small = IntegerPrices(0, tuple(map(order, team)), tuple(map(order, talk)), order(epoch))
     found = question.but(prices=small, most=None)  # no plan has more than the largest
     given = (None if each is None else min(order.limit(each), found.largest) for each in (most, most_cost))
     most, most_cost = given

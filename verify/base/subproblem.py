@@ -23,7 +23,7 @@ FREE, WINDOW, EXACT, ALONE = "free", "window", "exact", "alone"
 
 
 @dataclass(frozen=True, slots=True)
-class Prices:
+class IntegerPrices:
     """Integer costs of one question, in units of ``1 / scale``.
 
     Attributes:
@@ -77,7 +77,7 @@ class Subproblem:
     rule: str
     human_plan: HumanPlan
     horizon: int
-    prices: Prices
+    prices: IntegerPrices
     any_of: OptimalPlanGraph | None = None
     robots: bool = True
     robots_goal: bool = True
@@ -166,7 +166,9 @@ _Kind = tuple[tuple[int, int], bool, bool]
 """What an action's price depends on: its cost, whether the human takes part, whether they have to be told."""
 
 
-def prices(task: Task, options: Options, human_plan: HumanPlan, deadline: Deadline | None = None) -> Prices:
+def prices(
+    task: Task, options: Options, human_plan: HumanPlan, deadline: Deadline | None = None
+) -> IntegerPrices:
     """The integer costs of a call.
 
     Communication costs nothing outside communication mode, and ``K`` nothing without windows.
@@ -185,7 +187,7 @@ def prices(task: Task, options: Options, human_plan: HumanPlan, deadline: Deadli
         kinds.append(kind)
     scale = lcm(epoch.denominator, *(amount.denominator for both in amounts.values() for amount in both))
     units = {kind: (int(team * scale), int(talk * scale)) for kind, (team, talk) in amounts.items()}
-    return Prices(
+    return IntegerPrices(
         scale,
         tuple(units[kind][0] for kind in deadline.each(kinds)),
         tuple(units[kind][1] for kind in deadline.each(kinds)),

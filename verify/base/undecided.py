@@ -20,7 +20,7 @@ class UndecidedError(Exception):
         self.bound = bound
 
 
-class TooManyStatesError(UndecidedError):
+class HumanTooLargeError(UndecidedError):
     """The human's own problem is too large to be checked here."""
 
     def __init__(self) -> None:

@@ -7,7 +7,7 @@ from functools import cached_property
 from serendipity.model import INFINITE, HumanPlan, Options, Task, UsageError
 from serendipity.model.keywords import Horizon
 from verify.base.optimal_plans import OptimalPlans
-from verify.base.subproblem import EXACT, FREE, WINDOW, PricedPlan, Prices, Subproblem, prices
+from verify.base.subproblem import EXACT, FREE, WINDOW, IntegerPrices, PricedPlan, Subproblem, prices
 from verify.calls.methods import decide
 from verify.exhaustive.by_epochs import cheapest_following
 from verify.programs.effort import Effort
@@ -64,7 +64,7 @@ class ExaminedCall:
         return bool(self.task.robot_goal) and self.options.mode != "individual"
 
     @cached_property
-    def prices(self) -> Prices:
+    def prices(self) -> IntegerPrices:
         """Integer costs."""
         return prices(self.task, self.options, self.human_plan or (), self.effort.deadline)
 

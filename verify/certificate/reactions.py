@@ -16,7 +16,7 @@ from verify.base.relevance import relevant_part
 from verify.base.subproblem import FREE, PricedPlan
 from verify.base.undecided import during, why
 from verify.calls.call import ExaminedCall
-from verify.certificate.simulator import MomentOfPlay, Play, Sight
+from verify.certificate.simulator import LocalSight, MomentOfPlay, Play
 from verify.exhaustive.without_epochs import LeastLeft
 from verify.limits import limits
 from verify.programs.effort import Attempt, Minimum
@@ -38,7 +38,7 @@ class _Reactions:
         task, options = call.task, call.options
         self.call = call
         self.deadline = call.effort.deadline
-        sight = Sight(task, None, self.deadline.tick) if options.human_model == "local" else None
+        sight = LocalSight(task, None, self.deadline.tick) if options.human_model == "local" else None
         self.game = Play(task, options, call.plans, sight)
         self.left = left
         self.most = min((limit for limit in limits if limit is not None), default=None)

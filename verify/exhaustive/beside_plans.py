@@ -47,7 +47,7 @@ def answers_all(question: Subproblem) -> bool:
     return question.has_plain_windows and whole and unlimited
 
 
-class Front(NamedTuple):
+class TeamStates(NamedTuple):
     """Different states of the team, and what was paid for each."""
 
     states: Words
@@ -66,7 +66,7 @@ class _Strand:
     """
 
     node: int
-    front: Front
+    front: TeamStates
     best: int = _NEVER
     moves: dict[int, int] = field(default_factory=dict)
 
@@ -103,7 +103,7 @@ class HelpBesidePlans:
         self.states = 0
         with during("searching beside all optimal plans"):
             self._strands: list[list[_Strand]] = []
-            self._openings: list[Front] = []
+            self._openings: list[TeamStates] = []
             self._prefixes()
             self._value()
         self.scores = self._counted()
@@ -136,7 +136,7 @@ class HelpBesidePlans:
 
     def _prefixes(self) -> None:
         """All strands, epoch by epoch, and the states that windows open in."""
-        strands = [_Strand(0, Front(self._start, np.zeros(1, np.int64)))]
+        strands = [_Strand(0, TeamStates(self._start, np.zeros(1, np.int64)))]
         for epoch in range(len(self._graph)):
             self._strands.append(strands)
             self._openings.append(self._merged([strand.front for strand in strands]))
@@ -156,7 +156,7 @@ class HelpBesidePlans:
                 strand.moves[action] = known[key]
         return following
 
-    def _beside(self, front: Front, action: int) -> Front:
+    def _beside(self, front: TeamStates, action: int) -> TeamStates:
         """The states, in order, that robots can have brought about when the human has done one more step."""
         self._deadline.check()
         if not len(front.states):
@@ -165,46 +165,51 @@ class HelpBesidePlans:
             raise OtherMethodError("an optimal plan has an action that has no bearing on its goal")
         his = np.array([self._numbers[action]], np.int64)
         pieces = self._team.steps(front.states, his, wait=False)
-        after = [Front(piece.after, front.paid[piece.before] + piece.cost * self._unit) for piece in pieces]
+        after = [
+            TeamStates(piece.after, front.paid[piece.before] + piece.cost * self._unit) for piece in pieces
+        ]
         merged = self._hopeful(self._merged(after), self._epoch)
         order = np.lexsort(merged.states.T)
-        return Front(merged.states[order], merged.paid[order])
+        return TeamStates(merged.states[order], merged.paid[order])
 
     # -- windows
 
-    def _inside(self, before: list[Front]) -> Front:
+    def _inside(self, before: list[TeamStates]) -> TeamStates:
         """The states after one more epoch of windows."""
         after = []
         for front in before:
             for piece in self._team.steps(front.states):
                 paid = front.paid[piece.before] + piece.cost * self._unit + self._epoch
-                after.append(self._hopeful(Front(piece.after, paid), 0))
+                after.append(self._hopeful(TeamStates(piece.after, paid), 0))
         return self._merged(after)
 
-    def _merged(self, fronts: list[Front]) -> Front:
+    def _merged(self, fronts: list[TeamStates]) -> TeamStates:
         """Each state once, at its least price."""
         known = self._table(fronts)
         self.states += len(known.paid)
-        return Front(known.states.copy(), known.paid)
+        return TeamStates(known.states.copy(), known.paid)
 
-    def _table(self, fronts: list[Front]) -> LeastPaid:
+    def _table(self, fronts: list[TeamStates]) -> LeastPaid:
         """The same, to be looked up by state."""
         known = LeastPaid(self._layout.words, self._deadline)
         for front in fronts:
             known.offer(front.states, front.paid)
         return known
 
-    def _hopeful(self, front: Front, rest: int) -> Front:
+    def _hopeful(self, front: TeamStates, rest: int) -> TeamStates:
         """The states that may still lead to a score within the limit; ``rest`` has to be paid in any case."""
         most = self._limit // self._unit + 1  # more than that is too much
         left = np.minimum(self._problem.bounds(front.states), most)
         total = front.paid + left * self._unit + rest
         kept = total < self._limit
-        return Front(front.states[kept], front.paid[kept])
+        return TeamStates(front.states[kept], front.paid[kept])
 
     def _value(self) -> None:
         """The worth of each state in which a window may open, from the last epoch backwards."""
-        horizon, nobody = self._question.horizon, Front(np.zeros((0, self._layout.words), np.uint64), _NONE)
+        horizon, nobody = (
+            self._question.horizon,
+            TeamStates(np.zeros((0, self._layout.words), np.uint64), _NONE),
+        )
         inside = [nobody]
         for epoch in range(1, horizon + 1):
             openings = self._openings[epoch - 1 : epoch]
@@ -220,9 +225,9 @@ class HelpBesidePlans:
                 opening = self._openings[epoch - 1]
                 self._open(self._strands[epoch - 1], opening, self._onward(opening.states, front, worth))
 
-    def _onward(self, states: Words, following: Front, worth: Ints) -> Ints:
+    def _onward(self, states: Words, following: TeamStates, worth: Ints) -> Ints:
         """The least score of one more epoch of the window and what follows."""
-        known = self._table([Front(following.states, worth)])
+        known = self._table([TeamStates(following.states, worth)])
         least = np.full(len(states), FAR)
         for piece in self._team.steps(states):
             rest = known.of(piece.after)
@@ -242,9 +247,9 @@ class HelpBesidePlans:
                 found[of.ravel() == number] = paid * self._unit
         return found
 
-    def _open(self, strands: list[_Strand], opening: Front, worth: Ints) -> None:
+    def _open(self, strands: list[_Strand], opening: TeamStates, worth: Ints) -> None:
         """The worth of windows that open now, beside each strand."""
-        known = self._table([Front(opening.states, worth)])
+        known = self._table([TeamStates(opening.states, worth)])
         for strand in strands:
             if len(strand.front.states):
                 rest = known.of(strand.front.states)

@@ -46,7 +46,7 @@ class OtherMethodError(UndecidedError):
     """A question that this method does not answer."""
 
 
-class Stage(NamedTuple):
+class PlanStage(NamedTuple):
     """A part of the plan that the states of a layer share.
 
     Attributes:
@@ -95,8 +95,8 @@ class EpochSearch:
         self._talk = prices.talk if any(prices.talk) else None
         self._told_apart = question.most_cost is not None and bool(self._epoch or self._talk)
         self._layers: list[EpochLayer] = []
-        self._stages: list[Stage] = []
-        self._earlier: dict[Stage, LeastPaid] = {}
+        self._stages: list[PlanStage] = []
+        self._earlier: dict[PlanStage, LeastPaid] = {}
         self._known: int | None = None
         self._best: PricedPlan | None = None
 
@@ -191,13 +191,13 @@ class EpochSearch:
     def _all_epochs(self) -> dict[int, list[tuple[int, int]]]:
         """All layers; the ends of windows after which the human replans, as layers and epochs, by extra."""
         self._layers.append(first(self._whole.start, len(self._team.order)))
-        self._stages.append(Stage(self._control.start))
+        self._stages.append(PlanStage(self._control.start))
         if self._endless:
             self._end(0, 0)
         here = [0]
         completed: dict[int, list[tuple[int, int]]] = {}
         for epoch in range(1, self._question.horizon + 1):
-            following: dict[Stage, list[tuple[int, EpochLayer, Iterator[Steps]]]] = {}
+            following: dict[PlanStage, list[tuple[int, EpochLayer, Iterator[Steps]]]] = {}
             for number in here:
                 for stage, steps in self._onward(number, epoch):
                     following.setdefault(stage, []).append((number, self._layers[number], steps))
@@ -215,7 +215,7 @@ class EpochSearch:
                 break
         return completed
 
-    def _onward(self, number: int, epoch: int) -> Iterator[tuple[Stage, Iterator[Steps]]]:
+    def _onward(self, number: int, epoch: int) -> Iterator[tuple[PlanStage, Iterator[Steps]]]:
         """The stages that may follow a layer, each with the epochs that lead to it."""
         stage = self._stages[number]
         for leg in self._control.legs(stage.control, epoch):
@@ -224,7 +224,7 @@ class EpochSearch:
             for talk, of_human in self._said(self._numbers(leg)):
                 extra = stage.extra + leg.weight + talk if self._told_apart else 0
                 wait = leg.wait and not talk
-                yield Stage(leg.after, extra), self._steps_of(number, leg, of_human, wait=wait)
+                yield PlanStage(leg.after, extra), self._steps_of(number, leg, of_human, wait=wait)
 
     def _numbers(self, leg: Leg) -> Ints | None:
         """The actions that the human may take part in, as the table numbers them; None: any."""
@@ -254,7 +254,9 @@ class EpochSearch:
         for steps in self._team.steps(states[rows], of_human, wait=wait, robots=robots, free=leg.free):
             yield replace(steps, before=rows[steps.before], cost=steps.cost + leg.weight)
 
-    def _advanced(self, stage: Stage, sources: list[tuple[int, EpochLayer, Iterator[Steps]]]) -> EpochLayer:
+    def _advanced(
+        self, stage: PlanStage, sources: list[tuple[int, EpochLayer, Iterator[Steps]]]
+    ) -> EpochLayer:
         def hopeful(states: Words, paid: Ints) -> Ints:
             self.states += len(states)
             window = self._epoch if stage.control[0] == PREFIX else 0
@@ -270,7 +272,7 @@ class EpochSearch:
         rule = self._question.rule
         return rule != EXACT if rule != WINDOW else control[0] != PREFIX
 
-    def _improved(self, stage: Stage, layer: EpochLayer) -> EpochLayer:
+    def _improved(self, stage: PlanStage, layer: EpochLayer) -> EpochLayer:
         """The states of a layer that no earlier epoch had in this stage at no higher cost."""
         if stage not in self._earlier:
             dtype = self._table.weight.dtype

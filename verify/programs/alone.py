@@ -9,7 +9,7 @@ from verify.base.beside_script import alone_of
 from verify.base.individual import IndividualOptimum
 from verify.base.small_numbers import OrderOfSums
 from verify.base.subproblem import prices
-from verify.base.undecided import TooManyStatesError, UndecidedError, during
+from verify.base.undecided import HumanTooLargeError, UndecidedError, during
 from verify.limits import limits
 from verify.programs.effort import Attempt, Effort
 from verify.programs.recorded import described, refute
@@ -39,12 +39,12 @@ def least_alone(task: Task, options: Options, effort: Effort) -> Fraction | None
     """
     effort.attempts.append(Attempt("programs", decided=True))
     with during("writing a program for what the human can do alone"):
-        program = _Alone(task, options, effort)
+        program = _AloneProgram(task, options, effort)
     units = program.read(effort.proof) if isinstance(effort.proof, ProofReader) else program.solve()
     return None if units is None else Fraction(units, program.scale) + program.alone.paid_before
 
 
-class _Alone:
+class _AloneProgram:
     """Columns are moves between states; a cycle adds cost, so the best flow is a path."""
 
     def __init__(self, task: Task, options: Options, effort: Effort) -> None:
@@ -103,7 +103,7 @@ class _Alone:
             for after, weight, _ in onward(state):
                 if after not in self._number:
                     if len(states) >= limits().alone_states:
-                        raise TooManyStatesError
+                        raise HumanTooLargeError
                     self._number[after] = len(states)
                     states.append(after)
                 moves.append((number, self._number[after], weight))

@@ -1,10 +1,10 @@
 """Rules on the lower bound (INTERFACE of results: status, ``lower_bound``)."""
 
 from serendipity.model.numbers import agrees, as_written
-from verify.rules.case import Case, RuleFault
+from verify.rules.case import CheckedResult, RuleFault
 
 
-def bound_and_objective(case: Case) -> RuleFault | None:
+def bound_and_objective(case: CheckedResult) -> RuleFault | None:
     """No lower bound exceeds the objective of a plan."""
     bound, objective = case.result.lower_bound, case.result.objective
     if bound is None or objective is None or as_written(bound) <= as_written(objective):
@@ -12,7 +12,7 @@ def bound_and_objective(case: Case) -> RuleFault | None:
     return RuleFault(f"lower_bound {bound:.12g} exceeds the objective {objective:.12g}")
 
 
-def bound_and_status(case: Case) -> RuleFault | None:
+def bound_and_status(case: CheckedResult) -> RuleFault | None:
     """An optimal answer is one whose lower bound meets its objective; ``infeasible`` has none."""
     result = case.result
     bound, objective = result.lower_bound, result.objective

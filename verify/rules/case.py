@@ -21,7 +21,7 @@ class RuleFault(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Case:
+class CheckedResult:
     """A task, a result, and tables of the human alone.
 
     Properties that need a valid ``pi_H`` or an executable plan are only looked at by

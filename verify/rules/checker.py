@@ -8,7 +8,7 @@ from verify.base import wording
 from verify.base.beside_script import alone_of
 from verify.base.individual import IndividualOptimum
 from verify.base.undecided import UndecidedError, during, why
-from verify.rules.case import Case
+from verify.rules.case import CheckedResult
 from verify.rules.registry import RULES, NamedRule
 from verify.rules.report import CLAIMS, RuleReport, Violation
 
@@ -24,7 +24,7 @@ class Checker:
     def check(self, result: Result) -> RuleReport:
         """The verdict of every rule that applies to ``result``, as far as the limits go."""
         started = time.perf_counter()
-        examination = _Examination(Case(self._task, result, self._alone))
+        examination = _Examination(CheckedResult(self._task, result, self._alone))
         try:
             with during("checking the rules"):
                 for rule in RULES:
@@ -38,7 +38,7 @@ class Checker:
 class _Examination:
     """What is known of one result, rule by rule."""
 
-    def __init__(self, case: Case) -> None:
+    def __init__(self, case: CheckedResult) -> None:
         self._case = case
         self._examined: list[NamedRule] = []
         self._violations: dict[str, Violation] = {}

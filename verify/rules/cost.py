@@ -3,15 +3,15 @@
 from fractions import Fraction
 
 from serendipity.model.numbers import agrees, as_written, excess
-from verify.rules.case import Case, RuleFault
+from verify.rules.case import CheckedResult, RuleFault
 
 
-def human_cost(case: Case) -> RuleFault | None:
+def human_cost(case: CheckedResult) -> RuleFault | None:
     """The reported cost of ``pi_H`` is the sum of its actions' costs."""
     return _differs("human_cost", case.result.human_cost, case.human_cost)
 
 
-def step_cost(case: Case) -> RuleFault | None:
+def step_cost(case: CheckedResult) -> RuleFault | None:
     """Each step costs what its action costs the team: discounted without the human."""
     steps = sorted(case.result.plan or (), key=lambda step: step.epoch)
     done = (i for chosen in case.replay.sets.values() for i in chosen)
@@ -22,12 +22,12 @@ def step_cost(case: Case) -> RuleFault | None:
     return None
 
 
-def total_cost(case: Case) -> RuleFault | None:
+def total_cost(case: CheckedResult) -> RuleFault | None:
     """The cost is the sum of the actions' costs; a joint action counts once."""
     return None if case.result.plan is None else _differs("cost", case.result.cost, case.cost)
 
 
-def agent_costs(case: Case) -> RuleFault | None:
+def agent_costs(case: CheckedResult) -> RuleFault | None:
     """A joint action's cost is shared equally among its participants."""
     if case.result.plan is None:
         return None
@@ -42,7 +42,7 @@ def agent_costs(case: Case) -> RuleFault | None:
     return None
 
 
-def objective(case: Case) -> RuleFault | None:
+def objective(case: CheckedResult) -> RuleFault | None:
     """Cost plus ``K`` for each epoch of the window plus communication."""
     if case.result.plan is None:
         return None
@@ -53,7 +53,7 @@ def objective(case: Case) -> RuleFault | None:
     return _differs("objective", case.result.objective, expected)
 
 
-def most_cost(case: Case) -> RuleFault | None:
+def most_cost(case: CheckedResult) -> RuleFault | None:
     """No plan but ``pi_H`` costs more than ``max_cost`` (eq. 11)."""
     limit = case.result.options.max_cost
     is_pi_h = case.human_plan is not None and not case.result.opportunity
@@ -66,7 +66,7 @@ def most_cost(case: Case) -> RuleFault | None:
     return RuleFault(f"the plan costs {float(case.cost):g}, max_cost is {float(limit):g}")
 
 
-def saving(case: Case) -> RuleFault | None:
+def saving(case: CheckedResult) -> RuleFault | None:
     """What the answer costs less than doing nothing; none without ``pi_H``."""
     result = case.result
     if case.human_plan is None:
@@ -81,7 +81,7 @@ def saving(case: Case) -> RuleFault | None:
     return _differs("saving", result.saving, _sure(case.human_cost) - case.cost)
 
 
-def saving_alone(case: Case) -> RuleFault | None:
+def saving_alone(case: CheckedResult) -> RuleFault | None:
     """What the human gains without robots: nothing if ``pi_H`` is optimal, never more than it is off."""
     said = case.result.saving_alone
     if not said:
@@ -95,7 +95,7 @@ def saving_alone(case: Case) -> RuleFault | None:
     return RuleFault(f"saving_alone is {said:g}, pi_H costs only {float(most):g} more than an optimal plan")
 
 
-def opportunity(case: Case) -> RuleFault | None:
+def opportunity(case: CheckedResult) -> RuleFault | None:
     """An opportunity costs less than doing without robots; one acts if ``pi_H`` is not optimal."""
     result = case.result
     if result.plan is None:
@@ -119,7 +119,7 @@ def opportunity(case: Case) -> RuleFault | None:
     return None
 
 
-def _saving_with_robots_goal(case: Case) -> RuleFault | None:
+def _saving_with_robots_goal(case: CheckedResult) -> RuleFault | None:
     """The baseline is unknown here, but it costs no less than ``pi_H``; None: there is none."""
     said = case.result.saving
     if said is None:
@@ -132,7 +132,7 @@ def _saving_with_robots_goal(case: Case) -> RuleFault | None:
     return None
 
 
-def _baseline(case: Case) -> Fraction | None:
+def _baseline(case: CheckedResult) -> Fraction | None:
     """What doing nothing costs; with a robots' goal, as the result's own saving implies."""
     if not case.robots_goal:
         return case.human_cost

@@ -3,15 +3,15 @@
 from collections.abc import Callable
 
 from serendipity.model import Condition
-from verify.rules.case import Case, RuleFault
+from verify.rules.case import CheckedResult, RuleFault
 
-Rule = Callable[[Case], RuleFault | None]
+Rule = Callable[[CheckedResult], RuleFault | None]
 
 
 def faultless(rule: str) -> Rule:
     """The rule that the replay met no fault of a kind."""
 
-    def check(case: Case) -> RuleFault | None:
+    def check(case: CheckedResult) -> RuleFault | None:
         fault = case.replay.fault
         if fault is None or fault.rule != rule:
             return None
@@ -21,7 +21,7 @@ def faultless(rule: str) -> Rule:
     return check
 
 
-def epoch_range(case: Case) -> RuleFault | None:
+def epoch_range(case: CheckedResult) -> RuleFault | None:
     """Epochs run from 1 to ``T``."""
     for step in case.result.plan or ():
         if step.epoch < 1 or (case.epochs is not None and step.epoch > case.epochs):
@@ -29,7 +29,7 @@ def epoch_range(case: Case) -> RuleFault | None:
     return None
 
 
-def at_rest(case: Case) -> RuleFault | None:
+def at_rest(case: CheckedResult) -> RuleFault | None:
     """In the last state nobody is at anything, but for bystanders (semantics 10.1)."""
     if case.result.plan is None:
         return None
@@ -41,24 +41,24 @@ def at_rest(case: Case) -> RuleFault | None:
     return None
 
 
-def human_goal(case: Case) -> RuleFault | None:
+def human_goal(case: CheckedResult) -> RuleFault | None:
     """``G_H`` holds in the last state."""
     return _unmet(case, case.task.goal, "human's")
 
 
-def robots_goal(case: Case) -> RuleFault | None:
+def robots_goal(case: CheckedResult) -> RuleFault | None:
     """``G_R`` holds in the last state; since robots then rest, they are done before ``xi2``."""
     return _unmet(case, case.task.robot_goal, "robots'") if case.robots_goal else None
 
 
-def individual(case: Case) -> RuleFault | None:
+def individual(case: CheckedResult) -> RuleFault | None:
     """In mode ``individual`` nobody but the human acts."""
     if case.result.mode != "individual":
         return None
     return case.first(case.steps(), lambda i: not case.own(i), "not an action of the human alone")
 
 
-def _unmet(case: Case, goal: Condition, whose: str) -> RuleFault | None:
+def _unmet(case: CheckedResult, goal: Condition, whose: str) -> RuleFault | None:
     if case.result.plan is None or goal.holds(case.replay.last):
         return None
     unmet, facts = goal.open(case.replay.last), case.task.facts

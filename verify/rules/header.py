@@ -2,7 +2,7 @@
 
 from serendipity.model import INFINITE, InputError, PlanError, Result, Task
 from verify.base.obligations import is_mean
-from verify.rules.case import Case, RuleFault
+from verify.rules.case import CheckedResult, RuleFault
 
 
 def require_same_task(task: Task, result: Result) -> None:
@@ -21,7 +21,7 @@ def require_same_task(task: Task, result: Result) -> None:
         )
 
 
-def mode_and_human(case: Case) -> RuleFault | None:
+def mode_and_human(case: CheckedResult) -> RuleFault | None:
     """The result belongs to this task's human and to its own options."""
     result, human = case.result, case.task.agents[case.task.human]
     if result.human != human:
@@ -33,7 +33,7 @@ def mode_and_human(case: Case) -> RuleFault | None:
     return None
 
 
-def human_plan_valid(case: Case) -> RuleFault | None:
+def human_plan_valid(case: CheckedResult) -> RuleFault | None:
     """``pi_H`` is a plan of the human alone; it is missing only if they have none, or nothing rests on it."""
     if isinstance(case.human_plan, PlanError):
         return RuleFault(f"pi_H: {case.human_plan.message}")
@@ -43,7 +43,7 @@ def human_plan_valid(case: Case) -> RuleFault | None:
     return None if optimum is None else RuleFault("no pi_H is reported, but the human has a plan alone")
 
 
-def _unknown_to_search(case: Case) -> bool:
+def _unknown_to_search(case: CheckedResult) -> bool:
     """Whether ``pi_H`` may be missing since a limit came before it was known: nothing rests on it."""
     result, options = case.result, case.result.options
     if result.status == "unknown":
@@ -52,7 +52,7 @@ def _unknown_to_search(case: Case) -> bool:
     return endless and options.max_cost is None and not case.robots_goal
 
 
-def horizon(case: Case) -> RuleFault | None:
+def horizon(case: CheckedResult) -> RuleFault | None:
     """``T``: as asked for, else ``|pi_H|``; never shorter, nor than the human's own answer (semantics 2)."""
     result = case.result
     asked, said = result.options.horizon, result.horizon
@@ -76,7 +76,7 @@ def horizon(case: Case) -> RuleFault | None:
     return None
 
 
-def status_and_fields(case: Case) -> RuleFault | None:
+def status_and_fields(case: CheckedResult) -> RuleFault | None:
     """A plan and what belongs to one are there exactly if the status says so."""
     result = case.result
     answered = result.status in ("optimal", "feasible")
@@ -105,7 +105,7 @@ def status_and_fields(case: Case) -> RuleFault | None:
     return None
 
 
-def reason(case: Case) -> RuleFault | None:
+def reason(case: CheckedResult) -> RuleFault | None:
     """An answer without a plan gives the reason; an answer with a plan gives none."""
     result = case.result
     if result.status in ("optimal", "feasible"):
@@ -124,7 +124,7 @@ def infeasible_because(result: Result) -> str:
     return "no-plan" if result.horizon == INFINITE else "no-plan-within-horizon"
 
 
-def infeasible(case: Case) -> RuleFault | None:
+def infeasible(case: CheckedResult) -> RuleFault | None:
     """``pi_H`` itself is an answer unless the robots have goals (semantics 3.1, 3.5)."""
     result = case.result
     if result.status == "infeasible" and case.human_plan is not None and not case.robots_goal:

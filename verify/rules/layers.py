@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 from serendipity.model import Condition, Deadline, HumanPlan, Options, Task
-from serendipity.model.task.disturbance import Weighed, disturbance_from
+from serendipity.model.task.disturbance import DisturbanceTask, disturbance_from
 from serendipity.model.task.metered import Metered
 from serendipity.model.task.noticed import Noticed
 from serendipity.model.task.protected import protected
@@ -38,7 +38,7 @@ class Layers:
         if self._paid is not None:
             task = self._under(self._paid.task, self._paid.back)
         if options.max_disturbance is not None:
-            weighed = Weighed(task, disturbance_from(options.disturbance), original)
+            weighed = DisturbanceTask(task, disturbance_from(options.disturbance), original)
             calm = Metered(weighed.task, options.max_disturbance, deadline, weighed.weights, "disturbed")
             task = self._under(calm.task, lambda ids: [weighed.original[i] for i in calm.back(ids)])
         self.task = protected(task, options, len(original.facts))

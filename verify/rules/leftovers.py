@@ -42,7 +42,7 @@ def unpriced(result: Result, price: Fraction, alone: Fraction | None) -> Result:
     )
 
 
-class Leftovers:
+class LeftoversCheck:
     """Refutes that anything costs less than an answer with what it leaves.
 
     Args:

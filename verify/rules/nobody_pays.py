@@ -25,7 +25,7 @@ from verify.base.obligations import is_tied, needed
 from verify.base.optimal_plans import OptimalPlans
 from verify.base.plan_graph import plan_graph
 from verify.rules.layers import Layers
-from verify.rules.leftovers import Leftovers, Prices, left, unpriced
+from verify.rules.leftovers import LeftoversCheck, Prices, left, unpriced
 from verify.rules.noticed import unnoticed
 from verify.rules.replay import Replay, replay, replay_human
 
@@ -33,7 +33,7 @@ Literals = dict[int, bool]
 """By fact whether it has to be true."""
 
 
-class Rule(NamedTuple):
+class LastStateRule(NamedTuple):
     """What the last state and the human's payments have to be like.
 
     Attributes:
@@ -141,7 +141,7 @@ def _claims_over_ties(
     return (*claims.values(), *own)
 
 
-def _bound_beside(rules: "RulesOfHelp", plan: HumanPlan) -> tuple[Rule, Task]:
+def _bound_beside(rules: "RulesOfHelp", plan: HumanPlan) -> tuple[LastStateRule, Task]:
     """The rule beside a plan of the human's, and the task that it binds."""
     rule = rules.of(plan, len(plan) if rules.options.horizon is None else int(rules.options.horizon))
     return rule, rules.bound(rule, plan)
@@ -173,7 +173,7 @@ def _without_optimiser(rules: "RulesOfHelp", result: Result, examine: Examine) -
 def _priced_claims(
     rules: "RulesOfHelp",
     result: Result,
-    rule: Rule,
+    rule: LastStateRule,
     plan: HumanPlan | None,
     examine: Examine,
     solve: Solve | None,
@@ -205,7 +205,7 @@ def _priced_claims(
     if not options.windowed or result.opportunity:
         alone = None  # then nothing is better, whatever it costs
     # first of all, since what examines may take its time
-    verdict = Leftovers(solved, rule.prices, weight, alone).none_below(below)
+    verdict = LeftoversCheck(solved, rule.prices, weight, alone).none_below(below)
     claims = [claim for claim in examine(rules.bound(rule, plan), said) if claim.claim not in UNPRICED]
     told: dict[bool | None, Verdict] = {True: "proved", False: "refuted", None: "undecided"}
     asked = (name for name in needed(result) if name in UNPRICED)
@@ -230,7 +230,7 @@ class RulesOfHelp:
     original: Task
     deadline: Deadline
 
-    def of(self, plan: HumanPlan | None, last: int) -> Rule:
+    def of(self, plan: HumanPlan | None, last: int) -> LastStateRule:
         """The rule beside a plan of the human's, or beside none.
 
         Args:
@@ -240,7 +240,7 @@ class RulesOfHelp:
         task, options, original = self.task, self.options, self.original
         state = waited(task, task.init, last, strict=options.strict, plan=plan or ())
         if state is None:
-            return Rule(Condition(), None, {})
+            return LastStateRule(Condition(), None, {})
         changed = task.unsettled
         kept: Literals = {}
         everybody = nobody_pays(original, options)
@@ -257,9 +257,9 @@ class RulesOfHelp:
             tuple(sorted(fact for fact, true in kept.items() if true and fact in changed)),
             tuple(sorted(fact for fact, true in kept.items() if not true and fact in changed)),
         )
-        return Rule(facts, task.cost_of(plan) if everybody and plan is not None else None, prices)
+        return LastStateRule(facts, task.cost_of(plan) if everybody and plan is not None else None, prices)
 
-    def bound(self, rule: Rule, plan: HumanPlan | None, kept: Iterable[int] = ()) -> Task:
+    def bound(self, rule: LastStateRule, plan: HumanPlan | None, kept: Iterable[int] = ()) -> Task:
         """The task of an answer that the rules bind.
 
         Args:
@@ -271,7 +271,7 @@ class RulesOfHelp:
         most = rule.most if self.task.robot_goal else None
         return Layers(bound, self.options, plan, most, self.original, self.deadline).task
 
-    def fault(self, result: Result, rule: Rule, plan: HumanPlan | None) -> str | None:
+    def fault(self, result: Result, rule: LastStateRule, plan: HumanPlan | None) -> str | None:
         """What a plan beside one of the human's breaks of the rules, in words; None: nothing.
 
         Where it can't be executed others say so.
@@ -282,7 +282,7 @@ class RulesOfHelp:
             words = self._broken(found, rule) or self._disturbs(found, result)
         return words or unnoticed(self.task, result, plan, self.original, self.deadline)
 
-    def _broken(self, found: Replay, rule: Rule) -> str | None:
+    def _broken(self, found: Replay, rule: LastStateRule) -> str | None:
         """What a plan breaks of the rule for it."""
         task = self.task
         his = (task.actions[i] for chosen in found.sets.values() for i in chosen)

@@ -6,7 +6,7 @@ from typing import Final
 
 from serendipity.model import Window
 from verify.rules import bound, cost, execution, header, tied, window
-from verify.rules.case import Case, RuleFault
+from verify.rules.case import CheckedResult, RuleFault
 from verify.rules.execution import Rule
 
 
@@ -20,10 +20,10 @@ class NamedRule:
     check: Rule
 
 
-def _of_window(rule: Callable[[Case, Window], RuleFault | None]) -> Rule:
+def _of_window(rule: Callable[[CheckedResult, Window], RuleFault | None]) -> Rule:
     """A rule that is kept where there is no window."""
 
-    def check(case: Case) -> RuleFault | None:
+    def check(case: CheckedResult) -> RuleFault | None:
         return None if case.result.window is None else rule(case, case.result.window)
 
     return check

@@ -6,7 +6,7 @@ from serendipity.model import Result
 from serendipity.model.answers.fields import MalformedError
 from serendipity.model.answers.result_parts import TiedAnswer
 from verify.base.obligations import is_mean, is_tied
-from verify.rules.case import Case, RuleFault
+from verify.rules.case import CheckedResult, RuleFault
 
 
 def tied_answers(result: Result) -> tuple[TiedAnswer, ...]:
@@ -21,7 +21,7 @@ def tied_answers(result: Result) -> tuple[TiedAnswer, ...]:
     return result.ties
 
 
-def ties(case: Case) -> RuleFault | None:
+def ties(case: CheckedResult) -> RuleFault | None:
     """The answers that an answer over ties is made of are listed, its own among them; no others are."""
     result = case.result
     if not is_tied(result):
@@ -42,7 +42,7 @@ def ties(case: Case) -> RuleFault | None:
     return _extreme(case, [answer.cost for answer in answers])
 
 
-def _extreme(case: Case, costs: list[float | None]) -> RuleFault | None:
+def _extreme(case: CheckedResult, costs: list[float | None]) -> RuleFault | None:
     """``robust`` is the dearest of the answers, each of which has a plan, ``optimistic`` the cheapest."""
     ties, known = case.result.options.ties, [cost for cost in costs if cost is not None]
     if ties == "robust" and (len(known) < len(costs) or case.result.cost != max(known)):
@@ -52,7 +52,7 @@ def _extreme(case: Case, costs: list[float | None]) -> RuleFault | None:
     return None
 
 
-def mean(case: Case) -> RuleFault | None:
+def mean(case: CheckedResult) -> RuleFault | None:
     """``expected``: the cost is the mean of the answers, which the solved ones prove to the last digit."""
     result = case.result
     if not is_mean(result):

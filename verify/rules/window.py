@@ -6,10 +6,10 @@ from itertools import takewhile
 from serendipity.model import Window
 from verify.base.due import turns
 from verify.base.execution import facts_of_his, states_of_pi_h
-from verify.rules.case import Case, RuleFault
+from verify.rules.case import CheckedResult, RuleFault
 
 
-def window_presence(case: Case) -> RuleFault | None:
+def window_presence(case: CheckedResult) -> RuleFault | None:
     """Only windowed modes have windows; an opportunity there needs one, no opportunity has none."""
     result = case.result
     if not result.options.windowed:
@@ -21,7 +21,7 @@ def window_presence(case: Case) -> RuleFault | None:
     return None
 
 
-def idle_answer(case: Case) -> RuleFault | None:
+def idle_answer(case: CheckedResult) -> RuleFault | None:
     """Without an opportunity the human executes ``pi_H``; robots idle, or pursue ``G_R`` without the human.
 
     Modes without windows answer with their optimum, whether it is an opportunity or not.
@@ -34,7 +34,7 @@ def idle_answer(case: Case) -> RuleFault | None:
     return found or _follows(case, last=max((*case.replay.sets, len(case.pi_h))))
 
 
-def window_range(case: Case, window: Window) -> RuleFault | None:
+def window_range(case: CheckedResult, window: Window) -> RuleFault | None:
     """``1 <= xi1 <= |pi_H|`` and ``xi1 < xi2 <= T + 1``."""
     if window.start > len(case.pi_h):
         return RuleFault(f"the window starts at {window.start}, after pi_H with its {len(case.pi_h)} actions")
@@ -43,7 +43,7 @@ def window_range(case: Case, window: Window) -> RuleFault | None:
     return None
 
 
-def window_length(case: Case, window: Window) -> RuleFault | None:
+def window_length(case: CheckedResult, window: Window) -> RuleFault | None:
     """No window is longer than ``max_window``."""
     most = case.result.options.max_window
     if most is None or len(window) <= most:
@@ -51,7 +51,7 @@ def window_length(case: Case, window: Window) -> RuleFault | None:
     return RuleFault(f"the window has {len(window)} epochs, max_window is {most}")
 
 
-def prefix(case: Case, window: Window) -> RuleFault | None:
+def prefix(case: CheckedResult, window: Window) -> RuleFault | None:
     """Before ``xi1`` the human follows ``pi_H`` (Def. 3.0), or does its actions (second 7b)."""
     if not case.result.options.keep_prefix:
         return _follows(case, last=window.start - 1)
@@ -59,19 +59,19 @@ def prefix(case: Case, window: Window) -> RuleFault | None:
     return case.first(_between(case, 1, window.start), lambda i: case.own(i) and not case.planned(i), words)
 
 
-def joint_in_prefix(case: Case, window: Window) -> RuleFault | None:
+def joint_in_prefix(case: CheckedResult, window: Window) -> RuleFault | None:
     """Before ``xi1`` there is no joint action with the human."""
     words = f"a joint action with the human before xi1 = {window.start}"
     return case.first(_between(case, 1, window.start), lambda i: case.his(i) and not case.own(i), words)
 
 
-def robot_in_suffix(case: Case, window: Window) -> RuleFault | None:
+def robot_in_suffix(case: CheckedResult, window: Window) -> RuleFault | None:
     """From ``xi2`` on no robot takes part in any action (eq. 8)."""
     words = f"a robot acts although the window ended at {window.end}"
     return case.first(_between(case, window.end, None), lambda i: not case.own(i), words)
 
 
-def suffix_replan(case: Case, window: Window) -> RuleFault | None:
+def suffix_replan(case: CheckedResult, window: Window) -> RuleFault | None:
     """Def. 2.0a: the human goes on with an optimal plan of their own, and waits only after its end."""
     options = case.result.options
     if options.suffix != "replan" or options.preservation != "kernel":
@@ -91,7 +91,7 @@ def suffix_replan(case: Case, window: Window) -> RuleFault | None:
     )
 
 
-def _ended(case: Case, rest: list[tuple[int, int]], window: Window) -> int:
+def _ended(case: CheckedResult, rest: list[tuple[int, int]], window: Window) -> int:
     """The epoch with which the human's part is over: their last action's, or that which brings the goal."""
     before = window.end - 1
     last = rest[-1][0] if rest else before
@@ -99,7 +99,7 @@ def _ended(case: Case, rest: list[tuple[int, int]], window: Window) -> int:
     return next((t for t in later if case.task.goal.holds(case.replay.state_after(t))), last)
 
 
-def suffix_subplan(case: Case, window: Window) -> RuleFault | None:
+def suffix_subplan(case: CheckedResult, window: Window) -> RuleFault | None:
     """Def. 2.0, eq. 9: the suffix is a subsequence of ``pi_H``."""
     options, rest = case.result.options, _between(case, window.end, None)
     if options.suffix != "subplan" or options.preservation != "kernel":
@@ -109,7 +109,7 @@ def suffix_subplan(case: Case, window: Window) -> RuleFault | None:
     return case.first(rest, lambda i: i not in begun and i not in planned, "not a subsequence of pi_H")
 
 
-def preserved_state(case: Case, window: Window) -> RuleFault | None:
+def preserved_state(case: CheckedResult, window: Window) -> RuleFault | None:
     """Def. 3.1 read literally: the state entails ``delta(I, pi_H[1..j])``, then ``pi_H[j+1..]``."""
     if case.result.options.preservation != "state":
         return None
@@ -131,11 +131,11 @@ def preserved_state(case: Case, window: Window) -> RuleFault | None:
     return RuleFault(f"the state before epoch {end} lacks '{fact}', true after pi_H[1..{ends[0]}]", end)
 
 
-def _acts(case: Case, plan: Iterable[int]) -> list[str]:
+def _acts(case: CheckedResult, plan: Iterable[int]) -> list[str]:
     return [case.name(i) for i in plan if i not in case.waiting]
 
 
-def _follows(case: Case, *, last: int) -> RuleFault | None:
+def _follows(case: CheckedResult, *, last: int) -> RuleFault | None:
     """Whether the human executes exactly ``pi_H[t]`` in each epoch up to ``last``."""
     does = case.human_does()
     for epoch in case.alone.deadline.each(range(1, last + 1)):
@@ -151,6 +151,6 @@ def _follows(case: Case, *, last: int) -> RuleFault | None:
     return None
 
 
-def _between(case: Case, start: int, end: int | None) -> Iterable[tuple[int, int]]:
+def _between(case: CheckedResult, start: int, end: int | None) -> Iterable[tuple[int, int]]:
     """(epoch, action) from ``start`` on, before ``end``."""
     return ((t, i) for t, i in case.steps() if t >= start and (end is None or t < end))

@@ -15,7 +15,7 @@ from verify.base.beside_script import alone_of
 from verify.base.due import after_waiting, going_on
 from verify.base.execution import unchosen
 from verify.base.optimal_plans import OptimalPlans
-from verify.scenarios.noise import Noise
+from verify.scenarios.noise import NoiseWeights
 from verify.scenarios.reading import condition
 
 Costs = tuple[Fraction | None, Fraction | None]
@@ -137,7 +137,7 @@ def _own_faults(
             return
     wanted = condition(task, goal.goal)
     if recognised.noise:
-        if not Noise(recognised).is_likeliest(task, wanted, goal, options, deadline):
+        if not NoiseWeights(recognised).is_likeliest(task, wanted, goal, options, deadline):
             yield f"goal '{goal.name}': the plan with its errors is not the likeliest reading"
     elif goal.plan != next(considered_plans(task, wanted, recognised.observed, options, deadline), [None])[0]:
         yield f"goal '{goal.name}': the plan is not the canonical one that explains the observations"
@@ -165,7 +165,7 @@ def _posteriors(recognised: Recognition, logs: Sequence[float]) -> list[float]:
 def _log_likelihood(recognised: Recognition, goal: GoalPosterior, costs: Costs) -> float:
     """The logarithm of ``P(O|G) = 1 / (1 + exp(-beta (cost(G, not O) - cost(G, O))))``, or with noise."""
     if recognised.noise:
-        return Noise(recognised).log_likelihood(goal.errors, costs)
+        return NoiseWeights(recognised).log_likelihood(goal.errors, costs)
     with_observed, without_observed = costs
     if with_observed is None:
         return -math.inf

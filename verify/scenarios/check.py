@@ -17,17 +17,17 @@ from verify.base import wording
 from verify.base.beside_script import alone_of
 from verify.base.obligations import BY_RULES, needed
 from verify.base.undecided import UNDECIDED, UndecidedError, why
-from verify.rules.case import Case
+from verify.rules.case import CheckedResult
 from verify.rules.header import mode_and_human, reason, status_and_fields
 from verify.rules.layers import Layers
 from verify.rules.leftovers import left
-from verify.rules.nobody_pays import Rule, RulesOfHelp, last_state
+from verify.rules.nobody_pays import LastStateRule, RulesOfHelp, last_state
 from verify.rules.replay import replay_human
 from verify.scenarios.beliefs import considered_plans, faults
 from verify.scenarios.reading import condition, listed, recognised
 from verify.scenarios.timelines import (
     Aimed,
-    Timeline,
+    ScenarioTimeline,
     bound_fault,
     close,
     figures_fault,
@@ -39,7 +39,7 @@ from verify.scenarios.timelines import (
 )
 
 
-class Scenario(NamedTuple):
+class NamedScenario(NamedTuple):
     """What an answer has to consider; the plan by names."""
 
     name: str
@@ -54,7 +54,7 @@ def claims_over_scenarios(
     original: Task,
     deadline: Deadline,
     certain: Callable[[Task, Result], Iterable[Claim]],
-    proved: Callable[[Sequence[Timeline]], Iterable[Claim]] | None = None,
+    proved: Callable[[Sequence[ScenarioTimeline]], Iterable[Claim]] | None = None,
 ) -> tuple[Claim, ...]:
     """The claims of an answer over scenarios; where one scenario is left it is an answer of section 3.
 
@@ -100,7 +100,7 @@ def _bound(
     task: Task,
     result: Result,
     original: Task,
-    pairs: Sequence[tuple[Scenario, GoalAnswer]],
+    pairs: Sequence[tuple[NamedScenario, GoalAnswer]],
     deadline: Deadline,
 ) -> tuple[list[Aimed], str | None]:
     """Each scenario's task, its goals, what has to be kept or paid for, and what breaks a rule of help.
@@ -112,7 +112,7 @@ def _bound(
     options = result.options
     if not is_bound(original, options):
         return plain, None
-    rules, plans, paid = list[Rule](), list[HumanPlan](), list[Fraction]()
+    rules, plans, paid = list[LastStateRule](), list[HumanPlan](), list[Fraction]()
     for one, entry in pairs:
         own, told = tasks[one.goal], replace(result, plan=entry.plan)
         asked = RulesOfHelp(own, options, original, deadline)
@@ -140,9 +140,9 @@ def _bound(
 
 def _beyond_rules(
     result: Result,
-    lines: Sequence[Timeline],
+    lines: Sequence[ScenarioTimeline],
     claims: Sequence[Claim],
-    proved: Callable[[Sequence[Timeline]], Iterable[Claim]] | None,
+    proved: Callable[[Sequence[ScenarioTimeline]], Iterable[Claim]] | None,
 ) -> Iterable[Claim]:
     refuted = {claim.claim for claim in claims if claim.verdict == "refuted"}
     replay, wanted = claims[0], beyond_rules(result)
@@ -154,7 +154,7 @@ def _beyond_rules(
     return proved(lines)
 
 
-def _claims_by_rules(result: Result, lines: Sequence[Timeline], origin: str) -> Iterator[Claim]:
+def _claims_by_rules(result: Result, lines: Sequence[ScenarioTimeline], origin: str) -> Iterator[Claim]:
     """What rules say of an answer over several scenarios: of its bound only if that is not consistent."""
     replay: Claim | None = None
     rules: dict[str, Callable[[], str | None]] = {
@@ -195,7 +195,7 @@ def _by_rule(name: str, fault: Callable[[], str | None], origin: str) -> Claim:
 
 def _expected(
     task: Task, result: Result, original: Task, served: Sequence[GoalAnswer], deadline: Deadline
-) -> tuple[list[Scenario], str, str | None]:
+) -> tuple[list[NamedScenario], str, str | None]:
     """The scenarios to consider, where they come from, and what is wrong with that."""
     known, watched = recognised(result), result.options.ties == "watched"
     if known is None and not watched:
@@ -210,7 +210,7 @@ def _expected(
     if known is not None:
         goals = [(one.name, condition(task, one.goal), one.posterior) for one in known.goals if one.posterior]
         read = {one.name: one.plan or () for one in known.goals} if known.noise and known.explained else {}
-    found, most = list[Scenario](), result.options.max_ties if watched else 1
+    found, most = list[NamedScenario](), result.options.max_ties if watched else 1
     taken = {name for name, *_ in goals}
     for name, goal, share in goals:
         all_plans = considered_plans(task, goal, seen, result.options, deadline)
@@ -220,26 +220,26 @@ def _expected(
         numbered = (f"{name or 'plan'} {number}" for number in count(1))
         names = [name] if len(plans) == 1 else (own for own in numbered if own not in taken)
         for own, (_, plan) in zip(names, plans, strict=False):
-            found.append(Scenario(own, goal, plan, Fraction(share) / len(plans)))
+            found.append(NamedScenario(own, goal, plan, Fraction(share) / len(plans)))
     total = sum((scenario.probability for scenario in found), Fraction(0))
     shares = [scenario._replace(probability=scenario.probability / total) for scenario in found]
     return shares, wording.ALL_OPTIMAL if known is None else wording.POSTERIOR, fault
 
 
-def _given(task: Task, served: Sequence[GoalAnswer]) -> tuple[list[Scenario], str, str | None]:
+def _given(task: Task, served: Sequence[GoalAnswer]) -> tuple[list[NamedScenario], str, str | None]:
     """Plans that were given with their probabilities: of these nothing is known but what the answer says."""
     found = []
     for entry in served:
         if entry.human_plan is None or entry.probability <= 0:
             return [], "", f"scenario '{entry.name}': expected a plan and a probability above 0"
         goal = task.goal if entry.goal is None else condition(task, entry.goal)
-        found.append(Scenario(entry.name, goal, entry.human_plan, Fraction(entry.probability)))
+        found.append(NamedScenario(entry.name, goal, entry.human_plan, Fraction(entry.probability)))
     whole = close(1.0, sum((scenario.probability for scenario in found), Fraction(0)))
     return found, wording.GIVEN_PLANS, None if whole else "the probabilities do not add up to 1"
 
 
 def _selection_fault(
-    task: Task, result: Result, chosen: Sequence[Scenario], served: Sequence[GoalAnswer]
+    task: Task, result: Result, chosen: Sequence[NamedScenario], served: Sequence[GoalAnswer]
 ) -> str | None:
     """Whether the scenarios are those to consider, with their plans and probabilities."""
     names = [scenario.name for scenario in chosen]
@@ -265,7 +265,7 @@ def _selection_fault(
     return None
 
 
-def _header_fault(task: Task, result: Result, chosen: Sequence[Scenario]) -> str | None:
+def _header_fault(task: Task, result: Result, chosen: Sequence[NamedScenario]) -> str | None:
     options = result.options
     if (result.mode, options.mode) != ("serendipity", "serendipity"):
         return "scenarios are for mode serendipity"
@@ -292,7 +292,7 @@ def _nothing_fault(task: Task, result: Result) -> str | None:
     own = (result.human_plan, result.human_cost, result.lower_bound, result.horizon)
     if own != (None, None, None, None):
         return "infeasible, with a plan, a cost, a bound or a horizon"
-    case = Case(task, result, alone_of(task))
+    case = CheckedResult(task, result, alone_of(task))
     found = mode_and_human(case) or status_and_fields(case) or reason(case)
     return None if found is None else found.message
 

@@ -26,7 +26,7 @@ Seen = tuple[str, tuple[int, ...]] | None
 """What robots see the human do: an action by name and participants, in whichever variant; None: they wait."""
 
 
-class Member(NamedTuple):
+class PossibleScenario(NamedTuple):
     """A scenario that robots hold possible, as far as it has come.
 
     Attributes:
@@ -51,13 +51,13 @@ class Way(NamedTuple):
 
     seen: Seen
     paid: int
-    after: Member
+    after: PossibleScenario
 
 
 _WAITS: Final = BitOperator(0, 0, 0, 0, 0)
 
 
-class Moves:
+class JointMoves:
     """What everybody can do in a state, which does not depend on the scenario.
 
     Args:
@@ -150,7 +150,7 @@ class Moves:
 class Course:
     """The epochs of one scenario, and what it pays for what is left changed."""
 
-    def __init__(self, call: ExaminedCall, moves: Moves, measure: Measure, prices: Prices) -> None:
+    def __init__(self, call: ExaminedCall, moves: JointMoves, measure: Measure, prices: Prices) -> None:
         self._moves, self._epoch = moves, measure.epoch
         pay = self._pay = measure.pay
         self._prices = [(1 << fact, true, measure.price(price)) for fact, (true, price) in prices.items()]
@@ -175,7 +175,7 @@ class Course:
         self._rest = cache(lambda rest: pay(sum(call.prices.team[i] for i in rest)))
         self._bound = cache(lambda state: left(frozenset(numbers_in(state))))
 
-    def least(self, at: Member, epoch: int) -> int:
+    def least(self, at: PossibleScenario, epoch: int) -> int:
         """No less is left to pay after an epoch; after the last one exactly that."""
         left = self._left(at.state) if epoch == self._horizon else 0
         if at.phase == OVER:
@@ -190,7 +190,7 @@ class Course:
         """The price of what a last state leaves changed."""
         return sum(price for bit, true, price in self._prices if bool(state & bit) is not true)
 
-    def ways(self, at: Member, epoch: int, robots: BitOperator) -> Iterator[Way]:
+    def ways(self, at: PossibleScenario, epoch: int, robots: BitOperator) -> Iterator[Way]:
         """What may happen in an epoch in which robots do so much by themselves."""
         moves = self._moves
         if at.phase == OVER:
@@ -215,12 +215,12 @@ class Course:
         if at.state & self._at_rest == self._at_rest:
             rest = self._suffix(at.state & self._asked, start, self._horizon - epoch)
             if rest is not None:
-                yield Way(way.seen, paid, Member(at.scenario, at.state, OVER, 0, rest, at.ahead))
+                yield Way(way.seen, paid, PossibleScenario(at.scenario, at.state, OVER, 0, rest, at.ahead))
         if epoch < self._horizon and (self._most is None or epochs < self._most):
-            yield Way(way.seen, paid, Member(at.scenario, at.state, INSIDE, epochs, (), at.ahead))
+            yield Way(way.seen, paid, PossibleScenario(at.scenario, at.state, INSIDE, epochs, (), at.ahead))
 
-    def _ways(self, at: Member, part: BitOperator, robots: BitOperator) -> Iterator[Way]:
+    def _ways(self, at: PossibleScenario, part: BitOperator, robots: BitOperator) -> Iterator[Way]:
         together = self._moves.together(at.state, part, robots)
         if together is not None:
-            after = Member(at.scenario, together[1], at.phase, at.epochs, at.rest, at.ahead)
+            after = PossibleScenario(at.scenario, together[1], at.phase, at.epochs, at.rest, at.ahead)
             yield Way(self._moves.seen(part), together[0], after)

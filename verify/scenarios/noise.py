@@ -14,7 +14,7 @@ from verify.rules.replay import replay_human
 _PARTS: Final = 1 << 20
 
 
-class Noise:
+class NoiseWeights:
     """How much less likely units of cost, wrong observations and missed actions make a reading."""
 
     def __init__(self, recognised: Recognition) -> None:

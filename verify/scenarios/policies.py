@@ -17,11 +17,11 @@ from verify.base.undecided import UndecidedError
 from verify.calls.call import ExaminedCall
 from verify.limits import limits
 from verify.programs.effort import Attempt
-from verify.scenarios.courses import INFINITE, OVER, Course, Member, Moves, Seen
+from verify.scenarios.courses import INFINITE, OVER, Course, JointMoves, PossibleScenario, Seen
 from verify.scenarios.measure import Measure
-from verify.scenarios.timelines import Timeline
+from verify.scenarios.timelines import ScenarioTimeline
 
-Group = tuple[int, tuple[Member, ...]]
+Group = tuple[int, tuple[PossibleScenario, ...]]
 """Scenarios that are not told apart, and after how many epochs."""
 
 
@@ -35,22 +35,22 @@ class _Choice(NamedTuple):
     bound: int
     paid: int
     seen: Seen
-    after: Member
+    after: PossibleScenario
 
 
-class PolicySearch:
+class PolicyEnumeration:
     """All policies over the scenarios of one answer: a call for each, and what the answer says of it."""
 
     def __init__(
-        self, calls: Sequence[ExaminedCall], measure: Measure, lines: Sequence[Timeline] = ()
+        self, calls: Sequence[ExaminedCall], measure: Measure, lines: Sequence[ScenarioTimeline] = ()
     ) -> None:
         originals = [line.original for line in lines] or [()] * len(calls)
         prices = [line.prices for line in lines] or [{}] * len(calls)
         self._measure, self._watching = measure, calls[0].options.policy == "watching"
         self._effort, self._horizon = calls[0].effort, int(calls[0].horizon)
-        moves: dict[int, Moves] = {}
+        moves: dict[int, JointMoves] = {}
         for call, original in zip(calls, originals, strict=True):
-            moves.setdefault(id(call.task.actions), Moves(call, measure.pay, original))
+            moves.setdefault(id(call.task.actions), JointMoves(call, measure.pay, original))
         self._moves = [moves[id(call.task.actions)] for call in calls]
         self._courses = [
             Course(call, own, measure, priced)
@@ -58,7 +58,7 @@ class PolicySearch:
         ]
         starts = [own.bits.of(call.task.init) for call, own in zip(calls, self._moves, strict=True)]
         each = zip(starts, measure.ahead, strict=True)
-        self._first = [Member(k, init, ahead=ahead) for k, (init, ahead) in enumerate(each)]
+        self._first = [PossibleScenario(k, init, ahead=ahead) for k, (init, ahead) in enumerate(each)]
         self._known: dict[Group, tuple[int, bool]] = {}
         self._chosen: dict[Group, tuple[BitOperator, list[Group]]] = {}
         self._most: list[int] = []
@@ -102,14 +102,14 @@ class PolicySearch:
         self._known[group] = (below, False) if found is None else (found, True)
         return found if found is not None and found < asked else None
 
-    def _bound(self, epoch: int, members: Sequence[Member]) -> int:
+    def _bound(self, epoch: int, members: Sequence[PossibleScenario]) -> int:
         return min(INFINITE, self._measure.joined(self._simple(epoch, at) for at in members))
 
-    def _simple(self, epoch: int, at: Member) -> int:
+    def _simple(self, epoch: int, at: PossibleScenario) -> int:
         """A bound on what a scenario contributes, had at once."""
         return self._measure.shares[at.scenario] * self._courses[at.scenario].least(at, epoch) + at.ahead
 
-    def _single(self, epoch: int, at: Member, below: int) -> int | None:
+    def _single(self, epoch: int, at: PossibleScenario, below: int) -> int | None:
         """What a scenario contributes if robots know it to be this one, and if that is below so much."""
         level = at._replace(ahead=0) if at.ahead else at
         value = self._value((epoch, (level,)), below - at.ahead)
@@ -136,7 +136,7 @@ class PolicySearch:
                 best = self._combined(group, robots[0], choices, best)
         return best if best < below else None
 
-    def _robots(self, members: Sequence[Member]) -> Iterator[tuple[BitOperator, ...]]:
+    def _robots(self, members: Sequence[PossibleScenario]) -> Iterator[tuple[BitOperator, ...]]:
         """What robots may do by themselves in the whole group, in each of its scenarios."""
         possible = [self._moves[at.scenario].robots(at.state) for at in members]
         idle = any(at.phase == OVER for at in members)
@@ -144,7 +144,9 @@ class PolicySearch:
             if all(shared in sets for sets in possible):
                 yield tuple(sets[shared] for sets in possible)
 
-    def _choices(self, epoch: int, at: Member, robots: BitOperator, below: int) -> Iterator[_Choice]:
+    def _choices(
+        self, epoch: int, at: PossibleScenario, robots: BitOperator, below: int
+    ) -> Iterator[_Choice]:
         """What a scenario may do in an epoch and still contribute less than so much."""
         share = self._measure.shares[at.scenario]
         for seen, spent, after in dict.fromkeys(self._courses[at.scenario].ways(at, epoch, robots)):
@@ -205,7 +207,7 @@ class PolicySearch:
             raise UndecidedError(f"more than {limits().policies:,} groups of scenarios and what they do")
 
 
-def _levelled(epoch: int, members: Sequence[Member]) -> tuple[int, Group]:
+def _levelled(epoch: int, members: Sequence[PossibleScenario]) -> tuple[int, Group]:
     """A group, and what all its scenarios are ahead, which is left out of it."""
     shift = min(at.ahead for at in members)
     return shift, (epoch, tuple(at._replace(ahead=at.ahead - shift) for at in members))

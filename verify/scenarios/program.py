@@ -9,7 +9,7 @@ from itertools import combinations
 
 from verify.base.control import PREFIX, Control, HumanControl, Leg
 from verify.base.execution import unchosen
-from verify.base.subproblem import Prices
+from verify.base.subproblem import IntegerPrices
 from verify.calls.call import ExaminedCall
 from verify.programs.automata import AutomataEncoding
 from verify.programs.automata.linear import Sum, plus
@@ -43,7 +43,7 @@ def refute_policies(calls: Sequence[ExaminedCall], measure: Measure, below: int)
     model, networks = Model(effort.deadline), list[NetworkProgram]()
     for call, share, ahead in zip(calls, measure.shares, measure.ahead, strict=True):
         team, first = tuple(map(measure.pay, call.prices.team)), len(model.upper)
-        question = call.question.but(prices=Prices(0, team, call.prices.talk, measure.epoch))
+        question = call.question.but(prices=IntegerPrices(0, team, call.prices.talk, measure.epoch))
         networks.append(AutomataEncoding(question, pruned=False, shared=model, control=_Control).program)
         own = {x: share * weight for x, weight in model.objective.items() if x >= first}
         model.objective.update(own)

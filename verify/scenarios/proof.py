@@ -17,9 +17,17 @@ from verify.calls.call import ExaminedCall
 from verify.programs.effort import Effort, NoProgramError
 from verify.scenarios.check import beyond_rules
 from verify.scenarios.measure import Measure
-from verify.scenarios.policies import Better, PolicySearch
+from verify.scenarios.policies import Better, PolicyEnumeration
 from verify.scenarios.program import refute_policies
-from verify.scenarios.timelines import Figures, Timeline, answered, close, differing, figures, measured
+from verify.scenarios.timelines import (
+    Figures,
+    ScenarioTimeline,
+    answered,
+    close,
+    differing,
+    figures,
+    measured,
+)
 
 _ROUNDED = 1 - Fraction(1, 10**9)
 """A bound that was summed from rounded probabilities may be too high by its last digits."""
@@ -28,7 +36,7 @@ _ROUNDED = 1 - Fraction(1, 10**9)
 class ScenariosProof:
     """The claims about an answer over scenarios, which breaks no rule, that need an optimiser."""
 
-    def __init__(self, result: Result, lines: Sequence[Timeline], effort: Effort) -> None:
+    def __init__(self, result: Result, lines: Sequence[ScenarioTimeline], effort: Effort) -> None:
         self.result = result
         self.lines = lines
         self.effort = effort
@@ -66,13 +74,13 @@ class ScenariosProof:
         """What each scenario allows by itself."""
         return [self._floor(call, line) for call, line in zip(self._calls, self.lines, strict=True)]
 
-    def _floor(self, call: ExaminedCall, line: Timeline) -> Figures:
+    def _floor(self, call: ExaminedCall, line: ScenarioTimeline) -> Figures:
         """What one allows by itself: where anything is kept or paid for, regret asks by section 11."""
         if self.result.options.risk != "regret" or not (line.prices or line.task.robot_goal):
             return floor_of(call)
         measure = Measure([call], [Fraction(1)], [(Fraction(0), Fraction(0))], [line.prices])
         alone = measure.number(_figures(call, None))
-        better = PolicySearch([call], measure, [line]).better(alone)
+        better = PolicyEnumeration([call], measure, [line]).better(alone)
         return measure.figures(alone if better is None else better[0])
 
     @cached_property
@@ -113,7 +121,7 @@ class ScenariosProof:
             measure = Measure(self._calls, weights, self._floors, plain=True)
             refute_policies(self._calls, measure, self._limit(measure) - measure.slack)
             return "proved", wording.ALL_POLICIES, None
-        better = PolicySearch(self._calls, measure, self.lines).better(limit)
+        better = PolicyEnumeration(self._calls, measure, self.lines).better(limit)
         if better is None:
             return "proved", wording.ALL_POLICIES, None
         objective, cost = measure.figures(better[0])

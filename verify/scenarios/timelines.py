@@ -16,7 +16,7 @@ from verify.base.due import waited
 from verify.base.execution import grouped, unchosen
 from verify.base.optimal_plans import OptimalPlans
 from verify.rules.bound import bound_and_objective, bound_and_status
-from verify.rules.case import Case
+from verify.rules.case import CheckedResult
 from verify.rules.leftovers import Prices
 from verify.rules.registry import RULES
 from verify.rules.report import Violation
@@ -36,7 +36,7 @@ _OF_EACH: Final = (
 
 
 @dataclass(frozen=True, slots=True)
-class Timeline:
+class ScenarioTimeline:
     """One scenario: its probability, and its own task and answer under examination.
 
     Attributes:
@@ -47,7 +47,7 @@ class Timeline:
 
     name: str
     weight: Fraction
-    case: Case
+    case: CheckedResult
     original: Sequence[int]
     prices: Prices
     paid: Fraction
@@ -65,7 +65,7 @@ class Timeline:
 
 
 class Aimed(NamedTuple):
-    """A scenario's task, with what the human wants and what robots have to keep; see :class:`Timeline`."""
+    """A scenario's task, with what the human wants and what robots have to keep."""
 
     task: Task
     original: Sequence[int] = ()
@@ -75,7 +75,7 @@ class Aimed(NamedTuple):
 
 def timelines(
     aimed: Sequence[Aimed], result: Result, served: Sequence[GoalAnswer], deadline: Deadline
-) -> list[Timeline]:
+) -> list[ScenarioTimeline]:
     """The timelines of an answer, by what it says of each of them, with weights that add up to 1."""
     weights = [weight(entry.probability) for entry in served]
     total = sum(weights, Fraction(0))
@@ -94,12 +94,12 @@ def timelines(
             ties=None,
             malformed={},
         )
-        case = Case(one.task, answer, alone[id(one.task)])
-        found.append(Timeline(entry.name, share / total, case, *one[1:]))
+        case = CheckedResult(one.task, answer, alone[id(one.task)])
+        found.append(ScenarioTimeline(entry.name, share / total, case, *one[1:]))
     return found
 
 
-def rule_fault(claim: str, lines: Sequence[Timeline]) -> str | None:
+def rule_fault(claim: str, lines: Sequence[ScenarioTimeline]) -> str | None:
     """The first rule that a timeline breaks, among those of one claim."""
     for line in lines:
         for rule in RULES:
@@ -111,7 +111,7 @@ def rule_fault(claim: str, lines: Sequence[Timeline]) -> str | None:
     return None
 
 
-def lasting_fault(lines: Sequence[Timeline]) -> str | None:
+def lasting_fault(lines: Sequence[ScenarioTimeline]) -> str | None:
     """What each plan reaches lasts until ``T`` where robots are idle (semantics 10)."""
     for line in lines:
         task, plan, last = line.task, line.case.pi_h, int(line.case.result.horizon or 0)
@@ -121,7 +121,7 @@ def lasting_fault(lines: Sequence[Timeline]) -> str | None:
     return None
 
 
-def suffix_fault(lines: Sequence[Timeline]) -> str | None:
+def suffix_fault(lines: Sequence[ScenarioTimeline]) -> str | None:
     """The suffix is the canonical one from the state that the window leaves."""
     for line in lines:
         case, window = line.case, line.case.result.window
@@ -138,7 +138,7 @@ def suffix_fault(lines: Sequence[Timeline]) -> str | None:
     return None
 
 
-def together_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
+def together_fault(result: Result, lines: Sequence[ScenarioTimeline]) -> str | None:
     """Robots act by what they have seen, and no plan that is left alone is broken (semantics 11)."""
     common = horizon = int(result.horizon or 0)
     watching = result.options.policy == "watching"
@@ -179,7 +179,7 @@ def _begun(
 
 
 def measured(
-    risk: str, lines: Sequence[Timeline], each: Sequence[Figures], floors: Sequence[Figures]
+    risk: str, lines: Sequence[ScenarioTimeline], each: Sequence[Figures], floors: Sequence[Figures]
 ) -> Figures:
     """Objective and cost over scenarios of which each comes to so much.
 
@@ -195,7 +195,7 @@ def measured(
 
 
 def answered(
-    result: Result, lines: Sequence[Timeline], floors: Sequence[Figures] = (), *, alone: bool = False
+    result: Result, lines: Sequence[ScenarioTimeline], floors: Sequence[Figures] = (), *, alone: bool = False
 ) -> Figures:
     """Objective and cost of the answer, or of leaving the human alone, which counts as one epoch."""
     window, each = result.options.window_weight, []
@@ -207,7 +207,7 @@ def answered(
     return measured(result.options.risk, lines, each, floors)
 
 
-def figures_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
+def figures_fault(result: Result, lines: Sequence[ScenarioTimeline]) -> str | None:
     """Whether a figure is wrong; those of regret need an optimiser, but for what follows from the others."""
     acting = any(not line.case.own(i) for line in lines for _, i in line.case.steps())
     if not result.opportunity and (acting or any(line.case.result.window for line in lines)):
@@ -220,7 +220,9 @@ def figures_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
     return fault or _shares_fault(result, lines)
 
 
-def figures(result: Result, lines: Sequence[Timeline], floors: Sequence[Figures] = ()) -> dict[str, Fraction]:
+def figures(
+    result: Result, lines: Sequence[ScenarioTimeline], floors: Sequence[Figures] = ()
+) -> dict[str, Fraction]:
     """The figures of an answer by its risk (semantics 11)."""
     objective, cost = answered(result, lines, floors)
     alone = answered(result, lines, floors, alone=True)[1]
@@ -240,7 +242,7 @@ def differing(result: Result, expected: Mapping[str, Fraction], *, at_most: bool
     return None
 
 
-def _shares_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
+def _shares_fault(result: Result, lines: Sequence[ScenarioTimeline]) -> str | None:
     """What each agent pays is a mean, whatever the risk."""
     if result.agent_costs.keys() != set(lines[0].task.agents):
         return "agent_costs: expected one figure for each agent"
@@ -252,7 +254,7 @@ def _shares_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
     return None
 
 
-def bound_fault(result: Result, lines: Sequence[Timeline]) -> str | None:
+def bound_fault(result: Result, lines: Sequence[ScenarioTimeline]) -> str | None:
     """An optimum's bound is its objective, and no bound exceeds one."""
     whole = replace(lines[0].case, result=result)
     found = bound_and_status(whole) or bound_and_objective(whole)
@@ -264,6 +266,6 @@ def close(said: float, value: Fraction) -> bool:
     return math.isclose(said, value, rel_tol=1e-14, abs_tol=1e-14)
 
 
-def mean(lines: Sequence[Timeline], values: Sequence[Fraction]) -> Fraction:
+def mean(lines: Sequence[ScenarioTimeline], values: Sequence[Fraction]) -> Fraction:
     """The expectation of a figure over the scenarios."""
     return sum((line.weight * value for line, value in zip(lines, values, strict=True)), Fraction(0))

@@ -36,7 +36,7 @@ def minimise(model: Model, deadline: Deadline) -> SolverAnswer:
     return _apart(program, deadline, presolve=model.presolve)
 
 
-def _apart(program: worker.Tables, deadline: Deadline, *, presolve: bool) -> SolverAnswer:
+def _apart(program: worker.ProgramArrays, deadline: Deadline, *, presolve: bool) -> SolverAnswer:
     """HiGHS in a process; where it is killed, the last bound that it has told is known."""
     with TemporaryFile() as question, TemporaryFile() as said:
         for table in program:
@@ -62,7 +62,7 @@ def _end(deadline: Deadline) -> float:
     return time() + (_UNENDING if seconds is None else seconds)
 
 
-def tables(model: Model, deadline: Deadline) -> worker.Tables:
+def tables(model: Model, deadline: Deadline) -> worker.ProgramArrays:
     """A program as HiGHS takes it."""
     columns = range(len(model.upper))
     start, row_lower, row_upper = array("i", [0]), array("d"), array("d")
@@ -70,7 +70,7 @@ def tables(model: Model, deadline: Deadline) -> worker.Tables:
         start.append(end)
         row_lower.append(-inf if sense == "<=" else right)
         row_upper.append(inf if sense == ">=" else right)
-    return worker.Tables(
+    return worker.ProgramArrays(
         array("d", (model.objective.get(x, 0) for x in deadline.each(columns))),
         array("d", deadline.each(model.lower)),
         array("d", deadline.each(model.upper)),

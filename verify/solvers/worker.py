@@ -24,7 +24,7 @@ _STATUS: Final = {
 }
 
 
-class Tables(NamedTuple):
+class ProgramArrays(NamedTuple):
     """A program; the terms of its rows are stored one after the other.
 
     Attributes:
@@ -54,7 +54,7 @@ _MISTAKEN: Final = 1 << 12 | 1 << 13 | 1 << 16
 """Rules of HiGHS's presolve that lose solutions together (1.13.1): aggregator, parallel rows, enumeration."""
 
 
-def minimise(program: Tables, end: float, *, presolve: bool, news: IO[str] | None = None) -> Answer:
+def minimise(program: ProgramArrays, end: float, *, presolve: bool, news: IO[str] | None = None) -> Answer:
     """Minimise with one thread and a fixed seed; the objective is integral, so a gap below one half is none.
 
     Args:
@@ -84,12 +84,12 @@ def minimise(program: Tables, end: float, *, presolve: bool, news: IO[str] | Non
     return _answer(solver)
 
 
-def problem(program: Tables) -> Any:
+def problem(program: ProgramArrays) -> Any:
     """A program as an object of HiGHS's."""
     import highspy
     import numpy as np
 
-    made, given = highspy.HighsLp(), Tables(*map(np.asarray, program))  # type: ignore[arg-type]
+    made, given = highspy.HighsLp(), ProgramArrays(*map(np.asarray, program))  # type: ignore[arg-type]
     made.num_col_, made.num_row_ = len(given.cost), len(given.row_lower)
     made.col_cost_, made.col_lower_, made.col_upper_ = given.cost, given.lower, given.upper
     made.row_lower_, made.row_upper_ = given.row_lower, given.row_upper
@@ -150,7 +150,7 @@ def main() -> None:
     Thread(target=_end_with_parent, daemon=True).start()
     end, presolve = sys.argv[1:]
     try:
-        program = Tables(*(pickle.load(sys.stdin.buffer) for _ in Tables._fields))
+        program = ProgramArrays(*(pickle.load(sys.stdin.buffer) for _ in ProgramArrays._fields))
         answer = minimise(program, float(end), presolve=presolve == "True", news=sys.stdout)
         write(answer, sys.stdout)
     except MemoryError:

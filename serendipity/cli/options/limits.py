@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import Annotated, Final
 
 from serendipity.cli.choices import option
-from serendipity.cli.groups import Group
+from serendipity.cli.groups import OptionGroup
 from serendipity.cli.options.planning import given
 from serendipity.model import Deadline, LimitReachedError
 from serendipity.model.errors import LIMITS, limit_reason
@@ -19,7 +19,7 @@ CHECKING: Final = ("serendipity.facade.proofs", "verify:preload")
 """What certificates load as claims turn out to be hard."""
 
 
-class Limits(Group):
+class Limits(OptionGroup):
     """The limits of a command, as texts."""
 
     time_limit: Annotated[

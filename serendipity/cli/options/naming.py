@@ -9,7 +9,7 @@ import typer
 
 from serendipity.cli.choices import option
 from serendipity.cli.files.reading import read_json
-from serendipity.cli.groups import Group
+from serendipity.cli.groups import OptionGroup
 from serendipity.cli.options import limits, settings
 from serendipity.cli.streams import output, progress
 from serendipity.model import Deadline, Result, Script, Task, UsageError
@@ -57,7 +57,7 @@ LENGTH: Final = Parameter(
 """``--epoch`` of a command that has another option of that name."""
 
 
-class TaskName(Group):
+class TaskName(OptionGroup):
     """The words that name a task; exactly one of the four ways."""
 
     files: Files = None

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Annotated, Any, Final
 
 from serendipity.cli.choices import option
-from serendipity.cli.groups import Group
+from serendipity.cli.groups import OptionGroup
 from serendipity.model import Options, Task, UsageError
 from serendipity.model.keywords import CHOICES, InterruptionOptions
 from serendipity.model.task.plans import PlanEntry
@@ -141,7 +141,7 @@ Proof = Annotated[
 """Of an integer program, and of what proves."""
 
 
-class Planning(Group):
+class Planning(OptionGroup):
     """Options of a planning call; ``given`` has the others that the user gave, by name."""
 
     def __init__(self, human_plan: Path | None = None, **options: str | bool | None) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 from serendipity.cli.choices import option
 from serendipity.cli.files.reading import read_text
-from serendipity.cli.groups import Group
+from serendipity.cli.groups import OptionGroup
 from serendipity.model import UsageError
 from serendipity.model.options import limit_of
 
@@ -17,7 +17,7 @@ _TOKEN: Final = "SERENDIPITY_TOKEN"
 _MIB: Final = 2**20
 
 
-class Listening(Group):
+class Listening(OptionGroup):
     """Where a server listens, and who may ask."""
 
     host: Annotated[str, option("--host ADDRESS", "Where to listen.")] = "127.0.0.1"
@@ -46,7 +46,7 @@ class Listening(Group):
         return token
 
 
-class Serving(Group):
+class Serving(OptionGroup):
     """What a server lets others use."""
 
     workers: Annotated[int | None, option("--workers N", "Processes; by default as many as processors.")] = (

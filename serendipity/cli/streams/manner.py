@@ -5,7 +5,7 @@ from contextvars import ContextVar
 from typing import Annotated, Final
 
 from serendipity.cli.choices import option
-from serendipity.cli.groups import Group
+from serendipity.cli.groups import OptionGroup
 from serendipity.model import UsageError
 
 STYLES: Final = ("auto", "plain", "json", "none")
@@ -70,7 +70,7 @@ def log_origin() -> None:
         logging.getLogger("serendipity").debug("the error came from here", exc_info=True)
 
 
-class Manner(Group):
+class Manner(OptionGroup):
     """Options that every command has, and that none needs to know: each is heeded when it is read."""
 
     quiet: Annotated[

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any, Final, NamedTuple
 
 from serendipity.cli.choices import option
-from serendipity.cli.groups import Group
+from serendipity.cli.groups import OptionGroup
 from serendipity.cli.streams.manner import is_quiet
 from serendipity.cli.streams.stderr import tell
 from serendipity.model import UsageError
@@ -33,7 +33,7 @@ ROWS_TOO: Final = formats(DATA, "By default after -o's name, else text.")
 """That of commands whose answers have rows."""
 
 
-class Destination(Group):
+class Destination(OptionGroup):
     """Where an answer goes, and in which format."""
 
     format: Annotated[str | None, option(f"--format {'|'.join(FORMATS)}", "Text, or JSON for -o *.json.")] = (

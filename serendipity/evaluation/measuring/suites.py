@@ -22,7 +22,7 @@ _DOMAIN: Final = "domain.pddl"
 
 
 @dataclass(frozen=True, slots=True)
-class Problem:
+class SuiteProblem:
     """One problem of a suite: the name of its domain, its own, and its files."""
 
     domain: str
@@ -59,12 +59,12 @@ def is_suite(folder: Path) -> bool:
     return any(_problem_files(path) for path in _domains(folder))
 
 
-def problems(folder: Path, domains: Sequence[str] = (), stride: int = 1) -> list[Problem]:
+def problems(folder: Path, domains: Sequence[str] = (), stride: int = 1) -> list[SuiteProblem]:
     """Every ``stride``-th problem of some domains, or of all; a UsageError where there is no such domain."""
     there = {path.name: path for path in _domains(folder)}
     asked = chosen(domains, there, "--domains") or there
     return [
-        Problem(name, file.stem, path / _DOMAIN, file)
+        SuiteProblem(name, file.stem, path / _DOMAIN, file)
         for name, path in there.items()
         if name in asked
         for file in _problem_files(path)[::stride]
@@ -89,7 +89,7 @@ def _problem_files(folder: Path) -> list[Path]:
     return sorted(path for path in folder.glob("*.pddl") if path.name != _DOMAIN)
 
 
-def roles(problem: Problem, robots: int, can_alone: Callable[[Problem, Roles], bool]) -> Roles:
+def roles(problem: SuiteProblem, robots: int, can_alone: Callable[[SuiteProblem, Roles], bool]) -> Roles:
     """The first agent who can do it alone, else the first; and others. An InputError for fewer than two."""
     unit = problem.unit()
     kinds = {schema.parameters[0].type for schema in unit.domain.schemas if schema.agent}
@@ -102,7 +102,7 @@ def roles(problem: Problem, robots: int, can_alone: Callable[[Problem, Roles], b
     return choices[0] if able is None else replace(able, alone=True)
 
 
-def may_alone(problem: Problem, who: Roles) -> bool:
+def may_alone(problem: SuiteProblem, who: Roles) -> bool:
     """True if the human alone reaches the goal of the delete relaxation."""
     task = problem.task(who)
     known = set(task.init)

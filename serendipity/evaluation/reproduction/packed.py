@@ -19,7 +19,7 @@ _STATUSES: Final = ("unknown", "feasible", "infeasible", "optimal")
 _NOTHING: Final = _BYTES.pack(nan, nan, nan, nan, 0.0, 0, 0, 0, False)
 
 
-class Rows(Sequence[Row]):
+class PackedRows(Sequence[Row]):
     """A row for each task and call, in their order; ``unknown`` until it is put there."""
 
     def __init__(self, tasks: Sequence[TaskFolder], calls: Sequence[Call]) -> None:
@@ -46,7 +46,7 @@ class Rows(Sequence[Row]):
         return self._as_they_are.get(place) or self._row(task.test, place)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Rows) and len(self) == len(other) and all(map(Row.__eq__, self, other))
+        return isinstance(other, PackedRows) and len(self) == len(other) and all(map(Row.__eq__, self, other))
 
     def __hash__(self) -> int:
         return hash(self[:])

@@ -13,7 +13,7 @@ from typing import Any, Final
 from search.kernel.library import library
 from serendipity.evaluation.measuring.record import Lines
 from serendipity.evaluation.measuring.suites import chosen
-from serendipity.evaluation.reproduction.packed import Rows
+from serendipity.evaluation.reproduction.packed import PackedRows
 from serendipity.evaluation.reproduction.pool import on_dask
 from serendipity.evaluation.reproduction.rows import KINDS, Row
 from serendipity.evaluation.reproduction.suite import find_tasks
@@ -155,7 +155,7 @@ def reproduce(
         raise UsageError(f"jobs: expected at least 1, got {jobs}")
     tasks = find_tasks(Path(folder))
     book = None if journal is None else Journal(Path(journal))
-    rows = Rows(tasks, calls)
+    rows = PackedRows(tasks, calls)
     for record in () if book is None else book.read():
         rows.put(record, proved=True)
     whole = deadline or Deadline()

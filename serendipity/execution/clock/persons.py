@@ -58,7 +58,7 @@ class Free:
         return choice
 
 
-class Told(Free):
+class ToldInTime(Free):
     """Does what the robots' plan says; without one, what somebody observant does."""
 
     def choose(self, moment: "Moment") -> str | None:

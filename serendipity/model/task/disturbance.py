@@ -49,7 +49,7 @@ def disturbance_from(text: str | None) -> Disturbance:
     return Disturbance(**found)
 
 
-class Weighed:
+class DisturbanceTask:
     """A task in which each action of robots disturbs as much wherever the human is.
 
     An action that disturbs them in some places only becomes one for each of these, and one for all others:

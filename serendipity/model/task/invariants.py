@@ -36,7 +36,7 @@ _Facts = Mapping[int, frozenset[Slot]]
 
 
 @dataclass(frozen=True, slots=True)
-class _Change:
+class _CountChange:
     """The changes of an action to the facts that mention an object."""
 
     needs: _Facts
@@ -99,12 +99,12 @@ def _examples(actions: Iterable[GroundAction]) -> Iterable[GroundAction]:
     return found.values()
 
 
-def _changes(actions: Iterable[GroundAction], atoms: Sequence[_Atom]) -> Iterator[_Change]:
+def _changes(actions: Iterable[GroundAction], atoms: Sequence[_Atom]) -> Iterator[_CountChange]:
     """By action, and by object that its facts mention."""
     for action in actions:
         touched = {*action.pre, *action.add, *action.delete}
         for thing in sorted({argument for fact in touched for argument in atoms[fact][1]}):
-            yield _Change(
+            yield _CountChange(
                 _mentioning(thing, action.pre, atoms),
                 _mentioning(thing, action.add, atoms),
                 _mentioning(thing, action.delete, atoms),
@@ -121,9 +121,9 @@ def _mentioning(thing: str, facts: Iterable[int], atoms: Sequence[_Atom]) -> _Fa
     return found
 
 
-def _by_part(changes: Iterable[_Change]) -> dict[Slot, list[_Change]]:
+def _by_part(changes: Iterable[_CountChange]) -> dict[Slot, list[_CountChange]]:
     """The changes that add or delete facts of each part."""
-    found: dict[Slot, list[_Change]] = {}
+    found: dict[Slot, list[_CountChange]] = {}
     for change in changes:
         parts = frozenset().union(*change.adds.values(), *change.deletes.values())
         for part in parts:
@@ -131,7 +131,7 @@ def _by_part(changes: Iterable[_Change]) -> dict[Slot, list[_Change]]:
     return found
 
 
-def _balanced(changes: Mapping[Slot, Sequence[_Change]], deadline: Deadline) -> Iterator[Candidate]:
+def _balanced(changes: Mapping[Slot, Sequence[_CountChange]], deadline: Deadline) -> Iterator[Candidate]:
     """Candidates that no example unbalances, smaller ones first."""
     pending = deque(frozenset((part,)) for part in sorted(changes))
     seen = set(pending)

@@ -5,7 +5,16 @@ from typing import TYPE_CHECKING, Any
 
 from serendipity.model import UsageError
 from serendipity.model.printable import printable
-from serendipity.pictures.picture.drawing import Circle, Group, Picture, Polyline, Rect, Shape, Style, Text
+from serendipity.pictures.picture.drawing import (
+    Circle,
+    Picture,
+    Polyline,
+    Rect,
+    Shape,
+    ShapeGroup,
+    Style,
+    Text,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -64,7 +73,7 @@ class _Painter:
 
         self.order += 1
         match shape:
-            case Group():
+            case ShapeGroup():
                 for inner in shape.shapes:
                     self.paint(inner, x + shape.x, y + shape.y)
             case Rect():

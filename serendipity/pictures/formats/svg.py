@@ -57,7 +57,7 @@ def _shape(shape: drawing.Shape) -> Iterator[str]:
             yield f"<path{_attributes({**drawn, **joins, **_data(shape.data)})}/>"
         case drawing.Text():
             yield _text(shape)
-        case drawing.Group():
+        case drawing.ShapeGroup():
             placed = {"transform": f"translate({number(shape.x)} {number(shape.y)})"}
             moved = placed if shape.x or shape.y or shape.data else {}
             yield f"<g{_attributes({**moved, **_data(shape.data)})}>"

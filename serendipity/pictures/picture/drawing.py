@@ -118,7 +118,7 @@ class Text:
 
 
 @dataclass(frozen=True, slots=True)
-class Group:
+class ShapeGroup:
     """Shapes that move together, with ``data-*`` attributes for a page's script."""
 
     shapes: "tuple[Shape, ...]"
@@ -128,7 +128,7 @@ class Group:
     title: str = ""
 
 
-Shape = Rect | Circle | Polyline | Text | Group
+Shape = Rect | Circle | Polyline | Text | ShapeGroup
 
 
 @dataclass(frozen=True, slots=True)

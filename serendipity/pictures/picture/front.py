@@ -10,12 +10,12 @@ from serendipity.pictures.picture.drawing import (
     INK,
     PAPER,
     Circle,
-    Group,
     Picture,
     Point,
     Polyline,
     Rect,
     Shape,
+    ShapeGroup,
     Style,
     Text,
 )
@@ -52,7 +52,7 @@ def front_picture(points: Sequence[tuple[Fraction, Fraction]]) -> Picture:
     for x, y in points:
         at = place(x, y)
         shapes += [
-            Group(
+            ShapeGroup(
                 (Circle(*at, 5, Style(fill=BLUE)),),
                 title=f"disturbance {float(x):g}: saves {float(y):g}",
             ),

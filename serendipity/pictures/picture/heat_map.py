@@ -5,7 +5,17 @@ from fractions import Fraction
 from typing import Final
 
 from serendipity.model import Window
-from serendipity.pictures.picture.drawing import INK, PAPER, WALL, Group, Picture, Rect, Shape, Style, Text
+from serendipity.pictures.picture.drawing import (
+    INK,
+    PAPER,
+    WALL,
+    Picture,
+    Rect,
+    Shape,
+    ShapeGroup,
+    Style,
+    Text,
+)
 
 Savings = Mapping[Window, Fraction | None]
 """What is saved in each window; None where no plan fits."""
@@ -28,7 +38,7 @@ def heat_map(maps: Mapping[str, Savings], starts: int, horizon: int) -> Picture:
     """
     width = _LEFT + horizon * _CELL + _GAP
     groups = tuple(
-        Group(tuple(_map(title, savings, starts, horizon)), x=i * width)
+        ShapeGroup(tuple(_map(title, savings, starts, horizon)), x=i * width)
         for i, (title, savings) in enumerate(maps.items())
     )
     return Picture(len(maps) * width, _TOP + starts * _CELL + 24, groups, "Savings by window")
@@ -48,14 +58,14 @@ def _map(title: str, savings: Savings, starts: int, horizon: int) -> Iterator[Sh
         yield _cell(x, y, value, most, f"[{window.start}, {window.end})")
 
 
-def _cell(x: int, y: int, value: Fraction | None, most: Fraction, window: str) -> Group:
+def _cell(x: int, y: int, value: Fraction | None, most: Fraction, window: str) -> ShapeGroup:
     share = float(value / most) if value is not None and value > 0 else 0.0
     side = _CELL - 2
     mixed = bytes(round(low + share * (high - low)) for low, high in zip(_LOW, _HIGH, strict=True))
     colour = _UNFIT if value is None else f"#{mixed.hex()}"
     label = "" if value is None else f"{float(value):.3g}"
     shown = "no plan fits" if value is None else f"saves {label}"
-    return Group(
+    return ShapeGroup(
         (
             Rect(x, y, side, side, Style(fill=colour, stroke=WALL)),
             Text(x + side / 2, y + side / 2, label, _SIZE, colour=PAPER if share > 0.5 else INK),

@@ -22,12 +22,12 @@ from serendipity.pictures.picture.drawing import (
     PAPER,
     WALL,
     Circle,
-    Group,
     Picture,
     Point,
     Polyline,
     Rect,
     Shape,
+    ShapeGroup,
     Style,
     Text,
     agent_colours,
@@ -131,7 +131,7 @@ def map_picture(scene: Scene, epoch: int) -> Picture | None:
         *_meetings(scene, layout),
         *_tokens(scene, epoch),
     )
-    shapes = (Group(content, MARGIN, MARGIN),)
+    shapes = (ShapeGroup(content, MARGIN, MARGIN),)
     where = "; ".join(f"{scene.agents[i]} in {place}" for i, place in scene.frames[epoch].at.items())
     description = f"Map of {len(layout.boxes)} places, epoch {epoch}: {where}"
     return Picture(layout.width + 2 * MARGIN, layout.height + 2 * MARGIN, shapes, description)
@@ -207,7 +207,7 @@ def _labels(scene: Scene, layout: MapLayout) -> Iterator[Shape]:
         width = ems(label) * size
         floor = Style(CORRIDOR if box.corridor else FLOOR)
         yield Rect(x - width / 2, y - size / 2, width, size, floor, round=4)
-        yield Group((Text(x, y, label, size, FAINT_INK),), title="" if label == place else place)
+        yield ShapeGroup((Text(x, y, label, size, FAINT_INK),), title="" if label == place else place)
         if goal:
             yield flag(x - width / 2 - 18, y)
 
@@ -233,11 +233,11 @@ def _door(layout: MapLayout, a: str, b: str) -> Polyline:
     return Polyline(((x - dx, y - dy), (x + dx, y + dy)), floor)
 
 
-def flag(x: float, y: float) -> Group:
+def flag(x: float, y: float) -> ShapeGroup:
     """The mark of a place that the goal is about, its pole at ``x``."""
     pole = Polyline(((x, y - 10), (x, y + 10)), Style(stroke=INK, width=2))
     cloth = Polyline(((x, y - 10), (x + 14, y - 5), (x, y)), Style(GOAL, INK, 1), closed=True)
-    return Group((pole, cloth), title="the human's goal")
+    return ShapeGroup((pole, cloth), title="the human's goal")
 
 
 def _trails(scene: Scene, epoch: int) -> Iterator[Shape]:
@@ -269,7 +269,7 @@ def _meetings(scene: Scene, layout: MapLayout) -> Iterator[Shape]:
         words = Text(box.x, top + TAG_HEIGHT / 2, text, size, INK, bold=True)
         told = "; ".join(f"epoch {meeting.epoch}: {meeting.text}" for _, meeting in several)
         indices = " ".join(str(index) for index, _ in several)
-        yield Group((frame, tag, words), data={"meeting": indices}, title=told)
+        yield ShapeGroup((frame, tag, words), data={"meeting": indices}, title=told)
 
 
 def _fitting(epochs: list[str], width: float) -> tuple[str, float]:
@@ -309,14 +309,14 @@ def _tokens(scene: Scene, epoch: int) -> Iterator[Shape]:
             yield _token(key, now, _pill(name, colour, carries=name in scene.vehicles), name)
 
 
-def _frame(key: str, token: Token, colours: dict[int, str], *, shown: bool) -> Group:
+def _frame(key: str, token: Token, colours: dict[int, str], *, shown: bool) -> ShapeGroup:
     """The frame about who or what is together; a page changes its size."""
     spot = token.spot
     stroke = INK if token.holder is None else colours[token.holder]
     style = Style(PAPER, stroke, 2, opacity=0.8)
     sheet = Rect(-spot.width / 2, -spot.height / 2, spot.width, spot.height, style, round=10)
     at = token.at if shown else _HIDDEN
-    return Group((sheet,), *at, {"token": key}, ", ".join(spot.names))
+    return ShapeGroup((sheet,), *at, {"token": key}, ", ".join(spot.names))
 
 
 def _pill(name: str, holder: str | None, *, carries: bool) -> tuple[Shape, ...]:
@@ -329,9 +329,9 @@ def _pill(name: str, holder: str | None, *, carries: bool) -> tuple[Shape, ...]:
     return outline, Text(0, 0, text, size, INK)
 
 
-def _token(key: str, now: dict[str, Token], shapes: tuple[Shape, ...], title: str) -> Group:
+def _token(key: str, now: dict[str, Token], shapes: tuple[Shape, ...], title: str) -> ShapeGroup:
     x, y = now[key].at if key in now else _HIDDEN
-    return Group(shapes, x, y, {"token": key}, title)
+    return ShapeGroup(shapes, x, y, {"token": key}, title)
 
 
 def _person(letter: str, fill: str, stroke: str = PAPER, *, dashed: bool = False) -> tuple[Shape, ...]:

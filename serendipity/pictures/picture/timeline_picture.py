@@ -16,11 +16,11 @@ from serendipity.pictures.picture.drawing import (
     PAPER,
     WINDOW,
     Circle,
-    Group,
     Picture,
     Polyline,
     Rect,
     Shape,
+    ShapeGroup,
     Style,
     Text,
     act_style,
@@ -86,7 +86,7 @@ def lane_labels(scene: Scene) -> Picture:
         colour = INK if change.goal else FAINT_INK
         heights = stacked(len(lines), top + _FACT / 2, min(13, _FACT / len(lines)))
         label = [Text(8, y, line, size, colour, "start") for line, y in zip(lines, heights, strict=True)]
-        shapes.append(Group(tuple(label), title=text))
+        shapes.append(ShapeGroup(tuple(label), title=text))
     return Picture(LABELS, _height(scene), tuple(shapes), "Lanes of the timeline")
 
 
@@ -116,10 +116,10 @@ def timeline_picture(
     return Picture(width, _height(scene), tuple(shapes), f"Timeline. {'; '.join(steps)}")
 
 
-def _cursor(scene: Scene, x: float) -> Group:
+def _cursor(scene: Scene, x: float) -> ShapeGroup:
     """The frame about the column of the epoch that is shown, which stands behind all words."""
     frame = Rect(1.5, 1.5, column(scene) - 3, _height(scene) - 3, Style(stroke=INK, width=3), round=8)
-    return Group((frame,), x, 0, {"cursor": ""})
+    return ShapeGroup((frame,), x, 0, {"cursor": ""})
 
 
 def _head(scene: Scene) -> float:
@@ -161,7 +161,7 @@ def _columns(scene: Scene, first: int, last: int) -> Iterator[Shape]:
         time = scene.clock(epoch).partition("–")[2]  # at the end of the epoch
         shapes += [Text(width - 5, _HEAD, *fitted(time, width - 8, 12, 7), FAINT_INK, "end")] if time else []
         title = "the window: the human may be met" if inside else ""
-        yield Group(tuple(shapes), (epoch - first) * width, 0, {"column": str(epoch)}, title)
+        yield ShapeGroup(tuple(shapes), (epoch - first) * width, 0, {"column": str(epoch)}, title)
 
 
 def _marks(scene: Scene, first: int, last: int) -> Iterator[Shape]:
@@ -183,7 +183,7 @@ def _marks(scene: Scene, first: int, last: int) -> Iterator[Shape]:
             ),
             *(Text(x - 10, y, line, size, INK, "end") for line, y in zip(lines, heights, strict=True)),
         ]
-        yield Group(tuple(shapes), title=f"with epoch {epoch}: {', '.join(texts)}")
+        yield ShapeGroup(tuple(shapes), title=f"with epoch {epoch}: {', '.join(texts)}")
         before = epoch
 
 
@@ -202,7 +202,9 @@ def _acts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
                 yield _bar(scene, act, range(first, last + 1), former, _FORMER - 6, FAINT_INK)
 
 
-def _bar(scene: Scene, act: Act, seen: range, paints: dict[float, Style], height: float, ink: str) -> Group:
+def _bar(
+    scene: Scene, act: Act, seen: range, paints: dict[float, Style], height: float, ink: str
+) -> ShapeGroup:
     """An action over those of its epochs that are seen, in lanes of some middles."""
     start, end = max(seen[0], act.epoch), min(seen[-1], act.end)
     width = (end - start + 1) * column(scene)
@@ -213,7 +215,7 @@ def _bar(scene: Scene, act: Act, seen: range, paints: dict[float, Style], height
     for middle, paint in paints.items():
         shapes += box(act.verb, act.detail, width, middle, height, paint, ink)
     x = (start - seen[0]) * column(scene)
-    return Group(tuple(shapes), x, 0, {"act": str(act.epoch)}, act.action)
+    return ShapeGroup(tuple(shapes), x, 0, {"act": str(act.epoch)}, act.action)
 
 
 def _facts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
@@ -226,7 +228,7 @@ def _facts(scene: Scene, first: int, last: int) -> Iterator[Shape]:
             x, width = (start - first) * column(scene) + 4, (end - start + 1) * column(scene) - 8
             text, size = fitted(span.value, width - 16, 13, 10)
             bar = Rect(x, top + 4, width, _FACT - 8, Style(colour), round=6)
-            yield Group((bar, Text(x + 8, top + _FACT / 2, text, size, INK, "start")), title=span.value)
+            yield ShapeGroup((bar, Text(x + 8, top + _FACT / 2, text, size, INK, "start")), title=span.value)
 
 
 _MARGIN: Final = 20.0
@@ -253,16 +255,16 @@ def still(scene: Scene, epoch: int | None = None) -> Picture:
     shapes.append(Text(0, y + 2, caption, 18, INK, "start"))
     y += 26
     if city is not None:
-        shapes.append(Group(city.shapes, (wide - city.width) / 2, y))
+        shapes.append(ShapeGroup(city.shapes, (wide - city.width) / 2, y))
         y += city.height + 10
-        shapes.append(Group(tuple(_legend(scene)), 0, y))
+        shapes.append(ShapeGroup(tuple(_legend(scene)), 0, y))
         y += 40
     labels = lane_labels(scene)
     for first in range(0, len(scene.frames), per_row):
         row = timeline_picture(scene, first, first + per_row - 1, now)
-        shapes += [Group(labels.shapes, 0, y), Group(row.shapes, LABELS, y)]
+        shapes += [ShapeGroup(labels.shapes, 0, y), ShapeGroup(row.shapes, LABELS, y)]
         y += row.height + 14
-    body = Group(tuple(shapes), _MARGIN, _MARGIN)
+    body = ShapeGroup(tuple(shapes), _MARGIN, _MARGIN)
     return Picture(wide + 2 * _MARGIN, y + _MARGIN, (body,), f"{headline(scene)}. {subtitle(scene)}")
 
 
@@ -286,5 +288,5 @@ def _legend(scene: Scene) -> Iterator[Shape]:
         entries.append((flag(8, 12), "goal"))
     x = 0.0
     for sample, text in entries:
-        yield Group((sample, Text(32, 12, text, 16, INK, "start")), x, 0)
+        yield ShapeGroup((sample, Text(32, 12, text, 16, INK, "start")), x, 0)
         x += 60 + len(text) * 9.5

@@ -30,7 +30,7 @@ def tree_labels(scene: Scene, top: float, width: float) -> Iterator[Shape]:
         lines, size = drawing.wrapped(text, width - 12, (13, 12, 11, 10), 3)
         middles = drawing.stacked(len(lines), y + (_WORDS + bar) / 2, size + 2)
         label = (Text(8, at, line, size, INK, "start") for line, at in zip(lines, middles, strict=True))
-        yield drawing.Group(tuple(label), title=text)
+        yield drawing.ShapeGroup(tuple(label), title=text)
 
 
 def tree(scene: Scene, top: float, first: int, last: int, column: float) -> Iterator[Shape]:
@@ -113,4 +113,4 @@ def _acts(scene: Scene, history: History, top: float, seen: range, column: float
             wide = column * step.duration
             shapes = drawing.box(only + act.verb, act.detail, wide, middle, _ACT - 8, paint, INK)
             x = (step.epoch - seen[0]) * column
-            yield drawing.Group(tuple(shapes), x, 0, {"act": str(step.epoch)}, act.action)
+            yield drawing.ShapeGroup(tuple(shapes), x, 0, {"act": str(step.epoch)}, act.action)

@@ -9,7 +9,7 @@ from typing import Final
 
 from serendipity.robot.physics.building import Point
 from serendipity.robot.physics.engine import RATE
-from serendipity.robot.physics.figure import Figure, Kit
+from serendipity.robot.physics.figure import Kit, Walker
 
 Deed = Generator[None, None, None]
 
@@ -29,7 +29,7 @@ class StuckError(Exception):
     """A body can't do what it should; it says why."""
 
 
-def walk(figure: Figure, speed: float, point: Point, target: str) -> Deed:
+def walk(figure: Walker, speed: float, point: Point, target: str) -> Deed:
     """Walk to a point in or near something; a StuckError where something is in the way."""
     nearest, waited = figure.away(point), 0
     while not figure.walk(point, speed):
@@ -41,7 +41,7 @@ def walk(figure: Figure, speed: float, point: Point, target: str) -> Deed:
             raise StuckError(f"stuck on the way to {target}")
 
 
-def take(figure: Figure, speed: float, kit: Kit) -> Deed:
+def take(figure: Walker, speed: float, kit: Kit) -> Deed:
     """Pick something up from the floor."""
     place = kit.place[:2]
     if figure.away(place) > _ARM:
@@ -51,14 +51,14 @@ def take(figure: Figure, speed: float, kit: Kit) -> Deed:
     yield from wait([figure], _HANDLING)
 
 
-def put(figure: Figure, kit: Kit) -> Deed:
+def put(figure: Walker, kit: Kit) -> Deed:
     """Lay something down."""
     yield from wait([figure], _HANDLING)
     kit.let_go()
     yield from wait([figure], _HANDLING)
 
 
-def hand(giver: Figure, taker: Figure, speed: float, kit: Kit) -> Deed:
+def hand(giver: Walker, taker: Walker, speed: float, kit: Kit) -> Deed:
     """Hand something over."""
     if giver.away(taker.at) > _FACING:
         for _ in walk(taker, speed, _towards(giver.at, taker.at, _FACING), "the other"):
@@ -69,7 +69,7 @@ def hand(giver: Figure, taker: Figure, speed: float, kit: Kit) -> Deed:
     yield from wait([giver, taker], _HANDLING / 2)
 
 
-def wait(figures: Iterable[Figure], seconds: float, facing: Point | None = None) -> Deed:
+def wait(figures: Iterable[Walker], seconds: float, facing: Point | None = None) -> Deed:
     """Be busy where one is."""
     everybody = list(figures)
     for _ in range(round(seconds * RATE)):

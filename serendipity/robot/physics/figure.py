@@ -20,7 +20,7 @@ _TURN: Final = 5.0  # radians in a second
 _CLOSE: Final = 0.02  # metres
 
 
-class Figure:
+class Walker:
     """A body that walks, and its number in the engine."""
 
     def __init__(self, engine: Engine, at: Point, colour: Colour, cap: Colour) -> None:
@@ -96,7 +96,7 @@ class Kit:
         parts = [(engine.look("BOX", _WHITE, halfExtents=bar), (0.0, 0.0, half[2] + 0.004)) for bar in cross]
         solid = engine.solid("BOX", halfExtents=half)
         self._body = engine.body(_KIT_MASS, solid, look, (*at, half[2]), parts)
-        self.holder: Figure | None = None
+        self.holder: Walker | None = None
         self._grip = -1
 
     @property
@@ -104,7 +104,7 @@ class Kit:
         """Where its middle is."""
         return self._engine.place_of(self._body)
 
-    def take(self, figure: Figure) -> None:
+    def take(self, figure: Walker) -> None:
         """Fix it between somebody's hands; whoever has held it lets go."""
         self.let_go()
         fixed, origin = self._engine.bullet.JOINT_FIXED, (0, 0, 0)

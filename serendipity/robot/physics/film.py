@@ -14,7 +14,7 @@ from serendipity.model import UsageError
 from serendipity.model.numbers import plain
 from serendipity.robot.physics.building import Rooms
 from serendipity.robot.physics.engine import Engine, Vector
-from serendipity.robot.physics.figure import Figure, Kit
+from serendipity.robot.physics.figure import Kit, Walker
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -122,7 +122,7 @@ class Film:
         self._frames: list[_Frame] = []
 
     def begin(
-        self, engine: Engine, building: Rooms, figures: Mapping[str, Figure], things: Mapping[str, Kit]
+        self, engine: Engine, building: Rooms, figures: Mapping[str, Walker], things: Mapping[str, Kit]
     ) -> None:
         """Set up the camera before what is to be seen."""
         self._engine = engine

@@ -17,7 +17,7 @@ from serendipity.robot.physics import deeds
 from serendipity.robot.physics.building import CELL, Point, Rooms
 from serendipity.robot.physics.deeds import Deed, StuckError, in_turn, together
 from serendipity.robot.physics.engine import RATE, Colour, Engine
-from serendipity.robot.physics.figure import Figure, Kit
+from serendipity.robot.physics.figure import Kit, Walker
 from serendipity.robot.physics.film import Film
 
 EPOCH: Final = 5.0
@@ -146,7 +146,7 @@ class Stage:
             else:
                 yield deeds.put(was, kit) if will is None else deeds.hand(was, will, _SPEED, kit)
 
-    def _holder(self, where: Whereabouts) -> Figure | None:
+    def _holder(self, where: Whereabouts) -> Walker | None:
         return None if where.holder is None else self._figures.get(where.holder)
 
     def _to(self, agent: int, place: str) -> Deed:
@@ -159,11 +159,11 @@ class Stage:
 
     # -- where things stand
 
-    def _figure(self, agent: int, place: str) -> Figure:
+    def _figure(self, agent: int, place: str) -> Walker:
         colours = _PERSON
         if agent != self._task.human:
             colours = _ROBOTS[self._task.robots.index(agent) % len(_ROBOTS)], _FACE
-        return Figure(self._engine, self._spot(agent, place), *colours)
+        return Walker(self._engine, self._spot(agent, place), *colours)
 
     def _spot(self, agent: int, place: str) -> Point:
         """Where in a place an agent stands, so that nobody is in anybody's way."""

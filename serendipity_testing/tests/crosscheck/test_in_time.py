@@ -11,7 +11,7 @@ from serendipity_testing.crosscheck import JUDGES, FalseCertificates, compare
 from serendipity_testing.disagreement import Disagreement
 from serendipity_testing.generator import PlanCall, random_call_in_time
 from serendipity_testing.oracle import truth
-from serendipity_testing.oracle.reactions import Best
+from serendipity_testing.oracle.reactions import LeastCost
 from serendipity_testing.tests.crosscheck.test_among_people import BOTH
 from serendipity_testing.written_case import PLAN, write_case
 from tests.cli.conftest import Runs
@@ -39,7 +39,7 @@ def test_brute_force_judges_answers_beside_people_who_replan(monkeypatch: pytest
     calls = (call for call in map(random_call_in_time, range(300)) if "human_model" in call.options)
     kept = [call for call in islice(calls, 8) if compare(call, {"search": JUDGES["search"]}, {}) is None]
     assert len(kept) == 8
-    monkeypatch.setattr(truth, "best_reaction", lambda *_: Best(Fraction(-1), 0))
+    monkeypatch.setattr(truth, "best_reaction", lambda *_: LeastCost(Fraction(-1), 0))
     said = [compare(call, {"search": JUDGES["search"]}, {}) for call in kept]
     assert any(found is not None and "brute force" in found.said for found in said)
 

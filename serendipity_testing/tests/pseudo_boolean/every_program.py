@@ -21,7 +21,7 @@ from serendipity.evaluation.measuring.figures import timed
 from serendipity.evaluation.measuring.record import measured
 from serendipity.model import Result
 from serendipity_testing.pseudo_boolean.comparison import difference
-from serendipity_testing.pseudo_boolean.opb import Problem
+from serendipity_testing.pseudo_boolean.opb import PseudoBooleanProblem
 from serendipity_testing.pseudo_boolean.question import NotMadeError
 from verify.certificate.certify import certify
 from verify.proofs.book import ProofWriter
@@ -85,7 +85,7 @@ def compared(asked: tuple[Asked, float | None, float]) -> dict[str, Any]:
     return {"programs": programs, "seconds": seconds}
 
 
-def least(problem: Problem, limit: float) -> int | None:
+def least(problem: PseudoBooleanProblem, limit: float) -> int | None:
     """The least objective of a problem; None where nothing satisfies it."""
     from ortools.sat.python import cp_model
 

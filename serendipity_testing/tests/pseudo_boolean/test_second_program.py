@@ -15,8 +15,8 @@ from serendipity_testing.builders import task
 from serendipity_testing.generator import random_call_in_time
 from serendipity_testing.oracle import best, optimal_human_plan
 from serendipity_testing.pseudo_boolean.comparison import difference
-from serendipity_testing.pseudo_boolean.opb import Problem
-from serendipity_testing.pseudo_boolean.question import NotMadeError, Question
+from serendipity_testing.pseudo_boolean.opb import PseudoBooleanProblem
+from serendipity_testing.pseudo_boolean.question import NotMadeError, PlansAsked
 from serendipity_testing.pseudo_boolean.second import program
 from serendipity_testing.strategies import Call, calls
 from serendipity_testing.tests.pseudo_boolean.every_program import compared
@@ -55,7 +55,7 @@ def _help(encoding: str = "automata") -> Sample:
     return Sample(writer.to_dict("optimal", encoding), corridor, result)
 
 
-def least(problem: Problem, solver: str = "highs") -> int | None:
+def least(problem: PseudoBooleanProblem, solver: str = "highs") -> int | None:
     """The least objective of a problem."""
     model, columns = Model(), dict[str, int]()
     for x in problem.variables:
@@ -116,7 +116,7 @@ def test_joint_plans_cost_what_brute_force_says(call: Call) -> None:
     epochs = len(plan) if options.horizon is None else options.horizon
     if not isinstance(epochs, int) or not epochs or options.keep_prefix or options.max_cost is not None:
         return
-    problem, unit = program(Question(call.task, options, plan, epochs, "all plans"))
+    problem, unit = program(PlansAsked(call.task, options, plan, epochs, "all plans"))
     found = least(problem)
     assert (None if found is None else found * unit) == expected.objective
 
@@ -177,7 +177,7 @@ def test_what_is_not_made_says_so() -> None:
     assert found.result is not None
     literal = found.result.options.but(preservation="state")
     with pytest.raises(NotMadeError, match="preservation"):
-        program(Question(found.task, literal, (), 3, "every window", most_cost=Fraction(2)))
+        program(PlansAsked(found.task, literal, (), 3, "every window", most_cost=Fraction(2)))
 
 
 def test_suffixes_are_told_apart_by_facts_with_bearing_only() -> None:

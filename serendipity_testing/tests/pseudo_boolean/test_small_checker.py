@@ -8,13 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from serendipity_testing.pseudo_boolean.checker import ProofError, check
-from serendipity_testing.pseudo_boolean.opb import Constraint, Problem, read
+from serendipity_testing.pseudo_boolean.opb import Constraint, PseudoBooleanProblem, read
 
 _NAMES = ("x1", "x2", "x3")
 
 
-def _problem(dice: Random) -> Problem:
-    problem = Problem(objective={x: dice.randint(-2, 3) for x in _NAMES} if dice.random() < 0.5 else None)
+def _problem(dice: Random) -> PseudoBooleanProblem:
+    problem = PseudoBooleanProblem(
+        objective={x: dice.randint(-2, 3) for x in _NAMES} if dice.random() < 0.5 else None
+    )
     for _ in range(dice.randint(1, 4)):
         terms = {x: dice.randint(-3, 3) for x in _NAMES if dice.random() < 0.8}
         problem.add(terms, dice.choice(("<=", ">=", "=")), dice.randint(-2, 3))

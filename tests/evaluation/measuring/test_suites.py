@@ -7,8 +7,8 @@ import pytest
 from serendipity import InputError, UsageError, generate_usar
 from serendipity.evaluation.benchmark.coverage import can_alone
 from serendipity.evaluation.measuring.suites import (
-    Problem,
     Roles,
+    SuiteProblem,
     folders,
     is_suite,
     may_alone,
@@ -20,9 +20,9 @@ from tests.pddl.texts import domain, pair, problem
 GO = "(:action go :agent ?who - agent :parameters (?x - thing) :precondition (a ?x) :effect (b ?x))"
 
 
-def written(folder: Path, objects: str) -> Problem:
+def written(folder: Path, objects: str) -> SuiteProblem:
     files = pair(folder, domain(GO), problem("(a o1)", "(b o1)", objects))
-    return Problem("small", "little", *files)
+    return SuiteProblem("small", "little", *files)
 
 
 def test_problems_stand_beside_their_domain(suite: Path) -> None:

@@ -17,7 +17,7 @@ import serendipity
 from serendipity import Deadline, UsageError
 from serendipity.evaluation.reproduction import COLUMNS, Progress, Reproduction, Row, reproduce
 from serendipity.evaluation.reproduction import run as run_module
-from serendipity.evaluation.reproduction.packed import Rows
+from serendipity.evaluation.reproduction.packed import PackedRows
 from serendipity.evaluation.reproduction.suite import TaskFolder
 from serendipity.evaluation.reproduction.tables import Tables, as_json, table_1
 from serendipity.evaluation.reproduction.work import Assignment, Call, TaskRows, unknown
@@ -108,7 +108,7 @@ def test_a_batch_takes_no_more_memory_the_longer_it_runs(monkeypatch: pytest.Mon
 def test_rows_are_as_they_were_put() -> None:
     """Where their bytes don't say all of them, too."""
     tasks, calls = [folder(0)], [Call("serendipity", Fraction(n)) for n in range(4)]
-    rows, odd = Rows(tasks, calls), Fraction(10**20 + 1, 3 * 10**15)
+    rows, odd = PackedRows(tasks, calls), Fraction(10**20 + 1, 3 * 10**15)
     none = [unknown("0", call) for call in calls]
     assert [*rows] == none
     done = replace(none[0], status="optimal", cost=odd, human_cost=Fraction(1, 3), window=Window(2, 5))

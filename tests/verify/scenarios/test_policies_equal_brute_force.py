@@ -16,7 +16,7 @@ from verify.calls.call import ExaminedCall
 from verify.programs.effort import Effort
 from verify.proofs.book import ProofWriter
 from verify.scenarios.measure import Measure
-from verify.scenarios.policies import Better, PolicySearch
+from verify.scenarios.policies import Better, PolicyEnumeration
 from verify.scenarios.program import refute_policies
 from verify.scenarios.proof import floor_of
 
@@ -55,7 +55,7 @@ def require_least(calls: list[ExaminedCall], weights: list[Fraction], right: Pol
             refute_policies(asked, plain, plain.number(right.least) + 1)
 
     def better(than: int) -> Better | None:
-        return PolicySearch(calls, measure).better(than)
+        return PolicyEnumeration(calls, measure).better(than)
 
     found = better(_FAR)
     assert found is not None

@@ -2,6 +2,6 @@
 
 from verify.certificate.simulator.check import realised_claim
 from verify.certificate.simulator.run import MomentOfPlay, Play, PlayedOut, play
-from verify.certificate.simulator.sight import Sight
+from verify.certificate.simulator.sight import LocalSight
 
-__all__ = ["MomentOfPlay", "Play", "PlayedOut", "Sight", "play", "realised_claim"]
+__all__ = ["LocalSight", "MomentOfPlay", "Play", "PlayedOut", "play", "realised_claim"]

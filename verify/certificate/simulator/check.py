@@ -31,7 +31,7 @@ def realised_claim(task: Task, result: Result, plans: OptimalPlans | None = None
         return None
     started = perf_counter()
     try:
-        fault = next(_Examination(task, result, plans or OptimalPlans(task)).faults(), None)
+        fault = next(_TraceExamination(task, result, plans or OptimalPlans(task)).faults(), None)
     except UNDECIDED as error:
         return Claim("realised", "undecided", why(error), seconds=perf_counter() - started)
     except PlanError as error:
@@ -43,7 +43,7 @@ def realised_claim(task: Task, result: Result, plans: OptimalPlans | None = None
     return Claim("realised", "proved", wording.PLAYED_AGAIN.format(models), seconds=seconds)
 
 
-class _Examination:
+class _TraceExamination:
     def __init__(self, task: Task, result: Result, plans: OptimalPlans) -> None:
         self.task = task
         self.result = result

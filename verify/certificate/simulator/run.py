@@ -13,7 +13,7 @@ from serendipity.model.keywords import Horizon
 from verify.base.due import onward
 from verify.base.execution import State, after, applicable, fits, grouped, idling, met, price, unchosen
 from verify.base.optimal_plans import OptimalPlans
-from verify.certificate.simulator.sight import Sight
+from verify.certificate.simulator.sight import LocalSight
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +104,7 @@ def play(
     orders = grouped((step.epoch, step.action) for step in steps if step.action not in not_theirs)
     plans = plans or OptimalPlans(task)
     deadline = plans.deadline
-    sight = Sight(task, visible, deadline.tick) if human_model == "local" else None
+    sight = LocalSight(task, visible, deadline.tick) if human_model == "local" else None
     game = Play(task, options, plans, sight)
     last = max(orders, default=0)
     now, deeds = game.start(human_plan), list[PlayedEpoch]()
@@ -129,7 +129,7 @@ class Play:
         sight: how they see; None for everything.
     """
 
-    def __init__(self, task: Task, options: Options, plans: OptimalPlans, sight: Sight | None) -> None:
+    def __init__(self, task: Task, options: Options, plans: OptimalPlans, sight: LocalSight | None) -> None:
         self.task = task
         self.strict = options.strict
         self.plans = plans

@@ -6,7 +6,7 @@ from serendipity.model import Task, Visible, surroundings
 from verify.base.execution import State, is_last
 
 
-class Sight:
+class LocalSight:
     """A local human's looks.
 
     Args:

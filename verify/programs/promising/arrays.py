@@ -106,7 +106,7 @@ class Arcs:
         return [moves[a:b] for a, b in pairwise(start)]
 
 
-class Ways:
+class HumanWays:
     """The human's ways over some moves, where what an action needs may have to be made by themselves first.
 
     Args:

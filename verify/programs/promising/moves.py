@@ -29,7 +29,7 @@ from verify.limits import limits
 from verify.packed.edges import distances
 from verify.packed.layout import Ints
 from verify.programs.agents.product import Move
-from verify.programs.promising.arrays import Actions, Arcs, Mask, Ways, which
+from verify.programs.promising.arrays import Actions, Arcs, HumanWays, Mask, which
 from verify.programs.promising.bounds import NEVER, Spending, Use
 from verify.programs.promising.team import TeamMoves
 
@@ -220,7 +220,7 @@ class _Moves:
         if (start + left).min(initial=self._team.far) > limit:
             return None
         lacking = self._lacking(np.unique(action), judged.made > most, before)
-        ways = Ways(
+        ways = HumanWays(
             (source, action, target, weight), lacking, self._actions, start, left, limit, team.deadline
         )
         total = int((ways.done + goal).min(initial=self._team.far))
