@@ -15,7 +15,7 @@ from serendipity.classical import fast_downward
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome
 from serendipity.evaluation.benchmark.coverage import CONTENDERS as SUITE_CONTENDERS
 from serendipity.evaluation.benchmark.coverage import Call
-from serendipity.evaluation.benchmark.rows import ContenderRow, as_table
+from serendipity.evaluation.benchmark.rows import BenchRow, as_table
 from serendipity.evaluation.benchmark.scaling import AXES, Axis
 from serendipity.evaluation.benchmark.side_by_side import CONTENDERS
 from serendipity.scenarios.examples import DATA
@@ -168,7 +168,7 @@ def test_a_suite_is_measured_and_its_tables_are_printed_again(run: Runs) -> None
 
 def test_optima_of_a_suite_that_differ_are_an_error(run: Runs) -> None:
     rows = [
-        ContenderRow("d", "t", "h", "r", True, "individual", 0.9, name, Outcome("optimal", cost))
+        BenchRow("d", "t", "h", "r", True, "individual", 0.9, name, Outcome("optimal", cost))
         for name, cost in (("search", 1.0), ("fast-downward", 2.0))
     ]
     Path("rows.csv").write_text(str(written(as_table(rows), "csv")))
@@ -182,7 +182,7 @@ def test_optima_of_a_suite_that_differ_are_an_error(run: Runs) -> None:
 
 def test_coverage_over_time_is_drawn(run: Runs) -> None:
     pytest.importorskip("matplotlib")
-    row = ContenderRow(
+    row = BenchRow(
         "d", "t", "h", "r", True, "individual", 0.9, "search", Outcome("optimal", 1.0, seconds=0.5)
     )
     Path("rows.csv").write_text(str(written(as_table([row]), "csv")))

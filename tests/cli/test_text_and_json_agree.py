@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import serendipity
 from serendipity.evaluation.benchmark.contenders import Outcome
-from serendipity.evaluation.benchmark.rows import ContenderRow, as_table, read_rows
+from serendipity.evaluation.benchmark.rows import BenchRow, as_table, read_rows
 from serendipity.model.json_text import json_text
 from serendipity.model.table import Table
 from serendipity.writing.rows import FORMATS
@@ -164,7 +164,7 @@ def test_bench_of_a_suite(run: Runs) -> None:
         Outcome("unknown", None, reason="=time-limit, first"),
     ]
     asked = {"domain": "d", "task": "t", "human": "h", "robots": "r1 r2", "alone": True, "discount": 0.9}
-    rows = [ContenderRow(**asked, mode="individual", contender="search", outcome=each) for each in said]
+    rows = [BenchRow(**asked, mode="individual", contender="search", outcome=each) for each in said]
     table = as_table(rows)
     Path("suite.csv").write_text(str(written_as(table, "csv")))
     for found in saved(run, "bench suite.csv --quiet", table).values():

@@ -21,13 +21,13 @@ from serendipity.writing.rows import written
 
 if TYPE_CHECKING:
     from serendipity.evaluation.benchmark.contenders import Contender
-    from serendipity.evaluation.benchmark.rows import ContenderRow
+    from serendipity.evaluation.benchmark.rows import BenchRow
 
 _MODES: Final = ("serendipity", "communication", "composite-inf")
 _DISCOUNTS: Final = ("0", "0.5", "0.9")
 _CONTENDERS: Final = ("search", "in-turn", "automata", "fast-downward")
 
-_Tell = Callable[[str, "Sequence[ContenderRow]", str], None]
+_Tell = Callable[[str, "Sequence[BenchRow]", str], None]
 """Prints a text, writes rows where there are some, and plots them by that name where it is asked for."""
 
 
@@ -106,7 +106,7 @@ def bench(
     """Measure the search beside integer programs and others. -o writes every timing."""
     form = _checked_form(output_file, plot)
 
-    def tell(text: str, rows: "Sequence[ContenderRow]", plotted: str) -> None:
+    def tell(text: str, rows: "Sequence[BenchRow]", plotted: str) -> None:
         from serendipity.evaluation.benchmark.rows import as_table
 
         answers = [output.Answer(text, None)]
@@ -160,13 +160,13 @@ def _side_by_side(
 ) -> int:
     """Contenders on some modes and discounts of tasks; beside tasks that can't be read."""
     from serendipity.evaluation.benchmark.contenders import Outcome
-    from serendipity.evaluation.benchmark.rows import ContenderRow
+    from serendipity.evaluation.benchmark.rows import BenchRow
     from serendipity.evaluation.benchmark.side_by_side import CONTENDERS, measure, ratios, times
     from serendipity.evaluation.measuring.figures import machine, peak_memory
 
     modes, discounts, names = calls
     present, absent = _present(names, CONTENDERS)
-    rows: list[ContenderRow] = []
+    rows: list[BenchRow] = []
     found = measure(tasks, modes, discounts, present, repeat=repeat, time_limit=time_limit)
     with progress.counting("tasks") as on_progress:
         for row in found:
@@ -183,7 +183,7 @@ def _side_by_side(
     parts += [compared, Line()] if compared.rows else []
     reasons = {task: told(error) for task, error in errors.items()}
     unread = [
-        ContenderRow("", task, "", "", False, "", 0.0, "", Outcome("error", reason=why))
+        BenchRow("", task, "", "", False, "", 0.0, "", Outcome("error", reason=why))
         for task, why in reasons.items()
     ]
     tell(rendered([*parts, times(rows)]), [*rows, *unread], "side_by_side")
@@ -192,7 +192,7 @@ def _side_by_side(
 
 def _suite(
     folder: Path, domains: Sequence[str], stride: int, modes: str | None, contenders: str | None, **asked: Any
-) -> "tuple[list[ContenderRow], bool]":
+) -> "tuple[list[BenchRow], bool]":
     """The rows of a suite's calls, and whether these are all; Ctrl-C leaves those that are there."""
     from serendipity.evaluation.benchmark.coverage import MODES, measure
     from serendipity.evaluation.measuring.suites import problems
@@ -200,7 +200,7 @@ def _suite(
     present, absent = _present(_listed(contenders, asked["known"]), asked["known"])
     output.warn(*absent)
     chosen = problems(folder, domains, stride)
-    rows: list[ContenderRow] = []
+    rows: list[BenchRow] = []
     with cancelling() as cancelled, progress.counting("tasks") as on_progress:
         for row in measure(chosen, _listed(modes, MODES), present, **asked):
             if cancelled.is_set():  # which may have ended the contender, too
@@ -210,7 +210,7 @@ def _suite(
     return rows, True
 
 
-def _covered(rows: "Sequence[ContenderRow]", where: list[Line | Grid], tell: _Tell, *, markdown: bool) -> int:
+def _covered(rows: "Sequence[BenchRow]", where: list[Line | Grid], tell: _Tell, *, markdown: bool) -> int:
     """Tell what the rows of a suite, measured somewhere, come to."""
     from serendipity.evaluation.benchmark import coverage as report
     from serendipity.evaluation.benchmark.rows import disagreements
@@ -231,7 +231,7 @@ def _scaling(axes: str, seeds: int, time_limit: float, tell: _Tell) -> int:
 
     names = list(scaled.AXES) if axes == "all" else axes.split(",")
     total = len(scaled.planned(names, seeds))
-    rows: list[ContenderRow] = []
+    rows: list[BenchRow] = []
     with progress.counting("tasks") as on_progress:
         for row in scaled.scale(names, seeds=seeds, time_limit=time_limit):
             rows.append(row)

@@ -15,7 +15,7 @@ from typing import Final
 from serendipity.classical import fast_downward
 from serendipity.evaluation.benchmark import contenders as every
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome, outside, searched
-from serendipity.evaluation.benchmark.rows import ContenderRow
+from serendipity.evaluation.benchmark.rows import BenchRow
 from serendipity.evaluation.measuring.record import apart
 from serendipity.evaluation.measuring.suites import Roles, SuiteProblem, chosen, roles
 from serendipity.evaluation.measuring.tables import grouped, table
@@ -108,7 +108,7 @@ def measure(
     robots: int = 2,
     time_limit: float = 20.0,
     known: Mapping[str, Contender] = CONTENDERS,
-) -> Iterator[ContenderRow]:
+) -> Iterator[BenchRow]:
     """Ask each contender each call that it knows, with as many seconds for reading it as for the call.
 
     Contenders are some of the ``known``; those that are absent must be left out before.  Where the human is
@@ -136,21 +136,21 @@ def measure(
                     yield _row(call, name, contender.answer(call))
 
 
-def _row(call: Call, contender: str, outcome: Outcome) -> ContenderRow:
+def _row(call: Call, contender: str, outcome: Outcome) -> BenchRow:
     problem, who = call.problem, call.roles
     about = (problem.domain, problem.name, who.human, " ".join(who.robots), who.alone)
-    return ContenderRow(*about, call.mode, float(call.discount), contender, outcome)
+    return BenchRow(*about, call.mode, float(call.discount), contender, outcome)
 
 
-_Cell = Callable[[Sequence[ContenderRow]], str]
+_Cell = Callable[[Sequence[BenchRow]], str]
 
 
-def contenders_in(rows: Iterable[ContenderRow]) -> list[str]:
+def contenders_in(rows: Iterable[BenchRow]) -> list[str]:
     """Names of contenders, in the order of the rows."""
     return list(dict.fromkeys(row.contender for row in rows))
 
 
-def tables(rows: Sequence[ContenderRow]) -> Iterator[Line | Grid]:
+def tables(rows: Sequence[BenchRow]) -> Iterator[Line | Grid]:
     """All tables, with their titles."""
     order = " / ".join(contenders_in(rows))
     titled = {
@@ -164,17 +164,17 @@ def tables(rows: Sequence[ContenderRow]) -> Iterator[Line | Grid]:
         yield from (Line(f"{title}."), Line(), grid)
 
 
-def decided(rows: Sequence[ContenderRow]) -> Grid:
+def decided(rows: Sequence[BenchRow]) -> Grid:
     """To how many calls each contender proves the answer; of how many where not all tasks are asked."""
     return _by_domain(rows, {"tasks": _tasks, "human's plan": _alone, **_each(rows, _decided)})
 
 
-def seconds(rows: Sequence[ContenderRow]) -> Grid:
+def seconds(rows: Sequence[BenchRow]) -> Grid:
     """Median seconds until the answer; a call without a proof takes longer than any other."""
     return _by_domain(rows, _each(rows, _median_seconds))
 
 
-def expansions(rows: Sequence[ContenderRow]) -> Grid:
+def expansions(rows: Sequence[BenchRow]) -> Grid:
     """Median expansions of the search and of each other contender, over calls that both have decided."""
     columns = {
         f"{mode}: {_OURS} : {other}": partial(_beside, mode=mode, other=other)
@@ -185,7 +185,7 @@ def expansions(rows: Sequence[ContenderRow]) -> Grid:
     return _by_domain(rows, columns)
 
 
-def over_time(rows: Sequence[ContenderRow]) -> Grid:
+def over_time(rows: Sequence[BenchRow]) -> Grid:
     """Numbers of calls that are decided after some seconds, and that have a plan by then; peak memory."""
     header = ("mode", "contender", "calls", "", *(f"{moment:g} s" for moment in MOMENTS), "most MiB")
     lines: list[tuple[str, ...]] = []
@@ -197,17 +197,17 @@ def over_time(rows: Sequence[ContenderRow]) -> Grid:
     return Grid(header, lines)
 
 
-def decision_times(rows: Iterable[ContenderRow]) -> list[float]:
+def decision_times(rows: Iterable[BenchRow]) -> list[float]:
     """When the calls that are decided were."""
     return [row.outcome.seconds for row in rows if row.outcome.proved]
 
 
-def plan_times(rows: Iterable[ContenderRow]) -> list[float]:
+def plan_times(rows: Iterable[BenchRow]) -> list[float]:
     """When the calls that have a plan had the first one."""
     return [row.outcome.plan_seconds for row in rows if row.outcome.plan_seconds is not None]
 
 
-def failures(rows: Iterable[ContenderRow]) -> list[str]:
+def failures(rows: Iterable[BenchRow]) -> list[str]:
     """Calls that could not be asked, and why, once for each reason."""
     failed = (row for row in rows if row.outcome.status == "failed")
     told = (
@@ -217,7 +217,7 @@ def failures(rows: Iterable[ContenderRow]) -> list[str]:
     return list(dict.fromkeys(told))
 
 
-def errors(rows: Iterable[ContenderRow]) -> dict[str, str]:
+def errors(rows: Iterable[BenchRow]) -> dict[str, str]:
     """By task what is broken in it."""
     broken = (row for row in rows if row.outcome.status == "error")
     return {f"{row.domain} {row.task}".strip(): row.outcome.reason for row in broken}
@@ -227,42 +227,42 @@ def _counts(times: Sequence[float]) -> Iterable[str]:
     return (str(sum(time <= moment for time in times)) for moment in MOMENTS)
 
 
-def _by_domain(rows: Sequence[ContenderRow], columns: Mapping[str, _Cell]) -> Grid:
+def _by_domain(rows: Sequence[BenchRow], columns: Mapping[str, _Cell]) -> Grid:
     groups = grouped(rows, lambda row: (row.domain,))
     if len(groups) > 1:
         groups[("all",)] = list(rows)
     return table(("domain",), groups, columns)
 
 
-def _tasks(rows: Iterable[ContenderRow]) -> str:
+def _tasks(rows: Iterable[BenchRow]) -> str:
     return str(len({(row.domain, row.task) for row in rows}))
 
 
-def _alone(rows: Iterable[ContenderRow]) -> str:
+def _alone(rows: Iterable[BenchRow]) -> str:
     return _tasks(row for row in rows if row.alone)
 
 
-def _each(rows: Sequence[ContenderRow], figure: _Cell) -> dict[str, _Cell]:
+def _each(rows: Sequence[BenchRow], figure: _Cell) -> dict[str, _Cell]:
     """A column for each mode, with a figure for each contender."""
 
-    def cell(of: Sequence[ContenderRow], mode: str) -> str:
+    def cell(of: Sequence[BenchRow], mode: str) -> str:
         asked = (row for row in of if row.mode == mode)
         return " / ".join(map(figure, grouped(asked, lambda row: row.contender).values()))
 
     return {mode: partial(cell, mode=mode) for mode in dict.fromkeys(row.mode for row in rows)}
 
 
-def _decided(rows: Sequence[ContenderRow]) -> str:
+def _decided(rows: Sequence[BenchRow]) -> str:
     return str(sum(row.outcome.proved for row in rows))
 
 
-def _median_seconds(rows: Sequence[ContenderRow]) -> str:
+def _median_seconds(rows: Sequence[BenchRow]) -> str:
     times = sorted(decision_times(rows))
     middle = len(rows) // 2
     return f"{times[middle]:.2g}" if middle < len(times) else "-"
 
 
-def _beside(rows: Sequence[ContenderRow], mode: str, other: str) -> str:
+def _beside(rows: Sequence[BenchRow], mode: str, other: str) -> str:
     proved = [row for row in rows if row.outcome.proved and row.mode == mode]
     ours, theirs = (
         {(row.domain, row.task): row.outcome.expanded for row in proved if row.contender == name}

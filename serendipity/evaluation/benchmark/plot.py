@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 from serendipity.evaluation.benchmark.coverage import contenders_in, decision_times, plan_times
-from serendipity.evaluation.benchmark.rows import ContenderRow
+from serendipity.evaluation.benchmark.rows import BenchRow
 from serendipity.evaluation.benchmark.scaling import AXES, first_seconds, is_numeric
 from serendipity.evaluation.measuring.figures import power_law
 from serendipity.evaluation.measuring.plots import COLOURS, SUFFIXES, as_bytes, figure
@@ -27,7 +27,7 @@ def check_suffix(suffix: str) -> None:
     figure(1, 1)
 
 
-def side_by_side(rows: Sequence[ContenderRow], suffix: str) -> bytes:
+def side_by_side(rows: Sequence[BenchRow], suffix: str) -> bytes:
     """Time of each contender over that of the search, a point a call; crosses met the limit."""
     modes = grouped(rows, lambda row: row.mode)
     drawn = figure(5 * len(modes), 4.6)
@@ -46,7 +46,7 @@ def side_by_side(rows: Sequence[ContenderRow], suffix: str) -> bytes:
     return as_bytes(drawn, suffix)
 
 
-def series(rows: Sequence[ContenderRow], suffix: str) -> bytes:
+def series(rows: Sequence[BenchRow], suffix: str) -> bytes:
     """Search time and peak memory over each axis, with the fitted power of the time."""
     axes_of = grouped(rows, lambda row: row.domain)
     drawn = figure(4.6 * len(axes_of), 7.4)
@@ -70,7 +70,7 @@ def series(rows: Sequence[ContenderRow], suffix: str) -> bytes:
     return as_bytes(drawn, suffix)
 
 
-def over_time(rows: Sequence[ContenderRow], suffix: str) -> bytes:
+def over_time(rows: Sequence[BenchRow], suffix: str) -> bytes:
     """Calls decided over seconds, a line a contender; dotted: those that have a plan."""
     modes = grouped(rows, lambda row: row.mode)
     drawn = figure(4.2 * len(modes), 3.8)
@@ -87,10 +87,7 @@ def over_time(rows: Sequence[ContenderRow], suffix: str) -> bytes:
 
 
 def _points(
-    axes: "Axes",
-    points: Sequence[tuple[Any, float, ContenderRow]],
-    look: tuple[str, str],
-    names: tuple[str, str],
+    axes: "Axes", points: Sequence[tuple[Any, float, BenchRow]], look: tuple[str, str], names: tuple[str, str]
 ) -> None:
     """Points of rows that are proved, and as crosses of those that are not, each with its name."""
     marker, colour = look

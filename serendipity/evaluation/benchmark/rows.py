@@ -15,7 +15,7 @@ from serendipity.writing.csv_text import as_text
 
 
 @dataclass(frozen=True, slots=True)
-class ContenderRow:
+class BenchRow:
     """A call and a contender's answer.
 
     Attributes:
@@ -41,7 +41,7 @@ class ContenderRow:
     outcome: Outcome
 
 
-_ASKED: Final = [field.name for field in fields(ContenderRow) if field.name != "outcome"]
+_ASKED: Final = [field.name for field in fields(BenchRow) if field.name != "outcome"]
 
 _READ: Final[dict[Any, Any]] = {
     str: as_text,
@@ -53,9 +53,9 @@ _READ: Final[dict[Any, Any]] = {
 """By type, how a cell is read."""
 
 
-def as_table(rows: Iterable[ContenderRow]) -> Table:
+def as_table(rows: Iterable[BenchRow]) -> Table:
     """The rows, with what the contender said behind what it was asked."""
-    asked, said = columns_of(ContenderRow), columns_of(Outcome)
+    asked, said = columns_of(BenchRow), columns_of(Outcome)
     cells = (
         (*(getattr(row, name) for name in asked), *(getattr(row.outcome, name) for name in said))
         for row in rows
@@ -63,9 +63,9 @@ def as_table(rows: Iterable[ContenderRow]) -> Table:
     return Table(asked | said, tuple(cells))
 
 
-def read_rows(path: Path) -> list[ContenderRow]:
+def read_rows(path: Path) -> list[BenchRow]:
     """The rows of such a file, or of several one after another; an InputError for something else."""
-    rows: list[ContenderRow] = []
+    rows: list[BenchRow] = []
     header: list[str] = []
     for line, text in enumerate(read_text(path).splitlines(), start=1):
         try:
@@ -81,16 +81,16 @@ def read_rows(path: Path) -> list[ContenderRow]:
     return rows
 
 
-def _row(cells: dict[str, str]) -> ContenderRow:
+def _row(cells: dict[str, str]) -> BenchRow:
     """A row by its cells, which may lack what the program did not write then."""
     own, said = (
         {each.name: _READ[each.type](cells[each.name]) for each in fields(kind) if each.name in cells}
-        for kind in (ContenderRow, Outcome)
+        for kind in (BenchRow, Outcome)
     )
-    return ContenderRow(**own, outcome=Outcome(**said))
+    return BenchRow(**own, outcome=Outcome(**said))
 
 
-def disagreements(rows: Sequence[ContenderRow]) -> Iterator[str]:
+def disagreements(rows: Sequence[BenchRow]) -> Iterator[str]:
     """Calls of which contenders have proved what can't all be true, in words."""
     for of in grouped(rows, lambda row: (row.domain, row.task, row.mode, row.discount)).values():
         if told := _told(of):
@@ -98,7 +98,7 @@ def disagreements(rows: Sequence[ContenderRow]) -> Iterator[str]:
             yield f"{f'{row.domain} {row.task}'.strip()}, {row.mode} at {row.discount:g}: {told}"
 
 
-def _told(rows: Sequence[ContenderRow]) -> str:
+def _told(rows: Sequence[BenchRow]) -> str:
     proved = {row.contender: row.outcome.cost for row in rows if row.outcome.proved}
     if len(set(proved.values())) > 1:
         told = (f"{name} {'no plan' if cost is None else cost}" for name, cost in proved.items())

@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import Any, Final
 
 from serendipity.evaluation.benchmark.contenders import searched
-from serendipity.evaluation.benchmark.rows import ContenderRow
+from serendipity.evaluation.benchmark.rows import BenchRow
 from serendipity.evaluation.benchmark.side_by_side import MODES
 from serendipity.evaluation.measuring.figures import power_law
 from serendipity.evaluation.measuring.record import apart
@@ -68,7 +68,7 @@ _MORE_SEEDS: Final = 4
 """Tasks of one size differ in length by chance, so it takes more of them to see a trend."""
 
 
-def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> Iterator[ContenderRow]:
+def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> Iterator[BenchRow]:
     """Answer the tasks of each axis, ``seeds`` of each value, one after another.
 
     Every second one's building has cycles: a connection more for each twenty rooms.  Errors are those of
@@ -86,7 +86,7 @@ def scale(axes: Iterable[str], *, seeds: int = 5, time_limit: float = 20.0) -> I
             except SerendipityError as error:
                 raise SerendipityError(f"scaling: {size} with seed {seed} failed: {error}") from None
         at = max(1, outcome.length) if value is None else value
-        yield ContenderRow(name, str(at), "", "", True, mode, float(discount), "search", outcome)
+        yield BenchRow(name, str(at), "", "", True, mode, float(discount), "search", outcome)
 
 
 def planned(axes: Iterable[str], seeds: int) -> list[tuple[str, Any, int]]:
@@ -105,16 +105,16 @@ def is_numeric(axis: str) -> bool:
     return axis not in _OPTIONS
 
 
-def first_seconds(row: ContenderRow) -> float:
+def first_seconds(row: BenchRow) -> float:
     """Seconds of the first call, once the task is prepared."""
     return row.outcome.seconds - row.outcome.prepare_seconds
 
 
-def _before(row: ContenderRow) -> float:
+def _before(row: BenchRow) -> float:
     return row.outcome.read_seconds + row.outcome.prepare_seconds
 
 
-def scaling_table(rows: Sequence[ContenderRow]) -> Grid:
+def scaling_table(rows: Sequence[BenchRow]) -> Grid:
     """A row for each value, medians but for the longest first call; measured axes are cut into quarters."""
     groups = {
         (axis, label): group
@@ -137,7 +137,7 @@ def _shown(seconds: float) -> str:
     return f"{seconds * 1000:.1f} ms"
 
 
-def _values(axis: str, rows: Sequence[ContenderRow]) -> Iterator[tuple[str, Sequence[ContenderRow]]]:
+def _values(axis: str, rows: Sequence[BenchRow]) -> Iterator[tuple[str, Sequence[BenchRow]]]:
     if AXES[axis].values:
         yield from grouped(rows, lambda row: row.task).items()
         return
@@ -147,17 +147,17 @@ def _values(axis: str, rows: Sequence[ContenderRow]) -> Iterator[tuple[str, Sequ
     yield from ((f"{group[0].task}-{group[-1].task}", group) for group in groups)
 
 
-def exponents(rows: Sequence[ContenderRow]) -> Grid:
+def exponents(rows: Sequence[BenchRow]) -> Grid:
     """For each numeric axis the powers of time and memory, and their standard errors.
 
     Calls that met the limit count with the limit; ``>=`` marks a power that this makes too small.
     """
 
-    def power(of: Sequence[ContenderRow], figures: Iterable[float]) -> str:
+    def power(of: Sequence[BenchRow], figures: Iterable[float]) -> str:
         fit = power_law([float(row.task) for row in of], figures)
         return "" if fit is None else f"{fit.exponent:.2f} +- {fit.error:.2f}"
 
-    def first_call(of: Sequence[ContenderRow]) -> str:
+    def first_call(of: Sequence[BenchRow]) -> str:
         return f"{'>= ' * (not all(row.outcome.proved for row in of))}{power(of, map(first_seconds, of))}"
 
     columns = {

@@ -14,7 +14,7 @@ from search import PreparedTask, prepare, solve
 from serendipity.classical import fast_downward
 from serendipity.evaluation.benchmark import contenders as every
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome, outside
-from serendipity.evaluation.benchmark.rows import ContenderRow, disagreements
+from serendipity.evaluation.benchmark.rows import BenchRow, disagreements
 from serendipity.evaluation.measuring.figures import percentile, timed
 from serendipity.evaluation.measuring.suites import chosen
 from serendipity.evaluation.measuring.tables import grouped
@@ -76,7 +76,7 @@ def measure(
     *,
     repeat: int = 5,
     time_limit: float | None = None,
-) -> Iterator[ContenderRow]:
+) -> Iterator[BenchRow]:
     """Time each contender on each call of a mode that it knows; who is absent must be left out before.
 
     A figure is of ``repeat`` calls after a warm-up, or, where discounts are answered in turn, of as many
@@ -102,7 +102,7 @@ def measure(
                 }
                 for i, options in enumerate(asked):
                     call = ("", task.name, "", "", True, mode, float(options.discount))
-                    rows = [ContenderRow(*call, name, _median(of[i])) for name, of in answers.items()]
+                    rows = [BenchRow(*call, name, _median(of[i])) for name, of in answers.items()]
                     for told in disagreements(rows):
                         raise DisagreementError(told)
                     yield from rows
@@ -149,7 +149,7 @@ Figure = tuple[float, bool]
 """A time or a ratio, and whether a limit made it too small."""
 
 
-def ratios(rows: Sequence[ContenderRow]) -> Grid:
+def ratios(rows: Sequence[BenchRow]) -> Grid:
     """Times of each contender as multiples of each way to call the search, on the same calls.
 
     First the ratios of medians and of 95th percentiles, then percentiles of the ratios of single calls.  What
@@ -167,7 +167,7 @@ def ratios(rows: Sequence[ContenderRow]) -> Grid:
     return Grid([*header, "least"], lines)
 
 
-def _ratios(of: Sequence[ContenderRow], searches: Sequence[ContenderRow]) -> Iterator[str]:
+def _ratios(of: Sequence[BenchRow], searches: Sequence[BenchRow]) -> Iterator[str]:
     base = {(row.task, row.discount): row.outcome.seconds for row in searches if row.outcome.proved}
     pairs = [(_seconds(row), base[row.task, row.discount]) for row in of if (row.task, row.discount) in base]
     yield str(len(of)) if len(pairs) == len(of) else f"{len(pairs)} of {len(of)}"
@@ -181,13 +181,13 @@ def _ratios(of: Sequence[ContenderRow], searches: Sequence[ContenderRow]) -> Ite
     yield from (_ratio(*_percentile(single, share)) for share in (0.5, 0.95, 0.0))
 
 
-def times(rows: Sequence[ContenderRow]) -> Grid:
+def times(rows: Sequence[BenchRow]) -> Grid:
     """A row for each mode and contender: of the median times of each call, but for min-max."""
     header = ["mode", "contender", "calls", "proved", "median", "95 %", "longest", "min-max"]
     return Grid(header, [[*key, *_times(of)] for key, of in _groups(rows).items()])
 
 
-def _times(rows: Sequence[ContenderRow]) -> Iterator[str]:
+def _times(rows: Sequence[BenchRow]) -> Iterator[str]:
     outcomes = [row.outcome for row in rows]
     yield from (str(len(rows)), str(sum(outcome.proved for outcome in outcomes)))
     for share in (0.5, 0.95, 1.0):
@@ -197,12 +197,12 @@ def _times(rows: Sequence[ContenderRow]) -> Iterator[str]:
     yield f"{least * 1000:.2f}-{most * 1000:.2f} ms"
 
 
-def _groups(rows: Sequence[ContenderRow]) -> dict[tuple[str, str], list[ContenderRow]]:
+def _groups(rows: Sequence[BenchRow]) -> dict[tuple[str, str], list[BenchRow]]:
     """Rows by mode and contender; an outside process is a contender beside what it says of itself."""
     return grouped(_with_processes(rows), lambda row: (row.mode, row.contender))
 
 
-def _with_processes(rows: Sequence[ContenderRow]) -> Iterator[ContenderRow]:
+def _with_processes(rows: Sequence[BenchRow]) -> Iterator[BenchRow]:
     for row in rows:
         yield row
         if seconds := row.outcome.process_seconds:
@@ -210,7 +210,7 @@ def _with_processes(rows: Sequence[ContenderRow]) -> Iterator[ContenderRow]:
             yield replace(row, contender=f"{row.contender}, process", outcome=outcome)
 
 
-def _seconds(row: ContenderRow) -> Figure:
+def _seconds(row: BenchRow) -> Figure:
     return row.outcome.seconds, not row.outcome.proved
 
 

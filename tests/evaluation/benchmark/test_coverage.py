@@ -19,7 +19,7 @@ from serendipity.evaluation.benchmark import coverage as report
 from serendipity.evaluation.benchmark import side_by_side
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome
 from serendipity.evaluation.benchmark.coverage import CONTENDERS, MODES, Call, measure
-from serendipity.evaluation.benchmark.rows import ContenderRow, as_table, disagreements, read_rows
+from serendipity.evaluation.benchmark.rows import BenchRow, as_table, disagreements, read_rows
 from serendipity.evaluation.measuring.suites import Roles, problems
 from serendipity.model import Options
 from serendipity.model.telling import Grid
@@ -30,12 +30,12 @@ from serendipity_testing.strategies import tasks
 
 def row(
     task: str, contender: str = "search", status: str = "optimal", cost: float | None = 1.0, **more: object
-) -> ContenderRow:
+) -> BenchRow:
     known = {"mode": "composite-inf", "domain": "d", "lower_bound": cost if status == "optimal" else None}
     known |= more
     of_row = {name: known.pop(name) for name in ("mode", "domain")}
     outcome = Outcome(status, cost, **known)  # type: ignore[arg-type]
-    return ContenderRow(
+    return BenchRow(
         **of_row,  # type: ignore[arg-type]
         task=task,
         human="h",

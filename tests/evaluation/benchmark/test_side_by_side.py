@@ -10,7 +10,7 @@ import pytest
 from search import PreparedTask
 from serendipity import UsageError, example, generate_usar, load, plan
 from serendipity.evaluation.benchmark.contenders import Contender, Outcome
-from serendipity.evaluation.benchmark.rows import ContenderRow
+from serendipity.evaluation.benchmark.rows import BenchRow
 from serendipity.evaluation.benchmark.scaling import AXES, Axis, exponents, scale, scaling_table
 from serendipity.evaluation.benchmark.side_by_side import CONTENDERS, measure, ratios, times
 from serendipity.evaluation.measuring import figures
@@ -31,7 +31,7 @@ class Scripted:
         return Outcome(self.status, self.cost, seconds=self.seconds.pop(0))
 
 
-def timings(monkeypatch: pytest.MonkeyPatch, **contenders: Scripted) -> list[ContenderRow]:
+def timings(monkeypatch: pytest.MonkeyPatch, **contenders: Scripted) -> list[BenchRow]:
     for name, contender in contenders.items():
         monkeypatch.setitem(CONTENDERS, name, Contender(contender))
     return list(measure([example("room2")], ["serendipity"], ["0.6"], contenders, repeat=3))
@@ -102,9 +102,9 @@ def test_what_earlier_calls_leave_behind(name: str, monkeypatch: pytest.MonkeyPa
     assert [(timing.discount, timing.outcome.repeats) for timing in timings] == [(0, 2), (0.5, 2)]
 
 
-def timing(task: str, contender: str, seconds: float, status: str = "optimal") -> ContenderRow:
+def timing(task: str, contender: str, seconds: float, status: str = "optimal") -> BenchRow:
     outcome = Outcome(status, 1.0, seconds=seconds, fastest=seconds, slowest=seconds)
-    return ContenderRow("", task, "", "", True, "composite", 0.0, contender, outcome)
+    return BenchRow("", task, "", "", True, "composite", 0.0, contender, outcome)
 
 
 def rows_of(grid: Grid) -> list[dict[str, str]]:
@@ -191,10 +191,10 @@ def test_an_unknown_axis() -> None:
         list(scale(["rooms", "width"]))
 
 
-def sample(value: object, seconds: float, memory: float = 20.0, *, axis: str = "rooms") -> ContenderRow:
+def sample(value: object, seconds: float, memory: float = 20.0, *, axis: str = "rooms") -> BenchRow:
     times = {"seconds": seconds + 1, "read_seconds": 1.0, "prepare_seconds": 1.0, "again_seconds": seconds}
     outcome = Outcome("optimal", 1.0, memory=memory, **times)
-    return ContenderRow(axis, str(value), "", "", True, "serendipity", 0.9, "search", outcome)
+    return BenchRow(axis, str(value), "", "", True, "serendipity", 0.9, "search", outcome)
 
 
 def test_exponents_are_those_of_the_samples() -> None:
