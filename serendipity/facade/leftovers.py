@@ -135,17 +135,21 @@ class OnePlan:
 
     def settled(self, answer: Answer) -> Answer:
         """The best answer, proved: doing nothing where it is no opportunity."""
-        least = None if answer.baseline is None else answer.baseline - (answer.saving_alone or 0)
-        if answer.window is not None and least is not None and (answer.cost or 0) >= least:
-            steps = tuple(
-                Step(epoch, action) for epoch, action in enumerate(answer.human_plan or (), start=1)
-            )
-            nothing = answer._replace(
-                steps=steps, window=None, left=(), saving=Fraction(0), opportunity=False
-            )
-            answer = nothing._replace(cost=answer.baseline, objective=answer.baseline)
-        helps = answer.opportunity and (least is None or (answer.cost or 0) < least)
-        return answer._replace(status="optimal", lower_bound=answer.objective, opportunity=helps)
+        return beating_alone(answer)._replace(status="optimal", lower_bound=answer.objective)
+
+
+def beating_alone(answer: Answer) -> Answer:
+    """The answer, or doing nothing where it is no opportunity: they do as well alone, or may do so."""
+    least = None if answer.baseline is None else answer.baseline - (answer.saving_alone or 0)
+    if answer.opportunity and (least is None or (answer.cost or 0) < least):
+        return answer
+    saving = answer.saving if least is None else Fraction(0)
+    nothing = answer._replace(opportunity=False, saving=saving)
+    if answer.window is None or least is None:
+        return nothing
+    steps = tuple(Step(epoch, action) for epoch, action in enumerate(answer.human_plan or (), start=1))
+    nothing = nothing._replace(steps=steps, window=None, left=())
+    return nothing._replace(cost=answer.baseline, objective=answer.baseline)
 
 
 def paying(answer: Answer, found: Iterable[tuple[int, Fraction]]) -> Answer:

@@ -23,7 +23,7 @@ from serendipity.facade.kept import (
     with_goals,
     with_literals,
 )
-from serendipity.facade.leftovers import OnePlan, priced
+from serendipity.facade.leftovers import OnePlan, beating_alone, priced
 from serendipity.facade.leftovers_over_scenarios import Literals, OverScenarios, PricedScenarios, at_worst
 from serendipity.model import Condition, Deadline, HumanPlan, Options, Step, Task, UsageError
 from serendipity.model.answers.answer import Answer, ServedGoal
@@ -68,7 +68,7 @@ def answers(call: Request, plan: HumanPlan | None, solve: Solve) -> Iterator[Ans
     def keeping(free: Answer) -> Iterator[Answer]:
         rule = kept_by(call, free)
         if not rule.prices:
-            return _keeping(call, free, rule, solve)
+            return map(_proved_against_alone, _keeping(call, free, rule, solve))
         asked = OnePlan(call, rule)
         return priced(call.options, asked, lambda literals, _: _keeping(call, free, rule, solve, literals))
 
@@ -220,7 +220,23 @@ def _keeping(
     layers = _Layers(call, task, plan, rule.most if call.task.robot_goal else None)
     given = None if plan is None else layers.plan(plan)
     found = solve(asked._replace(prepared=PreparedTask(layers.task)), given)
-    return (_told(layers, answer) for answer in found)
+    answers = (_told(layers, answer) for answer in found)
+    if call.given is None or call.task.robot_goal:
+        return answers
+    # What they gain alone is what they gain whatever they leave: not what the goals of the rule make of it.
+    return (one._replace(saving_alone=None if one.cost is None else free.saving_alone) for one in answers)
+
+
+def _proved_against_alone(answer: Answer) -> Answer:
+    """An answer with the rule, as far as it is known what the human gains alone; else it helps nobody."""
+    if answer.baseline is None or answer.cost is None:
+        return answer
+    if answer.saving_alone is not None:
+        found = beating_alone(answer)
+        return found._replace(lower_bound=found.objective) if found.status == "optimal" else found
+    found = beating_alone(answer._replace(saving_alone=answer.baseline))
+    least = min(answer.lower_bound or Fraction(0), found.objective or Fraction(0))
+    return found._replace(saving_alone=None, status="feasible", lower_bound=least)
 
 
 def _plain(call: Request) -> Request:

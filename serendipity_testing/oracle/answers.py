@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from serendipity.model import HumanPlan, Options, Task, TimedPlan, Window
 from serendipity_testing.oracle.labels import Label
-from serendipity_testing.oracle.nobody_pays import unpriced
+from serendipity_testing.oracle.nobody_pays import is_ruled, unruled
 from serendipity_testing.oracle.plans import Plans, WindowPlan
 
 
@@ -109,16 +109,24 @@ class Solver:
         idle = self._idle(baseline)
         if idle is not None and found.label[1] >= idle:
             return False
-        if not self.plans.robots_goal or not self.improvable:
+        ruled = is_ruled(self.task, self.options)
+        if not self.improvable or not (ruled or self.plans.robots_goal):
             return True
-        unaided = min(self._without_robots()._limited(baseline), key=WindowPlan.order, default=None)
-        return unaided is None or (found.objective, found.label[1]) < (unaided.objective, unaided.label[1])
+        alone = min(self._without_robots(self.options)._limited(baseline), key=WindowPlan.order, default=None)
+        if alone is not None and (found.objective, found.label[1]) >= (alone.objective, alone.label[1]):
+            return False
+        return not ruled or self.plans.robots_goal or self._helps_unruled()
+
+    def _helps_unruled(self) -> bool:
+        """Whether there is an opportunity without the rules of help: else leaving them alone keeps those."""
+        options, plan = unruled(self.options), self.human_plan
+        return Solver(self.task, options, plan, given=self.given, unit=self.plans.unit).solve().opportunity
 
     def _idle(self, baseline: Label | None) -> int | None:
         """Cost of the answer with all robots idle: less than the baseline if a given plan can be improved."""
         if baseline is None or self.plans.robots_goal or not self.improvable:
             return None if baseline is None else baseline[1]
-        found = min(self._without_robots()._candidates(baseline), key=WindowPlan.order)
+        found = min(self._without_robots(unruled(self.options))._candidates(baseline), key=WindowPlan.order)
         return found.label[1]
 
     @property
@@ -127,15 +135,15 @@ class Solver:
         worth = self.plans.optimum_alone()
         return self.given and worth is not None and worth[0] < self.plans.cost_of_plan()
 
-    def _without_robots(self) -> "Solver":
-        """The same call, were there no robots."""
+    def _without_robots(self, options: Options) -> "Solver":
+        """The same call, were there no robots, with the rules of help or without them."""
         own = self.task.human_actions
         task = replace(self.task, actions=tuple(self.task.actions[i] for i in own))
         given = self.human_plan or ()
         plan: HumanPlan = tuple(own.index(i) for i in given)
         if isinstance(given, TimedPlan):
             plan = TimedPlan(plan, given.starts, given.length)
-        return Solver(task, unpriced(self.options), plan, given=False, unit=self.plans.unit)
+        return Solver(task, options, plan, given=False, unit=self.plans.unit)
 
     def _max_cost(self, baseline: Label | None) -> int | None:
         limit = self.options.max_cost

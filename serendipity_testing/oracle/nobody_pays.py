@@ -107,6 +107,24 @@ def unpriced(options: Options) -> Options:
     return options.but(leave_price=free or None)
 
 
+def is_ruled(task: Task, options: Options) -> bool:
+    """Whether a rule of help is in force."""
+    asked = options.noticed or options.max_disturbance is not None or leftovers(options) is not None
+    return asked or counts_everybody(task, options)
+
+
+def unruled(options: Options) -> Options:
+    """The options by which help keeps no rule."""
+    return options.but(
+        nobody_pays=False,
+        leave_free=None,
+        leave_price=None,
+        noticed=False,
+        max_disturbance=None,
+        disturbance=None,
+    )
+
+
 def _idle(world: OracleWorld, plan: HumanPlan, last: int) -> Moment | None:
     """The moment after ``T`` if the human follows a plan, and robots do nothing; None if that can't be."""
     begun = dict(zip(world.task.starts_of(plan), plan, strict=True))

@@ -130,7 +130,7 @@ class Truth:
             return [self._assisted(options)]
         if options.human_model != "omniscient":
             return [self._replanned(options, plan)]
-        if plan is not None and is_bound(self.task, options):
+        if plan is not None and self.task.robot_goal and is_bound(self.task, options):
             late = shifted(self.task, plan, options.head_start)
             if Solver(self.task, options, late, given=True).improvable:
                 raise UnknownTruthError  # where the best answer without the rule keeps it counts first

@@ -4,6 +4,7 @@ It leaves a person in peace, they notice it before they act on it, and what it l
 """
 
 from dataclasses import replace
+from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
@@ -17,7 +18,9 @@ from serendipity.facade.front import drawn
 from serendipity_testing import strategies
 from serendipity_testing.builders import Builder
 from serendipity_testing.builders import task as build
+from serendipity_testing.generator import random_call
 from serendipity_testing.oracle import best
+from serendipity_testing.oracle.truth import Truth
 from serendipity_testing.strategies.time import tasks_in_time
 from tests.facade.rules import RULES, proved_as_brute_force_has_it, rooms, rooms_in_time
 from tests.search.exact_answers import proved
@@ -247,6 +250,58 @@ def test_what_the_human_would_do_alone_has_no_price() -> None:
     plan = (next(i for i, action in enumerate(messy().actions) if action.name == "long h"),)
     expected = best(messy(), Options(**asked), plan)
     assert (expected.cost, expected.opportunity, expected.saving_alone) == (9, False, 1)
+
+
+@pytest.mark.parametrize(
+    ("short", "expected"),
+    [
+        pytest.param("5", (2, True, 4), id="the-rule-binds-and-help-beats-them"),
+        pytest.param("1.8", (9, False, Fraction("7.2")), id="it-binds-and-they-do-better-alone"),
+        pytest.param("1", (9, False, 8), id="nothing-helps-with-it-or-without"),
+    ],
+)
+@pytest.mark.parametrize(
+    "rule", [{"leave_free": "nothing"}, {"leave_price": "*=9"}, {"leave_price": "open=3"}]
+)
+def test_what_they_gain_alone_keeps_no_rule(
+    short: str, expected: tuple[Any, ...], rule: dict[str, str]
+) -> None:
+    """Their short way leaves a mess: it is what help has to beat, though help may leave none."""
+    task = build(
+        goal="done",
+        actions={
+            "long h": " -> done @ 9",
+            "short h": f" -> done mess @ {short}",
+            "quick h": "open -> done @ 1",
+            "open r": " -> open",
+            "shut r": "open -> !open",
+        },
+    )
+    asked = {"discount": "0.5", "window_weight": 0, "horizon": 3, **rule}
+    answer = proved(task, human_plan=["long h"], **asked)
+    assert (answer.cost, answer.opportunity, answer.saving_alone) == tuple(map(float, expected))
+    plan = (next(i for i, action in enumerate(task.actions) if action.name == "long h"),)
+    found = best(task, Options(**asked), plan)
+    assert (found.cost, found.opportunity, found.saving_alone) == expected
+    told = replace(answer, saving_alone=(answer.saving_alone or 0) - 0.5)
+    assert serendipity.verify(task, told).verdict == "refuted"
+
+
+@pytest.mark.parametrize(
+    ("seed", "rule"),
+    [
+        (33, {"nobody_pays": True, "leave_free": "*0*"}),
+        (484, {"leave_free": "nothing"}),
+        (515, {"leave_free": "*1*"}),
+        (901, {"leave_free": "nothing"}),
+        (1480, {"leave_price": "*0*=0.07, *1*=1.13"}),
+    ],
+)
+def test_what_they_gain_alone_is_what_brute_force_says(seed: int, rule: dict[str, Any]) -> None:
+    call = random_call(seed)
+    task = replace(call.task, robot_goal=Condition())
+    answer = proved(task, **call.keywords() | {"ties": "fixed"} | rule, human_plan=call.human_plan)
+    assert Truth(task).fault(answer) is None
 
 
 def test_a_price_that_makes_help_a_tie_is_proved() -> None:

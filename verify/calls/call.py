@@ -22,6 +22,7 @@ class ExaminedCall:
 
     Attributes:
         human_plan: ``pi_H``, or None where the human has no plan alone.
+        free: the call without rules of help, where what these ask for stands among the robots' goals.
     """
 
     task: Task
@@ -29,6 +30,7 @@ class ExaminedCall:
     human_plan: HumanPlan | None
     plans: OptimalPlans
     effort: Effort = field(default_factory=Effort)
+    free: "ExaminedCall | None" = None
 
     @cached_property
     def horizon(self) -> Horizon:
@@ -130,6 +132,8 @@ class ExaminedCall:
     @cached_property
     def idle(self) -> int | None:
         """Cost of the answer with all robots idle: less than the baseline only for a given ``pi_H``."""
+        if self.free is not None and self.free.idle is not None:
+            return self.prices.units(self.free.prices.cost(self.free.idle))
         if self.baseline is None or self.robots_goal or self.is_optimal:
             return self.baseline
         if self.horizon == INFINITE:

@@ -122,8 +122,8 @@ def _examined(task: Task, result: Result, effort: Effort, original: Task) -> tup
     """Semantics 3, or 11: where one scenario is left, the answer is one of section 3."""
 
     def alone(own: Task, said: Result) -> tuple[Claim, ...]:
-        def examine(bound: Task, said: Result) -> tuple[Claim, ...]:
-            return _Certifier(bound, said, effort, own).claims()
+        def examine(bound: Task, plain: Result) -> tuple[Claim, ...]:
+            return _Certifier(bound, plain, effort, own, said.options).claims()
 
         def solve_it(bound: Task, options: Options, names: Sequence[str] | None) -> Result | None:
             plans = OptimalPlans(bound, alone_of(bound, effort.deadline, options))
@@ -148,11 +148,13 @@ def _examined(task: Task, result: Result, effort: Effort, original: Task) -> tup
 
 
 class _Certifier:
-    """The claims of one result; ``without_rule`` is the task as humans who replan know it."""
+    """The claims of one result; ``without_rule`` is the task as humans who replan know it, with options."""
 
-    def __init__(self, task: Task, result: Result, effort: Effort, without_rule: Task) -> None:
+    def __init__(
+        self, task: Task, result: Result, effort: Effort, without_rule: Task, options: Options
+    ) -> None:
         self.task = task
-        self._without_rule = without_rule
+        self._without_rule, self._options = without_rule, options
         self.result = result
         self.effort = effort
         self.alone = alone_of(task, effort.deadline, result.options)
@@ -284,13 +286,22 @@ class _Certifier:
         names = result.human_plan
         deadline = self.effort.deadline
         plan: HumanPlan | None = None if names is None else replay_human(self.task, names, deadline)
-        call = ExaminedCall(self.task, result.options, plan, self.plans, self.effort)
+        call = ExaminedCall(self.task, result.options, plan, self.plans, self.effort, self._free())
         if plan is not None or not call.needs_pi_h:
             assert call.horizon is not None
         sets = replay(self.task, result.plan or (), deadline, strict=result.options.strict).sets
         steps = tuple(Step(epoch, i) for epoch, chosen in sets.items() for i in chosen)
         kind = Examiner if result.options.human_model == "omniscient" else HumanExaminer
         return kind(call, result, steps, self.checker)
+
+    def _free(self) -> ExaminedCall | None:
+        """The call without rules of help, where goals say what they ask: people alone keep none."""
+        task, options, names = self._without_rule, self._options, self.result.human_plan
+        if task is self.task or task.robot_goal or names is None:
+            return None
+        plans = OptimalPlans(task, alone_of(task, self.effort.deadline, options))
+        plan = replay_human(task, names, self.effort.deadline)
+        return ExaminedCall(task, options, plan, plans, self.effort)
 
     def _individual(self) -> Verdict:
         """Mode ``individual``: the human's least cost alone, by a search over states or by a program."""

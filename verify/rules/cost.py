@@ -86,7 +86,8 @@ def saving_alone(case: CheckedResult) -> RuleFault | None:
     said = case.result.saving_alone
     if not said:
         return None  # nothing is claimed; ``None`` and 0 are the same
-    if case.human_plan is None or case.robots_goal:
+    ruled = case.result.statistics.get("rule_binds")  # then goals may be what help has to keep
+    if case.human_plan is None or (case.robots_goal and not ruled):
         return RuleFault("a saving alone, though there is nothing to compare it with")
     optimum = case.alone.optimum(case.task.init)  # a window may open in a head start
     most = _sure(case.human_cost) - (optimum[0] if optimum else Fraction(0))
