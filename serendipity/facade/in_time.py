@@ -95,17 +95,14 @@ class ScenariosInTime:
         """Answers over scenarios (semantics 11).
 
         Raises:
+            LimitReachedError: the deadline came.
             UsageError: the call asks for something that is not answered in time, or a plan does not last.
         """
         task, options = self._call.task, self._call.options
         for name, value in _PLAIN.items():
             if getattr(options, name) != value:
                 raise UsageError(f"{name}: in time, with several goals or plans, only {value!s} is possible")
-        try:
-            units = self._units
-        except LIMITS as limit:
-            yield Answer("unknown", reason=limit_reason(limit))
-            return
+        units = self._units
         inner = [replace(one, goal=units.goal(one.goal), plan=units.plan(one.plan)) for one in candidates]
         horizon = common_horizon(options, [one.plan for one in inner])
         for one in candidates:

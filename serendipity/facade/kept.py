@@ -64,6 +64,12 @@ def paid(task: Task, steps: Iterable[Step]) -> Fraction:
     return total(action.cost for action in actions if task.human in action.participants)
 
 
+def happening_costs(task: Task, steps: Iterable[Step], last: int, discount: Fraction) -> Fraction:
+    """What the team pays until an epoch, also for what goes on and is not among the steps."""
+    happening = (action for _, actions in epochs(task, steps, last) for action in actions)
+    return total(task.team_cost(action, discount) for action in happening)
+
+
 def kept_by(call: Request, answer: Answer) -> Kept:
     """What an answer has to keep."""
     last = int(answer.horizon or 0)

@@ -12,7 +12,7 @@ from typing import Final, NamedTuple
 
 from search.modes.scenarios import Candidate, solve_scenarios
 from serendipity.facade.call import Request
-from serendipity.facade.kept import Kept, Literal, left_by
+from serendipity.facade.kept import Kept, Literal, happening_costs, left_by
 from serendipity.facade.leftovers import LeftoverPrices, paying, priced
 from serendipity.model import Deadline, Options, Task
 from serendipity.model.answers.answer import Answer, ServedGoal
@@ -136,6 +136,8 @@ class AtWorst(OverScenarios):
             ahead.append((least + self._most[0] - floor[0], least + self._most[1] - floor[1]))
         for found in self._solve(kept, ahead):
             objective, cost = found.objective or _NOTHING, found.cost or _NOTHING
+            if (found.lower_bound or _NOTHING) < objective:  # of one scenario, whose limit nobody told
+                found = found._replace(status="feasible")
             yield found._replace(objective=objective - self._most[0], cost=cost - self._most[1])
 
     def least(self, kept: Literals, paid: Literals) -> Fraction:
@@ -151,13 +153,11 @@ class AtWorst(OverScenarios):
     def with_price(self, answer: Answer) -> Answer:
         """See :class:`.Question`."""
         told, window = super().with_price(answer), self._options.window_weight
-        each = [
-            (
-                (one.cost or _NOTHING) + window * (1 if one.window is None else len(one.window)),
-                one.cost or _NOTHING,
-            )
-            for one in told.goals or ()
-        ]
+        each = []
+        for k, one in enumerate(told.goals or ()):
+            price = sum((price for _, price in self._left(k, one)), _NOTHING)
+            cost = happening_costs(self._task, one.steps or (), self._last, self._options.discount) + price
+            each.append((cost + window * (1 if one.window is None else len(one.window)), cost))
         objective, cost = self._worth(each)
         saving = self._alone - cost
         return told._replace(

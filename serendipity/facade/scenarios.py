@@ -127,8 +127,14 @@ def answers(call: Request, unsure: Unsure) -> Iterator[_Said]:
             yield about, _certain(only, recognition, _unsaid(call.task, only, recognition), answer)
     else:
         _refuse(call.task, call.options)
-        for answer in _expected(considered, recognition, call, in_time):
-            yield call, answer
+        known = first is not None
+        try:
+            for answer in _expected(considered, recognition, call, in_time):
+                known = True
+                yield call, answer
+        except LIMITS as limit:
+            if not known:
+                yield call, Answer("unknown", reason=limit_reason(limit), expanded=None, generated=None)
 
 
 def _require_answerable(call: Request, unsure: Unsure) -> None:

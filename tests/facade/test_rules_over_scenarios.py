@@ -1,5 +1,6 @@
 """Rules of help over scenarios (semantics 11 to 14): answers as brute force has them, and proved."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
@@ -10,11 +11,17 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import serendipity
+from search import PreparedTask
 from search.modes.scenarios import Candidate
 from serendipity import Condition, Options, Result, Task, Window
+from serendipity.facade import leftovers_over_scenarios
+from serendipity.model import Deadline
 from serendipity_testing.builders import task as build
+from serendipity_testing.countdown import Countdown
+from serendipity_testing.generator import random_call_in_time
 from serendipity_testing.oracle import human_plans
 from serendipity_testing.oracle.scenarios import best_policy
+from tests.endings import endings
 from tests.facade.rules import RULES, policy_as_brute_force_has_it, rooms
 from tests.facade.test_rules_of_help import messy
 from tests.search.exact_answers import proved
@@ -179,3 +186,60 @@ def test_each_scenario_is_held_to_what_may_disturb_in_it() -> None:
     assert (free.cost or 0) <= (calm.cost or 0)
     told = replace(free, options=calm.options)
     assert "scenario 'triage': disturbance (semantics 13)" in str(serendipity.verify(task, told))
+
+
+def _regretted(seed: int, *goals: str, **options: Any) -> tuple[Task, Result]:
+    """What is answered in time, at a price for what is left, where regret counts."""
+    task = replace(random_call_in_time(seed).task, robot_goal=Condition())
+    asked = {"leave_price": "*=0.1", "discount": "0.9", "window_weight": 0, **options}
+    wanted = [{"name": name, "goal": [name]} for name in goals]
+    return task, serendipity.plan(task, goals=wanted, risk="regret", **asked)
+
+
+@pytest.mark.long
+def test_what_robots_go_on_with_is_paid_for_in_each_scenario() -> None:
+    """Its second epoch, which costs 0.2, is no step of theirs: regret was counted without it."""
+    task, answer = _regretted(7153, "at2", "at1")
+    assert (answer.cost, answer.human_cost, answer.saving) == (0, 1.5, 1.5)
+    assert serendipity.verify(task, answer).verdict == "proved"
+
+
+class _Apart(Deadline):
+    """Leaves what a scenario allows by itself so many looks, and all else as much time as it needs."""
+
+    looks = 0
+
+    def part(self, share: float) -> Deadline:
+        """See :class:`Deadline`."""
+        return Countdown(self.looks) if share == 0.25 else self
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("seed", "goals"), [(7004, ("f0", "f1")), (7027, ("at1", "at2"))])
+def test_regret_at_a_limit_is_no_less_than_it_is(seed: int, goals: tuple[str, ...]) -> None:
+    """What a scenario allows was taken for proved there; what is saved was to be known, and it crashed."""
+
+    def unsure(looks: int) -> tuple[Task, Result]:
+        limit = _Apart()
+        limit.looks = looks
+        return _regretted(seed, *goals, deadline=limit)
+
+    found = endings(lambda limit: _regretted(seed, *goals, deadline=limit), sparser=5)
+    results = [ending for ending in found if isinstance(ending, tuple)]
+    results += [unsure(2**k) for k in range(13)]
+    told = {(one.status, one.cost, one.human_cost, one.saving): (task, one) for task, one in results}
+    assert {status for status, *_ in told} == {"unknown", "feasible", "optimal"}
+    for task, one in told.values():
+        assert one.goals is None or serendipity.verify(task, one).refuted is None
+
+
+def test_what_a_limit_leaves_open_of_one_scenario_proves_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The search calls it optimal, with a bound below; regret was counted from it, and called proved."""
+    solve = leftovers_over_scenarios.solve_scenarios
+
+    def limited(prepared: PreparedTask, options: Options, candidates: Any, *rest: Any) -> Iterator[Any]:
+        for found in solve(prepared, options, candidates, *rest):
+            yield found if len(candidates) > 1 else found._replace(lower_bound=Fraction(0))
+
+    monkeypatch.setattr(leftovers_over_scenarios, "solve_scenarios", limited)
+    assert asked(leave_price="open*=2, *=0", risk="regret").status == "feasible"

@@ -232,11 +232,14 @@ def figures(
 
 
 def differing(result: Result, expected: Mapping[str, Fraction], *, at_most: bool = False) -> str | None:
-    """The first figure that is not as expected; ``at_most``: not even less than it is said to be."""
+    """The first figure that is not as expected; ``at_most``: not even less than it is said to be.
+
+    What is saved is the difference of two such figures then, as a rule has it.
+    """
     kind = {"mean": "expected", "worst": "greatest"}.get(result.options.risk, "greatest regret's")
     for name, value in expected.items():
         said = getattr(result, name)
-        more = at_most and name != "saving" and said is not None and said >= value
+        more = at_most and said is not None and (name == "saving" or said >= value)
         if said is None or not (more or close(said, value)):
             return f"the {kind} {name} is {float(value):.12g}, the answer says {said}"
     return None
