@@ -159,6 +159,21 @@ def test_who_undoes_something_comes_later() -> None:
     assert actions(plan_file(planned, result)) == ["enter h", "close r"]
 
 
+@pytest.mark.parametrize("mode", ["individual", "serendipity", "communication", "composite"])
+@pytest.mark.parametrize("given", [None, [[2, "walk h"], [6, "noop"]]], ids=["predicted", "given"])
+def test_waiting_at_the_end_is_read_back(mode: str, given: list[list[object]] | None, tmp_path: Path) -> None:
+    """Beside robots who do nothing it was not written, and what was read missed the goal."""
+    actions = {"walk h": "-> there", "go r": "-> away"}
+    bus = build(goal="there come", actions=actions).with_script(Script(facts=[(4, "come")]))
+    result = serendipity.plan(bus, mode=mode, human_plan=given)
+    path = tmp_path / "h.plan"
+    path.write_text(plan_file(bus, result))
+    read = timed_plan(path, bus)
+    assert read[-1] == (6 if given else 4, "noop")
+    assert read[:-1] == tuple((step.epoch, step.action) for step in result.plan or ())
+    assert read == result.human_entries or (given and mode != "serendipity")
+
+
 def test_without_a_plan_there_is_no_file(run: Runs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     anytime(monkeypatch, None, Result("serendipity", "unknown", "commx", serendipity.Options()))
     done = run("plan --example room2 --save-plan help.plan")

@@ -87,13 +87,19 @@ def _lines(task: Task, result: Result) -> Iterator[str]:
 
 
 def _timed_lines(task: Task, result: Result, steps: list[PlanStep]) -> Iterator[str]:
-    """The lines of a plan in time; a last ``noop`` says until when a human who is alone waits."""
+    """The lines of a plan in time; a last ``noop`` says until when the human waits, if nobody else acts."""
     for who, theirs in result.bystanders.items():
         yield from (f"; {who}: {timed_line(task, s.epoch, s.action, s.duration)}" for s in theirs)
     yield from (timed_line(task, s.epoch, s.action, s.duration) for s in steps)
-    times = result.human_plan_times
-    if result.mode == "individual" and times is not None and times.waits_at_end:
-        yield timed_line(task, times.epochs, NOOP, 1)
+    times, over = result.human_plan_times, max((step.end for step in steps), default=0)
+    if times is None or any(step.agents != (result.human,) for step in steps):
+        return
+    is_theirs = [(step.epoch, step.action) for step in steps] == [
+        *zip(times.starts, result.human_plan or (), strict=True)
+    ]
+    until = times.epochs if is_theirs or result.mode == "individual" else result.horizon
+    if isinstance(until, int) and until > over:
+        yield timed_line(task, until, NOOP, 1)
 
 
 def _lines_by_epoch(task: Task, steps: list[PlanStep]) -> Iterator[str]:
