@@ -145,8 +145,8 @@ def contents(built: Built) -> bool:
         names = zipfile.ZipFile(wheel).namelist()
         strange = [name for name in names if not BELONGS.fullmatch(name)]
         marks = [name for name in names if name.endswith("/py.typed")]
-        if strange or len(marks) != 3 or sum(bool(KERNEL.fullmatch(name)) for name in names) != kernels:
-            raise FailedError(f"{wheel.name}: expected {kernels} kernel and 3 py.typed, has {names}")
+        if strange or len(marks) != 6 or sum(bool(KERNEL.fullmatch(name)) for name in names) != kernels:
+            raise FailedError(f"{wheel.name}: expected {kernels} kernel and 6 py.typed, has {names}")
     if not built.anywhere.name.endswith("-py3-none-any.whl"):
         raise FailedError(f"expected a wheel for any platform, got {built.anywhere.name}")
     return True
