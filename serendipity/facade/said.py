@@ -8,7 +8,7 @@ from serendipity.facade.known import whole
 from serendipity.facade.planning import OF_GOALS, SessionOptions
 from serendipity.model import Options, Task, UsageError
 from serendipity.model.task.plans import PlanEntry, checked_entries, unknown_action
-from serendipity.model.task.plans_in_time import require_epoch
+from serendipity.model.task.plans_in_time import impossible_epoch, require_epoch
 from serendipity.model.task.task import canonical_name
 
 
@@ -40,13 +40,13 @@ def on_the_way(defaults: Mapping[str, Any], options: Mapping[str, Any]) -> dict[
 
 
 def entries(task: Task, names: Iterable[PlanEntry]) -> tuple[PlanEntry, ...]:
-    """What may be a plan of the human's, now or later: of actions that there are.
+    """What may be a plan of the human's, now or later: of actions that there are, one after another.
 
     Raises:
-        PlanError: an action is unknown, or begins in an epoch that there never is.
+        PlanError: an action is unknown, or begins in an epoch that never comes, or before another has ended.
         UsageError: they are no list of names.
     """
-    found = checked_entries(names, "human plan")
+    found, over, busy = checked_entries(names, "human plan"), 0, task.script.busy(task.human)
     for step, entry in enumerate(found, start=1):
         epoch, said = (None, entry) if isinstance(entry, str) else entry
         name, waits = canonical_name(said), task.waits(canonical_name(said))
@@ -54,6 +54,10 @@ def entries(task: Task, names: Iterable[PlanEntry]) -> tuple[PlanEntry, ...]:
             raise unknown_action(step, name)
         if epoch is not None:
             require_epoch(step, name, epoch, waits=waits)
+            if epoch <= over and not (waits and epoch <= busy):
+                raise impossible_epoch(step, name, epoch, least=over + 1)
+            least = 1 if waits else min(task.actions[i].duration for i in task.named[name])
+            over = max(over, epoch + least - 1)
     return found
 
 

@@ -299,7 +299,7 @@ class Session:
         The next call replays it, and raises :class:`serendipity.PlanError` where it can't be executed.
 
         Raises:
-            PlanError: an action is unknown, or begins in an epoch that there never is.
+            PlanError: an action is unknown, or begins in an epoch that there never is, or too early.
         """
         given = None if names is None else entries(self.task, names)
         self._human_plan, self._predicted, self._is_outdated = None, False, False

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import serendipity
 from serendipity import PlanError, Result, Script, Session, Task, UsageError
 from serendipity.model import Condition
+from serendipity.model.task.plans import PlanEntry
 from serendipity_testing.builders import task
 from serendipity_testing.call import Call
 from serendipity_testing.oracle import best
@@ -256,6 +257,30 @@ def test_an_epoch_that_never_comes_is_refused_at_once(early: int) -> None:
         with pytest.raises(serendipity.PlanError, match=message):
             session.follow(wrong)
     assert session.human_plan == (first, *more), "as it was"
+
+
+@pytest.mark.parametrize(
+    ("plan", "step", "least"),
+    [
+        ([(2, "walk h"), (2, "eat h")], 2, 4),
+        ([(2, "walk h"), (3, "eat h"), (9, "eat h")], 2, 4),
+        ([(2, "walk h"), (3, "noop")], 2, 4),
+        ([(3, "noop"), (3, "walk h")], 2, 4),
+    ],
+    ids=["equal", "before-it-ends", "waiting", "after-waiting"],
+)
+def test_epochs_that_do_not_rise_are_refused_at_once(plan: list[PlanEntry], step: int, least: int) -> None:
+    """The next call said so, which knew no more than this one."""
+    lunch = task(init="out", goal="fed", actions={"walk h": "out -> in !out [2]", "eat h": "in -> fed"})
+    session = Session(lunch, human_plan=[(1, "walk h"), (4, "eat h")])
+    named = plan[step - 1]
+    message = rf"^human plan, step {step}: '{named[1]}': expected an epoch from {least} on, got {named[0]}$"
+    for refused in (serendipity.plan, Session):
+        with pytest.raises(serendipity.PlanError, match=message):
+            refused(lunch, human_plan=plan)
+    with pytest.raises(serendipity.PlanError, match=message):
+        session.follow(plan)
+    assert session.plan().human_entries == ((1, "walk h"), (4, "eat h"))
 
 
 @pytest.mark.parametrize("early", [0, 1, 3])
