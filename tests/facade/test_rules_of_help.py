@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import serendipity
-from serendipity import Condition, Options, Task
+from serendipity import Condition, Options, Result, Task
 from serendipity.facade.front import drawn
 from serendipity_testing import strategies
 from serendipity_testing.builders import Builder
@@ -22,6 +22,7 @@ from serendipity_testing.generator import random_call
 from serendipity_testing.oracle import best
 from serendipity_testing.oracle.truth import Truth
 from serendipity_testing.strategies.time import tasks_in_time
+from tests.endings import endings
 from tests.facade.rules import RULES, proved_as_brute_force_has_it, rooms, rooms_in_time
 from tests.search.exact_answers import proved
 
@@ -302,6 +303,19 @@ def test_what_they_gain_alone_is_what_brute_force_says(seed: int, rule: dict[str
     task = replace(call.task, robot_goal=Condition())
     answer = proved(task, **call.keywords() | {"ties": "fixed"} | rule, human_plan=call.human_plan)
     assert Truth(task).fault(answer) is None
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [33, 1480])
+def test_what_they_gain_alone_is_told_at_a_limit_only_where_it_is_known(seed: int) -> None:
+    call, rule = random_call(seed), {"ties": "fixed", "leave_price": "*0*=0.07, *1*=1.13"}
+    task = replace(call.task, robot_goal=Condition())
+    asked = {**call.keywords(), **rule, "human_plan": call.human_plan}
+    *found, last = endings(lambda limit: serendipity.plan(replace(task), deadline=limit, **asked))
+    for result in found:
+        if isinstance(result, Result) and result.status != "unknown":
+            assert result.saving_alone in (None, last.saving_alone)
+            assert serendipity.verify(task, result).refuted is None
 
 
 def test_a_price_that_makes_help_a_tie_is_proved() -> None:
