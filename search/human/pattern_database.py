@@ -10,7 +10,6 @@ its keys.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from itertools import accumulate
 from operator import mul
 from typing import Final, NamedTuple
@@ -76,19 +75,16 @@ GoalBound = PatternDatabase | NearestGoal
 """A lower bound on what is left to the human."""
 
 
-@dataclass(frozen=True, slots=True)
-class Projected:
+class Projected(NamedTuple):
     """The human's actions projected onto fields of theirs, as far as they lead from ``I``.
 
     Attributes:
         mask: the fields that are kept.
-        moves: per projected state what leads to it by what mentions nothing that others change.
-        touches: the same by all else.
+        moves: per projected state what leads to it.
     """
 
     mask: int
     moves: Predecessors
-    interactions: Predecessors
 
 
 def own_projection(packed: PackedTask, graph: Projected, deadline: Deadline) -> PatternDatabase:
@@ -97,8 +93,7 @@ def own_projection(packed: PackedTask, graph: Projected, deadline: Deadline) -> 
     Returns:
         Distances in the unit of :func:`search.packed.cost_vector.own_weights`.
     """
-    ends = _satisfying(graph, packed.goal)
-    return PatternDatabase(graph.mask, backward(ends, (graph.moves, graph.interactions), deadline))
+    return PatternDatabase(graph.mask, backward(_satisfying(graph, packed.goal), [graph.moves], deadline))
 
 
 def translated(bound: PatternDatabase, plain: PackedTask, packed: PackedTask) -> PatternDatabase:
@@ -133,11 +128,10 @@ def steps_in(own: PatternDatabase) -> PatternDatabase:
 
 def human_steps(packed: PackedTask, graph: Projected, deadline: Deadline) -> PatternDatabase:
     """The least number of the human's actions to their goal, in the same variables."""
-    counted = [
-        {at: [(own_actions(weight), before) for weight, before in edges] for at, edges in kind.items()}
-        for kind in (graph.moves, graph.interactions)
-    ]
-    return PatternDatabase(graph.mask, backward(_satisfying(graph, packed.goal), counted, deadline))
+    counted = {
+        at: [(own_actions(weight), before) for weight, before in edges] for at, edges in graph.moves.items()
+    }
+    return PatternDatabase(graph.mask, backward(_satisfying(graph, packed.goal), [counted], deadline))
 
 
 def private_fields(packed: PackedTask) -> list[int]:
@@ -212,8 +206,7 @@ def _graph(
     forms = (*packed.own_forms, *packed.joint_forms) if forms is None else forms
     # The cheapest last, so that it stays where forms look alike.
     dearest_first = sorted(forms, key=lambda form: -form.cost)
-    weighed = [(f, weights[f.cost], packed.involves_others(f.agents, f.mentions)) for f in dearest_first]
-    weighed += ((form, 0, True) for form in free)
+    weighed = [*((form, weights[form.cost]) for form in dearest_first), *((form, 0) for form in free)]
     mask, most = sum(fields), _MAX_STATES if _tractable(packed, fields) == fields else _FEW_STATES
     return _explore(mask, packed.init & mask, _transitions(fields, weighed, deadline), most, deadline)
 
@@ -227,7 +220,7 @@ def _satisfying(graph: Projected, goal: PackedGoal) -> list[tuple[int, int]]:
 
 
 class Transition(NamedTuple):
-    """An op seen through the projection; ``interaction`` tells whether it mentions what others change."""
+    """An op seen through the projection."""
 
     need_mask: int
     need: int
@@ -235,7 +228,6 @@ class Transition(NamedTuple):
     put: int
     forbidden: Literals
     weight: int
-    interaction: bool
 
 
 def _explore(
@@ -243,13 +235,12 @@ def _explore(
 ) -> Projected | None:
     """The graph of projected states that are reached from ``start``; None if they are more than ``most``."""
     moves: Predecessors = {start: []}
-    interactions: Predecessors = {start: []}
     pending = [start]
     while pending:
         state = pending.pop()
         deadline.tick()
         edges: dict[int, tuple[int, int]] = {}  # of equal ones, what they lead to keeps the same
-        for need_mask, need, keep, put, forbidden, weight, interaction in steps.candidates(state):
+        for need_mask, need, keep, put, forbidden, weight in steps.candidates(state):
             after = state & keep | put
             if state & need_mask != need or after == state:
                 continue
@@ -258,33 +249,32 @@ def _explore(
             if after not in moves:
                 if len(moves) >= most:
                     return None
-                moves[after], interactions[after] = [], []
+                moves[after] = []
                 pending.append(after)
             edge = edges.get(weight)
             if edge is None:
                 edge = edges[weight] = weight, state
-            (interactions if interaction else moves)[after].append(edge)
-    return Projected(mask, moves, interactions)
+            moves[after].append(edge)
+    return Projected(mask, moves)
 
 
 def _transitions(
-    fields: Sequence[int], forms: Iterable[tuple[Signature, int, bool]], deadline: Deadline
+    fields: Sequence[int], forms: Iterable[tuple[Signature, int]], deadline: Deadline
 ) -> OperatorIndex[Transition]:
     """Ops in a projection, from their forms, the cheapest last; of those that look alike the cheapest."""
     mask = sum(fields)
-    merged: dict[tuple[int, int, bool], dict[tuple[int, int, Literals], int]] = {}
-    for form, weight, interaction in forms:
+    merged: dict[tuple[int, int], dict[tuple[int, int, Literals], int]] = {}
+    for form, weight in forms:
         deadline.check()
         if form.sets & mask:
-            shape = form.need_mask & mask, mask & ~form.sets, interaction
+            shape = form.need_mask & mask, mask & ~form.sets
             merged.setdefault(shape, {}).update(_seen(form, mask, weight))
-    asked = ((need_mask, len(values)) for (need_mask, _, _), values in merged.items())
+    asked = ((need_mask, len(values)) for (need_mask, _), values in merged.items())
     steps: OperatorIndex[Transition] = OperatorIndex(most_asked(fields, asked))
-    for (need_mask, keep, interaction), values in merged.items():
+    for (need_mask, keep), values in merged.items():
         for (need, put, forbidden), weight in values.items():
             deadline.tick()
-            seen = Transition(need_mask, need, keep, put, forbidden, weight, interaction)
-            steps.add(need_mask, need, seen)
+            steps.add(need_mask, need, Transition(need_mask, need, keep, put, forbidden, weight))
     return steps
 
 
