@@ -13,7 +13,7 @@ from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
 from search.human.pattern_database import NOTHING_KNOWN, NearestGoal, PatternDatabase
 from search.human.strides import StridingPlanner, may_stride
 from search.kernel.library import library
-from search.packed.cost_vector import INFINITE_KEY, Weights
+from search.packed.cost_vector import Weights
 from search.packed.joint_actions import JointAction, as_option
 from search.packed.operators import Operator, asked_by, changed, union
 from search.packed.packed_task import PackedGoal
@@ -180,16 +180,12 @@ class SearchContext:
         team = self.team if self.distances_say_little else None
         if team is None:
             return no_team_bound
-        planner = team.planner
-        return cache(lambda state: self.amount_key(planner.bound(state, self.deadline)))
+        planner, key_of = team.planner, self.weights.key_of
+        return cache(lambda state: key_of(planner.bound(state, self.deadline)))
 
     def under(self, deadline: Deadline) -> "SearchContext":
         """The same call with another deadline."""
         return SearchContext(self.prepared, self.options, deadline, self.plan, self.tables)
-
-    def amount_key(self, amount: int) -> int:
-        """An amount of the team's as a key."""
-        return self.weights.key_of(amount) if amount < INFINITE_KEY else INFINITE_KEY
 
     @property
     def root(self) -> Node:

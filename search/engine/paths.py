@@ -12,15 +12,11 @@ def plan_steps(plan: HumanPlan, first_epoch: int = 1) -> tuple[Step, ...]:
     return tuple(Step(epoch, action) for epoch, action in enumerate(plan, start=first_epoch))
 
 
-def path_steps(node: Node) -> tuple[Step, ...]:
-    """The steps that lead to a node, in order of epoch and action."""
-    return tuple(sorted(Step(at.epoch, action) for at in _back_from(node) for action in at.actions))
-
-
 def whole_plan(found: Incumbent) -> tuple[Step, ...]:
     """The steps of a plan that has a last node, in order of epoch and action."""
     assert found.node is not None, "an incumbent of a search has one"
-    return tuple(sorted(path_steps(found.node) + plan_steps(found.tail, found.end)))
+    before = (Step(at.epoch, action) for at in _back_from(found.node) for action in at.actions)
+    return tuple(sorted((*before, *plan_steps(found.tail, found.end))))
 
 
 def path_sets(node: Node) -> list[tuple[int, ...]]:

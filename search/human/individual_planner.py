@@ -113,9 +113,7 @@ class IndividualPlanner:
 
     def _key_of(self, found: int) -> int:
         """A sum of weights as a key."""
-        if self._prices is None or found >= INFINITE_KEY:
-            return found
-        return self._prices.of_own(found)
+        return found if self._prices is None else self._prices.of_own(found)
 
     def _least_from(self, state: int, limit: int = INFINITE_KEY) -> int:
         """The least sum of weights from a state; from ``limit`` on any value says "not below"."""

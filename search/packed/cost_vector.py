@@ -199,8 +199,7 @@ class Weights:
 
     def key_of(self, amount: int) -> int:
         """Key of a scaled cost and a number of actions, put together as by :func:`own_weights`."""
-        keys = self.keys
-        return keys.of_scaled(amount >> ACTIONS_BITS) + ((amount & _ACTIONS) << keys.action_shift)
+        return self._key(amount, self.keys.of_scaled(1))
 
     def amount_from(self, limit: int, most: int) -> int:
         """The least amount of which :meth:`key_of` is not below a limit; ``most`` at most."""
@@ -210,7 +209,12 @@ class Weights:
 
     def of_own(self, cost: int) -> int:
         """Key increment of a cost in the unit of :func:`own_weights`."""
-        return (cost >> ACTIONS_BITS) * self._per_cost + ((cost & _ACTIONS) << self.keys.action_shift)
+        return self._key(cost, self._per_cost)
+
+    def _key(self, amount: int, per_cost: int) -> int:
+        if amount >= INFINITE_KEY:
+            return INFINITE_KEY
+        return (amount >> ACTIONS_BITS) * per_cost + ((amount & _ACTIONS) << self.keys.action_shift)
 
     def of_walk(self, cost: int, ops: int) -> int:
         """Increment of a robot's walk: its cost in the unit of :func:`own_costs`, its number of ops."""

@@ -135,7 +135,7 @@ class FirstAnswer:
             context = SearchContext(call.prepared, call.options, call.deadline.part(_FIRST_BOUND))
             if context.team is not None:
                 amount = context.team.planner.bound(context.packed.init, context.deadline)
-                self.least = max(self.least, context.keys.objective(context.amount_key(amount)))
+                self.least = max(self.least, context.keys.objective(context.weights.key_of(amount)))
 
 
 def _fits(options: Options, plan: HumanPlan) -> bool:

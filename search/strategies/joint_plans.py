@@ -29,7 +29,7 @@ def team_optimum(call: Call, part: Allowance) -> Iterator[None]:
     init = context.packed.init
     try:
         for sets in team.better_plans(
-            init, part.deadline, lambda amount: call.raise_bound(context.amount_key(amount))
+            init, part.deadline, lambda amount: call.raise_bound(context.weights.key_of(amount))
         ):
             _count(call, team, before)
             node = context.played([context.packed.op(action) for action in actions] for actions in sets)
@@ -84,7 +84,7 @@ def _take_all(call: Call, plans: "Iterable[Sets]") -> Iterator[None]:
 
 def _raise(call: Call, amount: int) -> None:
     """Note that no composite plan costs the team less than an amount."""
-    call.raise_joint_bound(call.context.amount_key(amount))
+    call.raise_joint_bound(call.context.weights.key_of(amount))
 
 
 def _suggest(call: Call, steps: Sequence[Step]) -> bool:

@@ -15,7 +15,7 @@ from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.best_first import Incumbent, Progress, Space, best_first, solve_space
 from search.engine.dominance import ParetoFront
-from search.engine.paths import path_steps, plan_steps, whole_plan
+from search.engine.paths import plan_steps, whole_plan
 from search.human.suffix_rules import Asked, Suffix
 from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, Member, Worths
 from search.modes.scenarios.variants import Variants
@@ -224,7 +224,7 @@ class Certain:
         window = self._worths.epoch
         best = Incumbent(self._worths.key(most if most >= INFINITE_WORTH else max(most - window, 0)))
         least, worth = self._searched(space, best, deadline)
-        steps = path_steps(best.node) if best.node is not None else ()
+        steps = whole_plan(best) if best.node is not None else ()
         return Remainder(min(least + window, INFINITE_WORTH), min(worth + window, INFINITE_WORTH), steps)
 
     def _searched(self, space: Space, best: Incumbent, deadline: Deadline) -> tuple[int, int]:

@@ -98,4 +98,4 @@ class Timetable:
         if self._epochs is None or epoch >= len(self._steps):
             return 0
         amount = self._epochs.rest(epoch, state, at_once=at_once)
-        return 0 if amount is None else self._context.amount_key(amount)
+        return 0 if amount is None else self._context.weights.key_of(amount)

@@ -113,7 +113,7 @@ class Window:
             if not len(self._remaining):
                 return self.found
             least = self._remaining.least
-        return min(self.found, self._start + self._context.amount_key(least))
+        return min(self.found, self._start + self._context.weights.key_of(least))
 
     def is_open(self, limit: int) -> bool:
         """Whether something is left that may be below a limit."""
@@ -128,7 +128,7 @@ class Window:
         assert self._remaining is not None, "it is open"
         context.deadline.check()
         place, state, amount = self._remaining.take()
-        paid = self._start + context.amount_key(amount)
+        paid = self._start + context.weights.key_of(amount)
         if paid + alone.least(state) < limit:
             key = paid + alone.key(state, limit - paid)
             if key < limit:

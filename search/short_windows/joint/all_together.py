@@ -103,8 +103,8 @@ class AllTogether:
     def _look(self, epochs: Epochs, left: list[Leaving]) -> Iterator[None]:
         """Whether things that can be left behind make the incumbent better."""
         context, best, start = self._context, self._best, self._question.start(self._epoch)
-        while left and start + context.amount_key(left[-1].total) < best.key:
-            limit = best.key - start - context.amount_key(left[-1].paid)
+        while left and start + context.weights.key_of(left[-1].total) < best.key:
+            limit = best.key - start - context.weights.key_of(left[-1].paid)
             state, epochs_left = epochs.end(left[-1]), self._question.horizon - self._epoch
             if self._suffix.key(state, epochs_left, self._epoch, limit) < limit:
                 better = self._question.suggestions().exactly(epochs.ways(left[-1]))
