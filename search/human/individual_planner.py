@@ -5,14 +5,14 @@ Costs are cached on the facts that their own actions mention, so a state costs o
 search per projection, and a search also fills in the states along its result.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from search.engine.astar import AStar
 from search.human.own_options import BesideScript
 from search.human.pattern_database import GoalBound
-from search.human.plan_graph import PlanGraph, edges_into
+from search.human.plan_graph import PlanGraph, cheapest_ways
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
@@ -283,39 +283,30 @@ class IndividualPlanner:
         return last[1]
 
     def _optimal(self, start: int) -> PlanGraph | None:
-        """The graph of the optimal plans; None if there is no plan.
-
-        Every state whose bound does not exceed the optimum is expanded; edges that lie on
-        an optimal path are then those between exact distances.
-        """
+        """The graph of the optimal plans; None if there is no plan."""
         optimum = self._known.get(start, INFINITE_KEY - 1)
         if optimum >= INFINITE_KEY:
             return None
         search = AStar(start, self._estimate, self._deadline, limit=optimum + 1)
-        expanded: dict[int, list[tuple[int, int, int]]] = {}
-        goals = []
-        for state, spent in search:
-            self._count(0)
-            steps: list[tuple[int, int, int]] = []
-            expanded[state] = steps
-            if self._goal.holds(state):
-                search.limit = spent + 1  # the first one is a cheapest one, others are no dearer
-                goals.append(state)
-                continue
+
+        def steps(state: int) -> Iterator[tuple[int, int, int]]:
             for option in self._lookup.options(state):
-                after, cost = state & option.keep | option.put, spent + option.weight
-                steps.append((option.actions[0], after, cost))
-                search.reach(after, cost, state)
+                yield option.actions[0], state & option.keep | option.put, option.weight
+
+        def is_goal(state: int) -> bool:
+            self._count(0)
+            return self._goal.holds(state)
+
+        goals, edges, generated = cheapest_ways(search, steps, is_goal, self._deadline)
         if not goals:
             self._known[start] = INFINITE_KEY
             return None
         distance, optimum = search.spent, search.spent[goals[0]]
-        edges = edges_into(goals, expanded, distance, self._deadline)
         for state, onward in edges.items():
             edges[state] = self._one_a_name(onward)
         for state in (*edges, *goals):
             self._known[state] = optimum - distance[state]
-        return PlanGraph(start, edges, len(expanded), sum(map(len, expanded.values())))
+        return PlanGraph(start, edges, len(generated), sum(generated))
 
     def _one_a_name(self, steps: list[tuple[int, int]]) -> list[tuple[int, int]]:
         """The first step of each name: variants of one action make no different plan (semantics 1)."""

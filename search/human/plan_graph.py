@@ -1,9 +1,10 @@
 """All optimal plans of the human alone, as a graph."""
 
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
+from search.engine.astar import AStar
 from serendipity.model.resources.deadline import Deadline
 
 State = TypeVar("State", bound=Hashable)
@@ -125,24 +126,37 @@ class PlanGraph:
                 yield state, onward
 
 
-def edges_into(
-    goals: list[State],
-    expanded: dict[State, list[tuple[int, State, int]]],
-    distance: dict[State, int],
+def cheapest_ways(
+    search: AStar[State],
+    steps: Callable[[State], Iterable[tuple[int, State, int]]],
+    is_goal: Callable[[State], bool],
     deadline: Deadline,
-) -> dict[State, list[tuple[int, State]]]:
-    """The steps on some way to a goal along which distances add up.
+) -> tuple[list[State], dict[State, list[tuple[int, State]]], list[int]]:
+    """Where the cheapest ways of a search end, the steps on them, and how many each state has that came up.
+
+    Every state whose bound does not exceed the optimum is expanded; steps on a cheapest way are then those
+    between exact distances.
 
     Args:
-        goals: states where an optimal plan ends.
-        expanded: per state its steps: action, successor, what has been spent by then.
-        distance: per state what has to be spent to get there.
+        search: one that has not begun.
+        steps: of a state: action, successor, weight.
     """
+    goals: list[State] = []
+    expanded: dict[State, list[tuple[int, State, int]]] = {}
+    for state, spent in search:
+        expanded[state] = []
+        if is_goal(state):
+            search.limit = spent + 1  # the first one is a cheapest one, others are no dearer
+            goals.append(state)
+            continue
+        for action, after, weight in steps(state):
+            expanded[state].append((action, after, spent + weight))
+            search.reach(after, spent + weight, state)
     tight: dict[State, list[tuple[int, State]]] = {}
-    for state, steps in expanded.items():
+    for state, onward in expanded.items():
         deadline.tick()
-        for action, after, cost in steps:
-            if distance.get(after) == cost:
+        for action, after, cost in onward:
+            if search.spent.get(after) == cost:
                 tight.setdefault(after, []).append((action, state))
     edges: dict[State, list[tuple[int, State]]] = {}
     pending, seen = list(goals), set(goals)
@@ -153,6 +167,6 @@ def edges_into(
             if state not in seen:
                 seen.add(state)
                 pending.append(state)
-    for onward in edges.values():
-        onward.sort()
-    return edges
+    for chosen in edges.values():
+        chosen.sort()
+    return goals, edges, [*map(len, expanded.values())]

@@ -15,7 +15,7 @@ from typing import Final, NamedTuple
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.astar import AStar
-from search.human.plan_graph import edges_into
+from search.human.plan_graph import cheapest_ways
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operator_index import by_most_asked
 from search.packed.operators import forms_of
@@ -265,26 +265,15 @@ class _ObservedSearch:
         return None
 
     def _canonical(self) -> HumanPlan | None:
-        """The canonical one of the cheapest plans that embed the observations (semantics 1).
-
-        Every place whose bound does not exceed the optimum is expanded, so that all optimal
-        plans are among the steps recorded.
-        """
+        """The canonical one of the cheapest plans that embed the observations (semantics 1)."""
         search = AStar(self._start, lambda at: self._bound(at[0]), self._deadline, limit=INFINITE_KEY)
-        expanded: dict[_At, list[tuple[int, _At, int]]] = {}
-        ends = []
-        for at, key in search:
-            steps = expanded[at] = []
-            if at[1] == len(self._observed) and self._goal.holds(at[0]):
-                search.limit = key + 1  # the first one is a cheapest one, others are no dearer
-                ends.append(at)
-                continue
-            for action, after, weight in self._steps(at):
-                steps.append((action, after, key + weight))
-                search.reach(after, key + weight, at)
+
+        def is_end(at: _At) -> bool:
+            return at[1] == len(self._observed) and self._goal.holds(at[0])
+
+        ends, edges, _ = cheapest_ways(search, self._steps, is_end, self._deadline)
         if not ends:
             return None
-        edges = edges_into(ends, expanded, search.spent, self._deadline)
         plan, at = [], self._start
         while at in edges:
             action, at = edges[at][0]
