@@ -127,10 +127,10 @@ class BoundsAlong:
     The human's private fields follow ``pi_H``, so their part of the first is known in advance.
 
     Args:
-        plan: ``pi_H``.
+        plan: ``pi_H``; empty where they are free from the start.
         horizon: ``T``, at least ``|pi_H|``.
         limit: key that a plan has to beat.
-        opened: key increment of opening a window after ``0 .. |pi_H| - 1`` epochs.
+        opened: key increment of their freedom after ``0 .. |pi_H| - 1`` epochs, or at once.
         robots: key increment of a robots' op by the index of its cost.
         idle: robots do nothing.
 
@@ -153,15 +153,19 @@ class BoundsAlong:
         self._context = context
         self._horizon = horizon
         self._limit = limit
-        steps = context.followed(plan)
-        self._providers = _achievers(context, robots, [op for op, _ in steps])
+        steps, deadline = context.followed(plan), context.deadline
+        transitions, followed = context.tables.transitions(deadline), [op for op, _ in steps]
+        self._providers = Achievers(
+            context.packed, transitions, context.interactions, robots, followed, deadline
+        )
         self._sources: list[tuple[int, int]] = []  # key and state where a window opens, by epoch
         self._spent: list[int] = []
         self._corridors: list[tuple[int, int, Corridor, dict[int, int]]] = []  # from and to which epoch
         self._costs: dict[int, int] = {}
         self._follow(steps, opened)
         floor = [base + context.bound(at) for base, at in self._sources]
-        self._openings = PrefixBounds(len(plan), _reach(context, horizon, limit), floor)
+        reach = _reach(context, horizon, limit) if plan else horizon - 1
+        self._openings = PrefixBounds(len(opened), reach, floor)
         """The human's totals, by need and by when the window opens."""
         self._explore()
         paying = None if idle else self._price_needs()
@@ -176,12 +180,13 @@ class BoundsAlong:
     def _follow(self, steps: Sequence[tuple[Operator, JointAction]], opened: Sequence[int]) -> None:
         """What following ``pi_H`` costs, and where the human is before each of its epochs."""
         state, cost = self._context.packed.init, 0
-        for opening, (op, option) in zip(opened, steps, strict=True):
+        for number, opening in enumerate(opened):
             self._sources.append((cost + opening, state))
             self._spent.append(cost)
-            state = state & op.keep | op.put
-            # Who begins nothing any more waits for nothing.
-            cost += 0 if op.action in self._context.packed.idling else option.weight
+            for op, option in steps[number : number + 1]:
+                state = state & op.keep | op.put
+                # Who begins nothing any more waits for nothing.
+                cost += 0 if op.action in self._context.packed.idling else option.weight
 
     def _explore(self) -> None:
         """The human's ways from each epoch of ``pi_H`` to touches, and on to the goal.
@@ -199,10 +204,8 @@ class BoundsAlong:
         }
 
     def _price_needs(self) -> list[int] | None:
-        """Ids of the needs that may pay with what robots need for them; None if there is no telling."""
+        """Ids of the needs that may pay; None if they are too many to look at."""
         openings, providers = self._openings, self._providers
-        if not openings.least:
-            return None
         self._costs = providers.costs(sorted(openings.least), self._pays)
         return survivors(
             self._costs, self._limit, lambda i, cost: openings.rough(i, cost, providers.epochs(cost))
@@ -218,8 +221,10 @@ class BoundsAlong:
         for first, end, corridor, ids in self._corridors:
             at = [(base, state & mask) for base, state in self._sources[first:end]]
             for i in ids.keys() & paying:
-                rest = ways_through([corridor], ids[i], self._context.deadline)
-                totals = [base + rest.get(place, INFINITE_KEY) for base, place in at]
+                totals = [corridor.totals[ids[i]]]
+                if len(at) > 1:
+                    rest = ways_through([corridor], ids[i], self._context.deadline)
+                    totals = [base + rest.get(place, INFINITE_KEY) for base, place in at]
                 self._openings.refine(i, first, totals)
         left = [i for i in paying if self._total(i) < self._limit]
         slack = {i: self._limit - self._openings.least[i] for i in left}
@@ -237,12 +242,6 @@ class BoundsAlong:
         return FirstInteraction(self._context.ways, corridors, needs)
 
 
-def _achievers(context: SearchContext, weights: Sequence[int], followed: Sequence[Operator]) -> Achievers:
-    deadline = context.deadline
-    transitions = context.tables.transitions(deadline)
-    return Achievers(context.packed, transitions, context.interactions, weights, followed, deadline)
-
-
 def _reach(context: SearchContext, horizon: int, limit: int) -> int:
     """The most epochs of a window that can still beat ``limit``."""
     most = min(horizon, context.options.max_window or horizon)
@@ -254,31 +253,12 @@ def free_bounds(context: SearchContext, horizon: int | None, limit: int, *, idle
     """Bounds where the human is free from the start."""
     untouched: Timed = no_bound
     team = context.team_bound
-    last = NEVER if horizon is None else horizon
     if team is not no_team_bound:
         return Bounds(NOTHING_KNOWN, NOTHING_KNOWN, team=team)
     if not idle:
-        ways = context.ways
-        providers = _achievers(context, context.weights.robots, ())
-        corridor = ways.explore([(0, context.packed.init)], limit)
-        least = corridor.totals
-        latest = {need: last - 1 - ways.steps_after[need] for need in least}
-
-        def total(need: int, cost: int) -> int:
-            return least[need] + cost if providers.epochs(cost) <= latest[need] else INFINITE_KEY
-
-        start = min(least.values(), default=limit)
-
-        def pays(cost: int) -> bool:
-            return start + cost < limit and providers.epochs(cost) < last
-
-        costs = providers.costs(sorted(least), pays)
-        paying = survivors(costs, limit, total)
-        if paying is not None:
-            slack = {need: limit - least[need] for need in paying}
-            provided = providers.provided(paying, last, slack, latest)
-            needs = [(need, provided[need], total(need, costs[need])) for need in paying]
-            untouched = FirstInteraction(ways, [corridor], needs)
+        last = NEVER if horizon is None else horizon
+        along = BoundsAlong(context, (), last, limit, [0], context.weights.robots, idle=False)
+        untouched = along.off_plan or no_bound
     return Bounds(context.bound, context.steps, untouched, context.interactions)
 
 
