@@ -8,8 +8,8 @@ The loop over what comes up is the caller's::
             search.reach(after, spent + weight, state, step)
 
 so that it may end where it likes, go back along a cheapest way (:meth:`AStar.way_back`), and lower the
-limit when it has found something.  The estimate is consistent: a state comes up once, when its cost is
-known.  Where more becomes known of a state than its estimate said, :meth:`AStar.postpone` puts it back.
+limit when it has found something.  The estimate is consistent, but for states from which nobody goes on: a
+state comes up once, when its cost is known.
 """
 
 from collections.abc import Callable, Hashable, Iterator
@@ -61,7 +61,7 @@ class AStar(Generic[State]):
         return self._queue[0][0] if self._queue else None
 
     def __iter__(self) -> Iterator[tuple[State, int]]:
-        """States, and what has been spent, as they come up; each once but those that are postponed."""
+        """States, and what has been spent, as they come up, each once."""
         queue, closed, spent = self._queue, self._closed, self.spent
         while queue and queue[0][0] < self.limit:
             _, _, state = heappop(queue)
@@ -84,8 +84,3 @@ class AStar(Generic[State]):
         while state in self._before:
             state, step = self._before[state]
             yield state, step
-
-    def postpone(self, state: State, total: int) -> None:
-        """Put a state that has come up back, until nothing cheaper than a total is left."""
-        self._closed.discard(state)
-        heappush(self._queue, (total, self._sign * self.spent[state], state))

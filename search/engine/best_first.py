@@ -115,7 +115,6 @@ def best_first(
         LimitReachedError: the deadline ran out; ``best`` and ``progress.bound`` hold what is known.
     """
     queue = LevelQueue(space.roots())
-    levels = queue.levels
     last = progress.expanded + most
     known, left = best.key, 0 if ties is None else ties.nodes
     while (bound := queue.least) is not None and bound < best.key:
@@ -135,11 +134,7 @@ def best_first(
             deadline.tick()
             progress.generated += 1
             if child_bound < best.key:
-                level = levels.get(child_bound)  # not push alone: a call for each node would show
-                if level is None:
-                    queue.push(child_bound, child)
-                else:
-                    level.append(child)
+                queue.push(child_bound, child)
         if best.key < known or progress.due(deadline):
             known = best.key
             yield

@@ -49,14 +49,9 @@ class LevelQueue(Generic[Item]):
 
     def relax(self, distance: int, edges: Iterable[tuple[int, Item]], settled: Container[Item]) -> None:
         """Add where edges lead from something at a distance, but for what is settled."""
-        levels = self.levels
         for weight, item in edges:
             if item not in settled:
-                level = levels.get(distance + weight)
-                if level is None:
-                    self.push(distance + weight, item)
-                else:
-                    level.append(item)
+                self.push(distance + weight, item)
 
     @property
     def least(self) -> int | None:
@@ -99,7 +94,6 @@ def backward(
         The least distance from each state from which a source can be reached, ascending.
     """
     queue = LevelQueue(sources)
-    levels = queue.levels
     found: dict[State, int] = {}
     for distance, states in queue:
         for at in states:
@@ -108,11 +102,5 @@ def backward(
                 continue
             found[at] = distance
             for kind in edges:
-                for weight, earlier in kind.get(at, ()):  # not relax: a call for each state would show
-                    if earlier not in found:
-                        level = levels.get(distance + weight)
-                        if level is None:
-                            queue.push(distance + weight, earlier)
-                        else:
-                            level.append(earlier)
+                queue.relax(distance, kind.get(at, ()), found)
     return found

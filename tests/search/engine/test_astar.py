@@ -77,18 +77,3 @@ def test_ties_go_by_what_has_been_spent_and_by_the_state() -> None:
                 for spent, after in ((2, 3), (1, 1), (2, 2)):
                     search.reach(after, spent, node)
         assert met == expected
-
-
-def test_what_is_postponed_comes_up_again_in_its_turn() -> None:
-    search = AStar(0, lambda _: 0, Deadline(), limit=9)
-    met = []
-    for node, spent in search:
-        met.append(node)
-        if node == 0:
-            search.reach(1, 1, 0)
-            search.reach(2, 3, 0)
-        elif node == 1 and met.count(1) == 1:
-            search.postpone(1, 5)
-            assert search.least == 3
-        assert spent == {0: 0, 1: 1, 2: 3}[node]
-    assert met == [0, 1, 2, 1]

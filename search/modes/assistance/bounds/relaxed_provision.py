@@ -164,7 +164,9 @@ class RelaxedProvision:
         return ChargedStep(condition, op.keep, op.put & private, self._game.cost(op), tuple(charges))
 
     def _least(self, context: _Context, at: int) -> int:
-        """Every bit of the goal that is missing costs a step."""
+        """What is known, or else that every bit of the goal that is missing costs a step."""
+        if at in context.known:
+            return context.known[at][0]
         missing = self._game.packed.split(self._countable & ~at)
         return min(sum(context.per_goal.get(bit, INFINITE_KEY) for bit in missing), INFINITE_KEY)
 
@@ -179,12 +181,7 @@ class RelaxedProvision:
             if at not in known and self._goal.holds(at):
                 known[at] = (0, None, at)
             if at in known:
-                total = spent + known[at][0]
-                if total < INFINITE_KEY and (search.least is None or total <= search.least):
-                    return self._remember(known, search, at)
-                # A known value may exceed the estimate that brought the state up.
-                search.postpone(at, total)
-                continue
+                return self._remember(known, search, at)
             for value, after, step in self._steps_from(context, at):
                 search.reach(after, spent + value, at, (step, value))
         known[start] = (INFINITE_KEY, None, start)
