@@ -10,13 +10,12 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from search.engine.astar import AStar
-from search.human.own_options import BesideScript
 from search.human.pattern_database import GoalBound
 from search.human.plan_graph import PlanGraph, cheapest_ways
 from search.packed.cost_vector import INFINITE_KEY, Weights, own_weights
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal, PackedTask
-from search.packed.successor_generator import Lookup
+from search.packed.successor_generator import BesideScript, Lookup
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan

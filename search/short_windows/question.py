@@ -6,6 +6,7 @@ from typing import NamedTuple
 from search.call.context import SearchContext
 from search.engine.best_first import Incumbent
 from search.packed.operators import Operator
+from search.packed.packed_task import PackedTask
 from search.spaces.from_composite import Suggestions
 from serendipity.model.task.task import HumanPlan
 
@@ -37,3 +38,19 @@ class ShortWindowQuestion(NamedTuple):
         for found in better:
             best.key, best.node, best.end, best.tail = found.key, found.node, found.end, found.tail
             yield
+
+
+def lost_values(packed: PackedTask) -> dict[int, set[int]]:
+    """Dead ends: by field of the human's goal values from which they alone never get to what it asks for."""
+    lost = {}
+    for field in packed.fields:
+        if packed.goal.need_mask & field:
+            moves = [op for op in packed.own if field & ~op.keep]
+            good, known = {packed.goal.need & field}, 0
+            while len(good) > known:
+                known = len(good)
+                for op in moves:
+                    if op.put & field in good:
+                        good.update([op.need & field] if op.need_mask & field else packed.values(field))
+            lost[field] = set(packed.values(field)) - good
+    return lost

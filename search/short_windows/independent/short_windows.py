@@ -19,8 +19,7 @@ from search.short_windows.independent.landmarks import Landmarks
 from search.short_windows.independent.provision import by_others, provisions
 from search.short_windows.independent.timeline import RobotLayers, TooManyStatesError
 from search.short_windows.independent.window import ACTION, Window
-from search.short_windows.lost_values import lost_values
-from search.short_windows.question import ShortWindowQuestion
+from search.short_windows.question import ShortWindowQuestion, lost_values
 from serendipity.model.resources.deadline import Deadline
 
 _WORTH: Final = 4

@@ -16,8 +16,7 @@ from search.kernel.library import library
 from search.packed.cost_vector import ACTIONS_BITS, own_costs
 from search.packed.operators import Operator, union
 from search.short_windows.joint.epochs import Epochs, Leaving
-from search.short_windows.lost_values import lost_values
-from search.short_windows.question import ShortWindowQuestion
+from search.short_windows.question import ShortWindowQuestion, lost_values
 from search.spaces.factory import suffix_rule
 from serendipity.model.resources.deadline import Deadline
 
@@ -72,14 +71,10 @@ class AllTogether:
         if self._is_over:
             return
         fits = self._amount(self._best.key) < MOST_WEIGHT
-        self._epochs = self._epochs or (epochs_of(self._context, self._steps, deadline) if fits else None)
-        if self._epochs is None:
-            self._is_over = True
-        else:
-            yield from self._windows(self._epochs, most, deadline)
-
-    def _windows(self, epochs: Epochs, most: int, deadline: Deadline) -> Iterator[None]:
-        """All that are left, unless there are too many states."""
+        epochs = self._epochs or (epochs_of(self._context, self._steps, deadline) if fits else None)
+        self._epochs, self._is_over = epochs, epochs is None
+        if epochs is None:
+            return
         while self._epoch <= len(self._steps):
             if self._left is None:
                 left = epochs.leave(

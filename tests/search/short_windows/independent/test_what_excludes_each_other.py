@@ -4,7 +4,7 @@ import pytest
 
 from search.packed.operators import asked_by
 from search.short_windows.independent.short_windows import are_apart
-from search.short_windows.lost_values import lost_values
+from search.short_windows.question import lost_values
 from serendipity.model.resources.deadline import Deadline
 from serendipity_testing.builders import task as build
 from tests.search.small_tasks import packed_of
