@@ -11,7 +11,6 @@ from search.human.pattern_database import (
     human_steps,
     own_projection,
     partial_graph,
-    steps_in,
     whole_graph,
 )
 from search.packed.packed_task import PackedTask
@@ -45,10 +44,7 @@ class HumanTables:
         self.alone = KeptTable(lambda deadline: alone_projection(packed, deadline))
         self.graph: KeptTable[Projected] = graph
         self.projection: KeptTable[PatternDatabase] = projection
-        if len(packed.costs) == 1:  # every action costs the same: the cheapest way is the shortest
-            self.steps = KeptTable(lambda deadline: steps_in(projection(deadline)))
-        else:
-            self.steps = KeptTable(lambda deadline: human_steps(packed, graph(deadline), deadline))
+        self.steps = KeptTable(lambda deadline: human_steps(packed, graph(deadline), deadline))
 
     def memory(self, *, strict: bool) -> Memory:
         """What calls have found out about the human alone; interference matters beside a script only."""
