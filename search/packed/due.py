@@ -110,11 +110,6 @@ class Due:
         """
         return horizon is None or epoch == horizon or self.is_calm(state)
 
-    def after_waiting(self, state: int) -> int | None:
-        """The state after an epoch in which nobody does what is not due; None where that is impossible."""
-        parts = self.human(state)
-        return self.after(state, (NOTHING,) if parts is None else parts)
-
     def after(self, state: int, parts: Iterable[JointAction]) -> int | None:
         """The state after an epoch in which the human does the first of some things that is possible.
 
@@ -167,7 +162,8 @@ class Due:
         for _ in range(epochs):
             if self.is_calm(state):
                 break
-            after = self.after_waiting(state)
+            going_on = self.human(state)
+            after = self.after(state, (NOTHING,) if going_on is None else going_on)
             if after is None:
                 return False
             state = after

@@ -38,7 +38,8 @@ def helps(call: Call) -> bool:
         return False
     if not call.knows_alone:
         return _surely_helps(call)
-    if call.unaided.key < INFINITE_KEY and _score(call, call.best) >= _score(call, call.unaided):
+    shift = call.keys.cost_shift  # objective, then cost
+    if call.unaided.key < INFINITE_KEY and call.best.key >> shift >= call.unaided.key >> shift:
         return False
     return call.idle.key == INFINITE_KEY or call.keys.cost(call.best.key) < call.keys.cost(call.idle.key)
 
@@ -57,10 +58,6 @@ def _surely_helps(call: Call) -> bool:
     # A human who turns to a better plan alone needs a window, too, and the best objective is answered.
     turned = call.keys.objective(alone) + call.options.window_weight
     return not call.given or call.keys.objective(call.best.key) < turned
-
-
-def _score(call: Call, found: Incumbent) -> tuple[Fraction, Fraction]:
-    return call.keys.objective(found.key), call.keys.cost(found.key)
 
 
 def answered(call: Call) -> Incumbent:

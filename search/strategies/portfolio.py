@@ -20,7 +20,7 @@ from search.strategies.human_plan import first_bound, first_plan, known_plan, op
 from search.strategies.joint_plans import joint_optimum, open_joint_optimum, team_optimum
 from search.strategies.outcome import answer_of
 from search.strategies.warm_start import WarmStart
-from search.strategies.windows import all_plans, beside_timetable, few_nodes, robots_apart, ties
+from search.strategies.windows import all_plans, beside_timetable, robots_apart
 from serendipity.model.answers.answer import Answer, Tried
 from serendipity.model.errors import LIMITS, LimitReachedError, UsageError, limit_reason
 from serendipity.model.options import Options
@@ -84,17 +84,17 @@ TURNS: Final = (
     Turn("human-plan", "alone", calls.has_given_plan, plan_alone, stage=_PREPARE),
     Turn("bound", "bound", calls.is_planned, first_bound, stage=_PREPARE),
     Turn("joint-optimum", "joint-optimum-soon", calls.joint_optimum_may_be_it, joint_optimum, share=0.4),
-    Turn("all-plans", "few-nodes", calls.short_windows_suffice, few_nodes, share=0.1, limit=100),
+    Turn("all-plans", "few-nodes", calls.short_windows_suffice, all_plans, share=0.1, limit=100),
     Turn("timetable", "timetable-soon", calls.robots_only_leave_behind, beside_timetable, 0.1, 300_000),
     Turn("timetable", "timetable-on", calls.timetable_is_hopeful, beside_timetable, 0.35, 3_000_000),
     Turn("joint-optimum", "joint-bound", calls.joint_optimum_only_bounds, joint_optimum, 0.05, 100_000),
     Turn("robots-apart", "robots-apart", calls.robots_only_leave_behind, robots_apart, share=0.5),
     Turn("timetable", "timetable-last", calls.robots_only_leave_behind, beside_timetable, 0.9, 10_000_000),
     Turn("joint-optimum", "joint-optimum-on", calls.joint_optimum_is_open, open_joint_optimum, share=0.9),
-    Turn("all-plans", "exact-bounds", calls.is_for_team_beside_plan, few_nodes, limit=100),
+    Turn("all-plans", "exact-bounds", calls.is_for_team_beside_plan, all_plans, limit=100),
     Turn("joint-optimum", "team", calls.is_for_kernel, team_optimum),
     Turn("all-plans", "all", calls.is_planned, all_plans),
-    Turn("all-plans", "ties", calls.has_ties, ties, share=0.1, stage=_FINISH),
+    Turn("all-plans", "ties", calls.has_ties, all_plans, share=0.1, stage=_FINISH),
     Turn("human-plan", "saving", calls.compares_with_human, saving, stage=_FINISH),
 )
 
@@ -145,10 +145,7 @@ def best_plan(
 ) -> Call | None:
     """A call at its end: its best plan counts, be it an opportunity or not; None where it could not begin.
 
-    Args:
-        options: options in force.
-        human_plan: ``pi_H``, which works.
-        turns: those that may be taken; of these, those that the options name.
+    Args as for :func:`solve`, and:
         most: key that a plan has to beat, by the layout of keys; None: any plan will do.
     """
     try:

@@ -44,11 +44,11 @@ def assist(prepared: PreparedTask, options: Options, deadline: Deadline) -> Iter
     try:
         game = Game(prepared, deadline, own_deadline)
     except LIMITS as limit:
-        yield _unknown(prepared.task, ZERO, limit_reason(limit))
+        yield _bounded(prepared.task, "unknown", reason=limit_reason(limit))
         return
     most = _most_alone(game)
     if most < INFINITE_KEY:
-        yield _left_alone(game, ZERO, most)
+        yield _bounded(game.task, "feasible", upper=game.pair(most))
     late = None
     try:
         game.alone(game.init)
@@ -68,12 +68,6 @@ def _most_alone(game: Game) -> int:
     except LIMITS:
         return INFINITE_KEY
     return INFINITE_KEY if plan is None else game.value_alone(plan)
-
-
-def _left_alone(game: Game, lower: Costs, upper: int) -> Answer:
-    """Doing nothing, where all that is known of the prime's optimum is what it is worth at most."""
-    bounds = PolicyBounds(lower, game.pair(upper))
-    return _with_figures(game.task, Answer("feasible", bounds=bounds, policy=Policy((), None)))
 
 
 def _searched(game: Game, options: Options) -> Iterator[Answer]:
@@ -99,12 +93,14 @@ def _without_his_optimum(game: Game, upper: int, limit: str) -> Answer:
         game.forget_own()
     lower = _bound_without_search(game, game.deadline)
     if lower is None:
-        return _no_plan(game.task)
+        return _bounded(game.task, "infeasible", reason="no-plan")
     if upper >= INFINITE_KEY:
         with suppress(*LIMITS):
             plan = SearchContext(game.prepared, Options(), game.deadline).alone.first_plan(game.init)
             upper = INFINITE_KEY if plan is None else game.value_alone(plan)
-    return _unknown(game.task, lower, limit) if upper >= INFINITE_KEY else _left_alone(game, lower, upper)
+    if upper >= INFINITE_KEY:
+        return _bounded(game.task, "unknown", lower, reason=limit)
+    return _bounded(game.task, "feasible", lower, game.pair(upper))
 
 
 def _unfinished(game: Game, writer: Writer, search: LaoStar | None, limit: str) -> Answer:
@@ -116,13 +112,13 @@ def _unfinished(game: Game, writer: Writer, search: LaoStar | None, limit: str) 
             return _answer(writer, search.solution(), "optimal", expanded)
     least = _bound_without_search(game, game.deadline.sooner(-_BOUND_SHARE))
     if least is None:
-        return _no_plan(game.task)
+        return _bounded(game.task, "infeasible", reason="no-plan")
     lower = max(least, known.lower or ZERO)
     status: Status = "optimal" if lower == known.upper else "feasible"
     if known.upper is None:
         alone = game.alone(game.init)  # known since the first phase
         if alone >= INFINITE_KEY:
-            return _unknown(game.task, lower, limit)
+            return _bounded(game.task, "unknown", lower, reason=limit)
         known = GameSolution(None, game.pair(alone))
     return _answer(writer, replace(known, lower=lower), status, expanded)
 
@@ -136,14 +132,12 @@ def _bound_without_search(game: Game, deadline: Deadline) -> Costs | None:
     return None if value >= INFINITE_KEY else game.pair(value)
 
 
-def _no_plan(task: Task) -> Answer:
-    """Not even both together reach the goal."""
-    return _with_figures(task, Answer("infeasible", reason="no-plan", bounds=PolicyBounds(ZERO, None)))
-
-
-def _unknown(task: Task, lower: Costs, limit: str) -> Answer:
-    """A lower bound is all that was found in time."""
-    return _with_figures(task, Answer("unknown", reason=limit, bounds=PolicyBounds(lower, None)))
+def _bounded(
+    task: Task, status: Status, lower: Costs = ZERO, upper: Costs | None = None, reason: str | None = None
+) -> Answer:
+    """Bounds are all that is known; with one on what it is worth at most, doing nothing is the policy."""
+    bounds, policy = PolicyBounds(lower, upper), None if upper is None else Policy((), None)
+    return _with_figures(task, Answer(status, reason=reason, bounds=bounds, policy=policy))
 
 
 def _answer(writer: Writer, solution: GameSolution, status: Status, expanded: int) -> Answer:

@@ -139,8 +139,8 @@ class Line:
             return
         if at.phase == FOLLOWING:
             part = self._planned(at.state, epoch)
-            move = None if part is None else self._moves.planned(at.state, part, beside)
-            if move is not None:
+            if part is not None and self._acting.due.fits(part, beside):
+                move = self._moves.together(at.state, part, beside)
                 yield Way(move.part, move.worth, at._replace(state=move.state), False)
             if epoch > len(self._steps) or self._opening(at.state, epoch) >= most:
                 return
@@ -259,15 +259,10 @@ class Line:
             least = max(least, min(beside, alone, least + window))
         return max(least, known)
 
-    @property
-    def is_tabulated(self) -> bool:
-        """Whether states beside the human's plan are bounded."""
-        return self._timetable is not None and self._timetable.is_there
-
-    @property
-    def is_wholly_tabulated(self) -> bool:
-        """Whether all of them are that may be of interest."""
-        return self._timetable is not None and self._timetable.is_whole
+    def is_tabulated(self, *, wholly: bool) -> bool:
+        """Whether states beside the human's plan are bounded; ``wholly``: all of interest."""
+        table = self._timetable
+        return table is not None and (table.is_whole if wholly else table.is_there)
 
     def tabulate(self, least: int, limit: int, deadline: Deadline) -> None:
         """Bound states beside the human's plan, where only a window of one epoch can be worth so little.
@@ -305,15 +300,7 @@ class Line:
     def certainly(
         self, at: Member, epoch: int, deadline: Deadline, most: int = INFINITE_WORTH, *, again: bool = True
     ) -> tuple[int, int]:
-        """Bound and worth of what is left, if this is what the human does for certain.
-
-        Args:
-            at: after the epoch.
-            epoch: its number.
-            deadline: what is known by then is returned.
-            most: what is worth as much or more need not be told apart.
-            again: whether to go on where a deadline came before.
-        """
+        """Bound and worth of what is left, if this is certain; arguments as of :meth:`.Certain.remainder`."""
         if at.phase == OVER or epoch == self._horizon:
             rest = self.least(at, epoch)
             return rest, rest

@@ -34,10 +34,6 @@ class Moves:
         self._asked: tuple[int, JointAction] = (-1, NOTHING)
         self._free: list[Move] = []
 
-    def planned(self, state: int, part: JointAction, beside: JointAction) -> Move | None:
-        """What the human means to do, beside all that others do; None where these are in the way."""
-        return self.together(state, part, beside) if self._fits(part, beside) else None
-
     def free(self, state: int, beside: JointAction) -> Sequence[Move]:
         """All that the human may do where they follow no plan."""
         if self._asked != (state, beside):

@@ -179,10 +179,10 @@ class _ScenarioCall:
         if not searches or self._idle is None:
             return self._told(status, baseline)
         best = min(searches, key=lambda search: search.upper)
-        _, idle = self._figures(self._idle)
-        least = max(self._figures(max(search.lower for search in searches))[0], Fraction(0))
+        _, idle = self._worths.figures(self._idle)
+        least = max(self._worths.figures(max(search.lower for search in searches))[0], Fraction(0))
         if best.upper < INFINITE_WORTH:
-            objective, cost = self._figures(best.upper)
+            objective, cost = self._worths.figures(best.upper)
             if cost < idle or self._candidates[0].ahead is not None:
                 figures = cost, objective, least if self.is_exact else Fraction(0)
                 return self._told(
@@ -194,14 +194,11 @@ class _ScenarioCall:
             bound = min(baseline, max(Fraction(0), least - window)) if self.is_exact else Fraction(0)
         return self._told(status, baseline, (baseline, baseline, bound), saving_alone=baseline - idle)
 
-    def _figures(self, value: int) -> tuple[Fraction, Fraction]:
-        return self._worths.figures(value)
-
     def _baseline(self) -> Fraction:
         """What it costs to leave the human alone; for regret at most so much, before more is known."""
         if self._question is not None:
             alone = [line.certain.alone(line.first().state, 0) for line in self._question.lines]
-            return self._figures(self._question.value(alone))[1]
+            return self._worths.figures(self._question.value(alone))[1]
         costs = [(c.weight, self._prepared.task.cost_of(c.shared)) for c in self._candidates]
         if self._options.risk == "mean":
             return sum((weight * cost for weight, cost in costs), Fraction(0))

@@ -121,8 +121,7 @@ class PolicySearch:
     def _is_tabulated(self, group: Group, *, wholly: bool) -> bool:
         """Whether all that a group may come to is bounded, without ordinary calls."""
         lines = [self._lines[m.scenario] for m in group.members if m.phase != INSIDE]
-        found = (line.is_wholly_tabulated if wholly else line.is_tabulated for line in lines)
-        return len(lines) == len(group.members) and all(found)
+        return len(lines) == len(group.members) and all(line.is_tabulated(wholly=wholly) for line in lines)
 
     def _leave_alone(self, group: Group) -> None:
         """Offer that nobody in a group is helped any more."""

@@ -96,10 +96,6 @@ class SequenceSearch:
         self._offer({})
         yield
 
-    def _root(self) -> _Sequence:
-        places = tuple({line.first(): _Label(0)} for line in self._lines)
-        return _Sequence(0, places, NOTHING, 0, None)
-
     def _offer(self, robots: dict[int, JointAction]) -> None:
         """Play a sequence against every scenario, if there is time."""
         node, deadline = None, self._deadline.part(_OFFER)
@@ -142,7 +138,8 @@ class SequenceSearch:
 
     def run(self) -> Iterator[None]:
         """Look for better sequences until there are none; yield for each; see :meth:`guided`."""
-        tie, root, seen = count(), self._root(), dict[object, int]()
+        tie, seen, places = count(), dict[object, int](), ({line.first(): _Label(0)} for line in self._lines)
+        root = _Sequence(0, tuple(places), NOTHING, 0, None)
         queue = [(self._bound(root), 0, next(tie), root)]
         while queue and queue[0][0] < self.upper:
             least, _, _, node = heappop(queue)
@@ -150,7 +147,7 @@ class SequenceSearch:
             self._deadline.check()
             self.expanded += 1
             for robots in self._choices(node):
-                child = self._child(node, robots, self._deadline)
+                child = self._child(node, robots)
                 if child is None or not _is_new(child, seen):
                     continue
                 bound = self._bound(child)
@@ -172,7 +169,7 @@ class SequenceSearch:
                 offered.setdefault(option.actions, option)
         return offered.values()
 
-    def _child(self, node: _Sequence, robots: JointAction, deadline: Deadline) -> _Sequence | None:
+    def _child(self, node: _Sequence, robots: JointAction) -> _Sequence | None:
         """The sequence an epoch later; None if some scenario has no place left."""
         epoch, after = node.epoch + 1, []
         self.generated += 1
@@ -181,7 +178,7 @@ class SequenceSearch:
             ended: list[tuple[int, Member, _Label]] = []
             limit = self._limit(i)
             for m, label in node.places[i].items():
-                deadline.tick()
+                self._deadline.tick()
                 if m.phase == OVER:  # the suffix goes on, as long as robots are idle
                     if not robots.actions:
                         ended.append((label.paid + line.least(m, epoch), m, label))
