@@ -37,7 +37,7 @@ _MUCH_WORK: Final = 100_000_000
 _SYMBOLIC_SHARE: Final = 0.5
 """What of the time that is left it may take."""
 
-_NONE: Final = -1
+NONE: Final = -1
 """No operator."""
 
 _SOON: Final = 0.05
@@ -130,7 +130,7 @@ class ClassicalPlanner:
         deadline: Deadline,
         limit: int = INFINITE_KEY,
         on_bound: Callable[[int], None] | None = None,
-        before: int = _NONE,
+        before: int = NONE,
     ) -> int:
         """The amount of a cheapest plan from a packed state; any value from ``limit`` on means "not below".
 

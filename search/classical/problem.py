@@ -10,11 +10,9 @@ from itertools import repeat
 from math import gcd
 from typing import Final, NamedTuple
 
-from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY
+from search.packed.cost_vector import ACTIONS_BITS, INFINITE_KEY, own_actions
 from search.packed.operators import Operator
 from search.packed.packed_task import PackedGoal
-
-_ACTIONS: Final = (1 << ACTIONS_BITS) - 1
 
 MOST_WEIGHT: Final = 1 << 61
 """``MOST_COST`` of ``search/kernel/values.h``: where the kernel's sums end."""
@@ -49,11 +47,11 @@ class ClassicalProblem(NamedTuple):
         """A sum of weights with the cost in units of 1; ``INFINITE_KEY`` where the kernel has none."""
         if weight == INFINITE_WEIGHT:
             return INFINITE_KEY
-        return ((weight >> ACTIONS_BITS) * self.unit << ACTIONS_BITS) + (weight & _ACTIONS)
+        return ((weight >> ACTIONS_BITS) * self.unit << ACTIONS_BITS) + own_actions(weight)
 
     def limit(self, amount: int) -> int:
         """The least weight of an amount that is not below this one; no limit where the kernel's sums end."""
-        cost, actions = amount >> ACTIONS_BITS, amount & _ACTIONS
+        cost, actions = amount >> ACTIONS_BITS, own_actions(amount)
         whole, part = divmod(cost, self.unit)
         weight = whole + 1 << ACTIONS_BITS if part else (whole << ACTIONS_BITS) + actions
         return weight if weight <= MOST_WEIGHT else INFINITE_WEIGHT

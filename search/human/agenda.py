@@ -6,11 +6,11 @@ ask for something else than before; all those between are the same to the human.
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
-from functools import reduce
 from itertools import chain, combinations, groupby, pairwise
 from operator import or_
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
+from search.packed.cost_vector import NEVER
 from search.packed.due import Due
 from search.packed.operators import Operator, changed, set_by, union
 from search.packed.packed_task import PackedGoal, PackedTask
@@ -18,9 +18,6 @@ from serendipity.model.resources.deadline import Deadline
 
 Course = tuple[int, int]
 """How an agenda's own fields go on: their values, and which change is next."""
-
-NEVER: Final = 1 << 62
-"""An epoch that never comes."""
 
 
 class Run(NamedTuple):
@@ -240,7 +237,9 @@ class Agenda:
             mine = [] if number < 0 else [ops[number]]
             theirs, ticks = ((), ()) if run is None else (run.ops, run.ticks)
             # In between nothing but how far they are changes.
-            now = reduce(_after, ops[done : max(0, number)], state) & own | self.at(course, point)
+            for op in ops[done : max(0, number)]:
+                state = state & op.keep | op.put
+            now = state & own | self.at(course, point)
             asked = [*map(self._asked, mine), *(() if run is None else run.asked)]
             if not all(goal.holds(now) for goal in asked):
                 return None
@@ -248,7 +247,3 @@ class Agenda:
                 return None
             state, done = changed(changed(now, (*mine, *theirs)), ticks), max(0, number + 1)
         return state & own | self.at(course, ends)
-
-
-def _after(state: int, op: Operator) -> int:
-    return state & op.keep | op.put

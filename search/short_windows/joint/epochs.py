@@ -4,20 +4,17 @@ import ctypes
 from array import array
 from collections import defaultdict
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 from search.call.context import SearchContext
 from search.classical.encoded_problem import EncodedProblem, memory_for
 from search.classical.like_fields import Exchange, like_fields, told
-from search.classical.planner import FOUND, RUNNING, SLICE, ClassicalPlanner, with_memory
+from search.classical.planner import FOUND, NONE, RUNNING, SLICE, ClassicalPlanner, with_memory
 from search.classical.problem import ClassicalProblem
 from search.packed.operators import Operator, union
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
-
-_NONE: Final = -1
-"""No operator."""
 
 
 class Leaving(NamedTuple):
@@ -69,7 +66,9 @@ class Epochs:
         self._given: list[int] = []
         self._fields = [field for field, _ in problem.fields]
         deadline.require(memory_for(problem) + len(problem.operators) ** 2)
-        agents = array("Q", _human_last(task, problem.operators))
+        human, last = 1 << task.human, 1 << len(task.agents)
+        acting = (op.agents for op in problem.operators)  # the human's bit is to be the last one
+        agents = array("Q", [bits & ~human | (last if bits & human else 0) for bits in acting])
         apart = conflicts(task, problem.operators, deadline, strict=context.options.strict)
         self._alike = _alike(problem, after, apart, lost, deadline)
         planner, mask = after.handle, after.told.row(after.problem.mask)
@@ -131,7 +130,7 @@ class Epochs:
 
     def end_all(self, limit: int, most: int, deadline: Deadline) -> bool:
         """Go through such an epoch; arguments, and what is said, as for :meth:`advance`."""
-        return self._run(_NONE, limit, most, deadline)
+        return self._run(NONE, limit, most, deadline)
 
     def go_back(self, limit: int, deadline: Deadline) -> None:
         """Find out what is left from all states, once all epochs were gone through, under no lower limits."""
@@ -149,7 +148,7 @@ class Epochs:
             at_once: if something is left behind by the next epoch.
         """
         found = self._kernel.epochs_rest(self._epochs, epochs, self._told.row(state), at_once)
-        return None if found == _NONE else int(found)
+        return None if found == NONE else int(found)
 
     def end(self, leaving: Leaving) -> int:
         """The packed state that is left behind, in the fields that matter to what follows."""
@@ -166,7 +165,7 @@ class Epochs:
         )
         sets: list[list[Operator]] = [[]]
         for number in found[: count - 1]:  # a set may be empty
-            if number == _NONE:
+            if number == NONE:
                 sets.append([])
             else:
                 sets[-1].append(self._operators[number])
@@ -190,12 +189,6 @@ class Epochs:
 
     def _allowed(self, call: Callable[[int], int], deadline: Deadline) -> int:
         return with_memory(call, lambda: self._kernel.epochs_wanted(self._epochs), deadline)
-
-
-def _human_last(task: Task, operators: Sequence[Operator]) -> list[int]:
-    """By operator its agents as bits, of which the human's is the last one."""
-    human, last = 1 << task.human, 1 << len(task.agents)
-    return [op.agents & ~human | (last if op.agents & human else 0) for op in operators]
 
 
 def _alike(
@@ -223,7 +216,7 @@ def _alike(
 
     fields = [field for field, _ in after.problem.fields]
     later = {fields[one]: alike[0] for alike in after.alike(deadline) for one in alike}
-    later |= dict.fromkeys({field for field, _ in problem.fields} - {*fields}, _NONE)
+    later |= dict.fromkeys({field for field, _ in problem.fields} - {*fields}, NONE)
     found = defaultdict[Hashable, list[int]](list)
     for number, alike in enumerate(like_fields(problem, deadline, allows)):
         for one in alike:
