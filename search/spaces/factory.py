@@ -83,14 +83,7 @@ def window_space(
 def free_space(
     context: SearchContext, horizon: int | None, most_cost: int | None, limit: int, *, idle: bool
 ) -> Unrestricted:
-    """The space of plans without a window.
-
-    Args:
-        horizon: ``T``, or None.
-        most_cost: largest scaled cost of an acceptable plan, or None.
-        limit: key that a plan has to beat.
-        idle: robots do nothing.
-    """
+    """The space of plans without a window; arguments as above, and ``T`` may be None."""
     # What is announced may make a cheap node look dearer than one that exceeds max_cost in the end.
     announces = context.weights.announces
     compared = no_worse(context.keys, context.options, most_cost) if announces else None

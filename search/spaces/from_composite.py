@@ -75,9 +75,6 @@ class Suggestions:
         """What robots do in each epoch, while the human follows ``pi_H``; the last one is the window.
 
         In it the human does the next step of ``pi_H``, or begins what they do alone after it, or waits.
-
-        Args:
-            epochs: per epoch what robots do in it.
         """
         node = self._context.root
         for number, ops in enumerate(epochs[:-1]):
@@ -116,8 +113,6 @@ class Suggestions:
         """The human's step of ``pi_H``, and what robots, each in its order, can do of what is left.
 
         Args:
-            state: before the epoch.
-            epoch: which it is.
             left: what robots have not done yet.
             keeps: whether the rest of ``pi_H`` stays applicable.
         """

@@ -127,8 +127,6 @@ def _followed(context: SearchContext, plan: HumanPlan, warm: WarmStart, last: in
     """The node after some epochs of the known plan; None where one is impossible, or breaks the prefix.
 
     Args:
-        plan: ``pi_H``.
-        warm: the known plan.
         last: the last of these epochs.
         start: the first epoch of the window; 0 without one.
     """
