@@ -20,11 +20,8 @@ class ValueBound:
     """Admissible and consistent; the same whoever is to move."""
 
     def __init__(self, game: Game) -> None:
-        self._unit_bits = game.unit_bits
         self._provision = RelaxedProvision(game)
-        heaviest = max(map(game.cost, game.supporter_ops), default=0)
-        self._shift = heaviest.bit_length() + SMALL.bit_length()  # a way has no state twice
-        self._joint: Closure | None = _joint_closure(game, self._shift)
+        self._joint: Closure | None = _joint_closure(game)
         try:
             self._joint.key(game.init)
         except ClosureTooLargeError:
@@ -32,23 +29,17 @@ class ValueBound:
 
     def __call__(self, state: int) -> int:
         """A value that no policy undercuts from ``state``."""
-        if self._joint is None:
-            return self._provision(state)
-        key = self._joint.key(state)
-        if key >= INFINITE_KEY:
-            return INFINITE_KEY
-        prime, supporter = divmod(key, 1 << self._shift)
-        return (prime << self._unit_bits) + supporter
+        return self._provision(state) if self._joint is None else self._joint.key(state)
 
     def wanted(self, state: int) -> frozenset[int]:
         """Supporter actions that a plan attaining the bound makes use of; may be empty."""
         return frozenset() if self._joint is not None else self._provision.wanted(state)
 
 
-def _joint_closure(game: Game, shift: int) -> Closure:
-    """Distances of both together; ``shift`` is the lowest bit of what the prime pays."""
+def _joint_closure(game: Game) -> Closure:
+    """Distances of both together, in values."""
     arcs = []
-    for ops, bit in ((game.packed.own, shift), (game.supporter_ops, 0)):
+    for ops, bit in ((game.packed.own, game.unit_bits), (game.supporter_ops, 0)):
         for op in game.deadline.each(ops):
             condition = PackedGoal(op.need_mask, op.need, op.forbidden)
             arcs.append(Arc(condition, op.keep, op.put, game.cost(op) << bit))
