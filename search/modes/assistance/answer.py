@@ -10,7 +10,7 @@ from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.modes.assistance.bounds.bound import joint_lower_bound
 from search.modes.assistance.game.game import Game
-from search.modes.assistance.game.rules import RULES
+from search.modes.assistance.game.rules import ChoiceRule, Mean
 from search.modes.assistance.game.solution import ZERO, Costs, GameSolution
 from search.modes.assistance.solvers.lao_star import LaoStar
 from search.modes.assistance.writing import Writer
@@ -72,10 +72,11 @@ def _most_alone(game: Game) -> int:
 
 def _searched(game: Game, options: Options) -> Iterator[Answer]:
     """Answers of the search, which needs to know what the prime does alone."""
-    writer = Writer(game, options.ties)
+    rule = (Mean if options.ties == "expected" else ChoiceRule)(game, options.ties)
+    writer = Writer(game, rule)
     search: LaoStar | None = None
     try:
-        search = LaoStar(game, RULES[options.ties](game), no_block=bool(options.no_block))
+        search = LaoStar(game, rule, no_block=bool(options.no_block))
         for _ in search.run():
             yield _answer(writer, search.solution(floors=False), "feasible", search.expanded)
         solution = search.solution()

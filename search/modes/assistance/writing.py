@@ -3,6 +3,7 @@
 from contextlib import suppress
 
 from search.modes.assistance.game.game import NOOP, Game, Move
+from search.modes.assistance.game.rules import ChoiceRule
 from search.modes.assistance.game.solution import Costs, GameSolution
 from search.packed.cost_vector import INFINITE_KEY
 from serendipity.model.answers.policy import Decision, Floor, Policy, StateDelta
@@ -13,12 +14,12 @@ from serendipity.model.task.task import HumanPlan
 
 
 class Writer:
-    """Names for one game, in which the prime's optimal actions count as ``ties`` say."""
+    """Names for one game, in which the prime's optimal actions count by a rule."""
 
-    def __init__(self, game: Game, ties: str) -> None:
+    def __init__(self, game: Game, rule: ChoiceRule) -> None:
         self.task = game.task
         self._game = game
-        self._ties = ties
+        self._rule = rule
         packed = zip(game.task.facts, game.packed.fact_bits, strict=True)
         self._named = {bits: name for name, bits in packed if bits is not None}
 
@@ -76,10 +77,8 @@ class Writer:
         """The prime's move, where it is determined."""
         if self._game.alone(state) >= INFINITE_KEY:
             return Move(0, state, NOOP)
-        moves = self._game.prime(state)
-        if self._ties == "fixed" or len(moves) == 1:
-            return moves[0]
-        if self._ties != "optimistic":
+        moves = self._rule.counted(self._game.prime(state))
+        if len(moves) > 1 and not self._rule.is_ours:
             return None
         return next((move for move in moves if self._attains(move, solution, rest)), moves[0])
 

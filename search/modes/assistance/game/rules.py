@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any, Final
+from typing import Any
 
 from search.modes.assistance.game.game import Game, Move
 from search.modes.assistance.game.solution import Costs
@@ -13,12 +13,18 @@ Value = Any
 
 
 class ChoiceRule:
-    """How the prime's optimal actions count; by itself robust: the lexicographically greatest."""
+    """How the prime's optimal actions count: the lexicographically greatest, or least, or the first one.
+
+    Attributes:
+        is_ours: optimistic: as if we chose for the prime.
+    """
 
     infinite: Value = INFINITE_KEY
 
-    def __init__(self, game: Game) -> None:
+    def __init__(self, game: Game, ties: str) -> None:
         self._game = game
+        self.is_ours = ties == "optimistic"
+        self._is_first = ties == "fixed"
 
     def lift(self, value: int) -> Value:
         """A value of the game in the rule's form."""
@@ -30,31 +36,15 @@ class ChoiceRule:
 
     def combine(self, values: Sequence[Value]) -> Value:
         """The value of a state in which the prime chooses."""
-        return max(values)
+        return min(values) if self.is_ours else max(values)
 
     def costs(self, value: Value) -> Costs | None:
         """The costs in a value; None if infinite."""
         return None if value >= INFINITE_KEY else self._game.pair(value)
 
     def counted(self, moves: tuple[Move, ...]) -> tuple[Move, ...]:
-        """Those of the prime's optimal actions that count."""
-        return moves
-
-
-class Best(ChoiceRule):
-    """Optimistic: the lexicographically least, as if we chose for the prime."""
-
-    def combine(self, values: Sequence[Value]) -> Value:
-        """See :class:`ChoiceRule`."""
-        return min(values)
-
-
-class First(ChoiceRule):
-    """Fixed: the one of the smallest name."""
-
-    def counted(self, moves: tuple[Move, ...]) -> tuple[Move, ...]:
-        """See :class:`ChoiceRule`."""
-        return moves[:1]
+        """Those of the prime's optimal actions that count: all, or the one of the smallest name."""
+        return moves[:1] if self._is_first else moves
 
 
 class Mean(ChoiceRule):
@@ -86,7 +76,3 @@ class Mean(ChoiceRule):
         if value == self.infinite:
             return None
         return Fraction(value[0]) / self._game.scale, Fraction(value[1]) / self._game.scale
-
-
-RULES: Final = {"fixed": First, "optimistic": Best, "robust": ChoiceRule, "expected": Mean}
-"""By the value of option ``ties``."""

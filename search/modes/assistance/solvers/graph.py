@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from search.modes.assistance.bounds.bound import ValueBound
 from search.modes.assistance.game.game import NOOP, Game, Move
-from search.modes.assistance.game.rules import Best, ChoiceRule, Value
+from search.modes.assistance.game.rules import ChoiceRule, Value
 from search.modes.assistance.solvers.evaluate import Option
 from search.packed.cost_vector import INFINITE_KEY
 
@@ -141,14 +141,14 @@ class Graph:
     def options(self, state: int, move: Move) -> Iterable[Option]:
         """The same, one for each reply of the prime's where we choose that, too."""
         option = self.option(state, move)
-        if option.outcomes and isinstance(self.rule, Best):
+        if option.outcomes and self.rule.is_ours:
             return [option._replace(outcomes=(reply,)) for reply in self.replies[move.after]]
         return [option]
 
     def outcomes(self, state: int, move: Move) -> tuple[Move, ...]:
         """The prime's moves after an expanded one of ours; where we choose, the best, first the picked."""
         replies, pick = self.replies[move.after], self.pick.get(state)
-        if not isinstance(self.rule, Best):
+        if not self.rule.is_ours:
             return replies
         picked = pick.outcomes if pick is not None and pick.move == move else ()
 
