@@ -29,7 +29,7 @@ from serendipity.model.task.task import HumanPlan
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """What the human may want, and do.
+    """What the human may want, and do; those are equal that differ in name and weight only.
 
     Attributes:
         goal: their goal.
@@ -45,11 +45,11 @@ class Candidate:
 
     goal: Condition
     plan: HumanPlan
-    weight: Fraction
-    name: str = ""
+    weight: Fraction = field(compare=False)
+    name: str = field(default="", compare=False)
     kept: Condition = field(default_factory=Condition)
     own: PreparedTask | None = None
-    original: Sequence[int] = ()
+    original: Sequence[int] = field(default=(), compare=False)
     ahead: tuple[Fraction, Fraction] | None = None
 
     @property
@@ -180,7 +180,8 @@ class _ScenarioCall:
             return self._told(status, baseline)
         best = min(searches, key=lambda search: search.upper)
         _, idle = self._worths.figures(self._idle)
-        least = max(self._worths.figures(max(search.lower for search in searches))[0], Fraction(0))
+        lower, _ = self._worths.figures(max(search.lower for search in searches))
+        least = max(lower, Fraction(0))
         if best.upper < INFINITE_WORTH:
             objective, cost = self._worths.figures(best.upper)
             if cost < idle or self._candidates[0].ahead is not None:
@@ -216,11 +217,9 @@ class _ScenarioCall:
         """The answer with what happens in each scenario, or with idle robots.
 
         Args:
-            status: its status.
-            baseline: what it costs to leave the human alone.
             figures: cost, objective and a bound on it; None where no more is known than the baseline.
             played: what happens, where robots help.
-            saving_alone: what the human gains alone; None before it is known.
+            saving_alone: None before it is known.
         """
         cost, objective, bound = figures or (baseline, baseline, Fraction(0))
         happens = played or {}
@@ -271,7 +270,7 @@ class _ScenarioCall:
     def _served(self, candidate: Candidate, happens: dict[int, Played]) -> ServedGoal:
         """What happens in a scenario."""
         task = self._prepared.task
-        number = next(i for i, c in enumerate(self._candidates) if _same(c, candidate))
+        number = self._candidates.index(candidate)
         as_planned = plan_steps(candidate.shared)
         found = happens.get(number, Played(as_planned, None))
         discount = self._options.discount
@@ -282,17 +281,10 @@ class _ScenarioCall:
         return ServedGoal(candidate.name, candidate.weight, plan, found.steps, found.window, cost)
 
 
-def _same(a: Candidate, b: Candidate) -> bool:
-    return (a.goal, a.plan, a.kept, a.own, a.ahead) == (b.goal, b.plan, b.kept, b.own, b.ahead)
-
-
 def _merged(candidates: Sequence[Candidate]) -> list[Candidate]:
     """Candidates that are the same in all but name, as one: what is best for one is best for both."""
-    found: list[Candidate] = []
+    weights: dict[Candidate, Fraction] = {}
     for candidate in candidates:
-        k = next((k for k, other in enumerate(found) if _same(candidate, other)), None)
-        if k is None:
-            found.append(candidate)
-        else:
-            found[k] = replace(found[k], weight=found[k].weight + candidate.weight)
+        weights[candidate] = weights.get(candidate, Fraction(0)) + candidate.weight
+    found = (replace(candidate, weight=weight) for candidate, weight in weights.items())
     return sorted(found, key=lambda candidate: -candidate.weight)
