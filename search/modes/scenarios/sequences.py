@@ -11,7 +11,6 @@ from itertools import count
 from operator import itemgetter
 from typing import Final, NamedTuple
 
-from search.engine.paths import plan_steps
 from search.modes.scenarios.lines import Question, Way
 from search.modes.scenarios.measure import INFINITE_WORTH, OVER, Member
 from search.modes.scenarios.played import Course, Played
@@ -138,8 +137,8 @@ class SequenceSearch:
 
     def run(self) -> Iterator[None]:
         """Look for better sequences until there are none; yield for each; see :meth:`guided`."""
-        tie, seen, places = count(), dict[object, int](), ({line.first(): _Label(0)} for line in self._lines)
-        root = _Sequence(0, tuple(places), NOTHING, 0, None)
+        tie, seen = count(), dict[object, int]()
+        root = _Sequence(0, tuple({line.first(): _Label(0)} for line in self._lines), NOTHING, 0, None)
         queue = [(self._bound(root), 0, next(tie), root)]
         while queue and queue[0][0] < self.upper:
             least, _, _, node = heappop(queue)
@@ -215,25 +214,21 @@ class SequenceSearch:
 
     def played(self) -> dict[int, Played]:
         """What happens in each scenario beside the best sequence known."""
-        if self._best is None:
-            alone = ((line, line.left_alone(line.first(), 0)) for line in self._lines)
-            return {line.number: Played(plan_steps(line.variants.shared(plan)), None) for line, plan in alone}
-        found, own = {}, self._best.steps()
-        for line, places in zip(self._lines, self._best.places, strict=True):
-            best = min(places, key=lambda m: places[m].paid + line.least(m, self._horizon))
-            course, ways = Course(line.variants), []
-            at: tuple[Member, _Label] | None = (best, places[best])
-            while at is not None and at[1].way is not None:
-                before = at[1].before
-                assert before is not None
-                ways.append((before[0], at[1].way))
-                at = before
-            for epoch, (m, way) in enumerate(reversed(ways), start=1):
-                course.go_on(way, m, epoch)
-            course.steps += own
-            if best.tail is not None:
-                rest = line.variants.shared(line.left_alone(best, 0))
-                course.steps += plan_steps(rest, self._horizon - best.tail.left + 1)
+        found, best = {}, self._best
+        for line in self._lines:
+            course, at, epoch = Course(line.variants), line.first(), 0
+            if best is not None:
+                places, ways = best.places[line.number], list[tuple[Member, Way]]()
+                at = min(places, key=lambda m: places[m].paid + line.least(m, self._horizon))
+                label = places[at]
+                while label.before is not None and label.way is not None:
+                    ways.append((label.before[0], label.way))
+                    label = label.before[1]
+                for number, (m, way) in enumerate(reversed(ways), start=1):
+                    course.go_on(way, m, number)
+                course.steps += best.steps()
+                epoch = self._horizon - (0 if at.tail is None else at.tail.left)
+            course.finish(line, at, epoch, certain=False)
             found[line.number] = course.played
         return found
 
