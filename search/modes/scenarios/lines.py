@@ -81,14 +81,7 @@ class Guide:
 
 
 class Line:
-    """The epochs of one scenario.
-
-    Args:
-        scenario: the scenario.
-        number: its number.
-        moves: what agents can do.
-        worths: worths of keys.
-    """
+    """The epochs of one scenario."""
 
     def __init__(self, scenario: Scenario, number: int, moves: Moves, worths: Worths) -> None:
         context, options = scenario.context, scenario.context.options
@@ -124,8 +117,6 @@ class Line:
 
         Args:
             at: before the epoch.
-            epoch: its number.
-            robots: what they begin by themselves.
             most: what can't be had for less, from here to the end, may be left out.
             only: in a window, the actions of the human's that are looked at; None: all.
         """
@@ -139,7 +130,7 @@ class Line:
             return
         if at.phase == FOLLOWING:
             part = self._planned(at.state, epoch)
-            if part is not None and self._acting.due.fits(part, beside):
+            if part is not None and self._moves.fits(part, beside):
                 move = self._moves.together(at.state, part, beside)
                 yield Way(move.part, move.worth, at._replace(state=move.state), False)
             if epoch > len(self._steps) or self._opening(at.state, epoch) >= most:
@@ -260,7 +251,7 @@ class Line:
         return max(least, known)
 
     def is_tabulated(self, *, wholly: bool) -> bool:
-        """Whether states beside the human's plan are bounded; ``wholly``: all of interest."""
+        """Whether states beside the human's plan are bounded, or all of them that may be of interest."""
         table = self._timetable
         return table is not None and (table.is_whole if wholly else table.is_there)
 
@@ -300,7 +291,12 @@ class Line:
     def certainly(
         self, at: Member, epoch: int, deadline: Deadline, most: int = INFINITE_WORTH, *, again: bool = True
     ) -> tuple[int, int]:
-        """Bound and worth of what is left, if this is certain; arguments as of :meth:`.Certain.remainder`."""
+        """Bound and worth of what is left, if this is what the human does for certain.
+
+        Args:
+            at: after the epoch.
+            deadline, most, again: see :meth:`.Certain.remainder`.
+        """
         if at.phase == OVER or epoch == self._horizon:
             rest = self.least(at, epoch)
             return rest, rest

@@ -20,24 +20,19 @@ class Move(NamedTuple):
 
 
 class Moves:
-    """The moves of one task.
-
-    Args:
-        successors: what agents can do.
-        worths: worths of keys.
-    """
+    """The moves of one task."""
 
     def __init__(self, successors: Successors, worths: Worths) -> None:
         self.successors = successors
         self._worths = worths
-        self._fits = successors.due.fits
+        self.fits = successors.due.fits
         self._asked: tuple[int, JointAction] = (-1, NOTHING)
         self._free: list[Move] = []
 
     def free(self, state: int, beside: JointAction) -> Sequence[Move]:
         """All that the human may do where they follow no plan."""
         if self._asked != (state, beside):
-            parts = (part for part in self.successors.free(state) if self._fits(part, beside))
+            parts = (part for part in self.successors.free(state) if self.fits(part, beside))
             self._free = [self.together(state, part, beside) for part in parts]
             self._asked = state, beside
         return self._free

@@ -92,7 +92,7 @@ def test_one_says_what_comes_too_late() -> None:
     line, fresh = (_line(task, candidates[0], 2) for _ in range(2))
     first = line.first()
     line.tabulate(line.least(first, 0), line.certain.alone(first.state, 0), Deadline())
-    assert line.is_tabulated
+    assert line.is_tabulated(wholly=False)
     ways = line.ways(first, 1, NOTHING)
     idle = next(way.after for way in ways if way.after.phase == FOLLOWING)
     exact, _ = fresh.certainly(idle, 1, Deadline())
