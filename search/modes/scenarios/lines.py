@@ -2,11 +2,9 @@
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from operator import attrgetter
 from typing import NamedTuple
 
-from search.call.context import SearchContext
 from search.modes.scenarios.measure import (
     FOLLOWING,
     INFINITE_WORTH,
@@ -20,7 +18,6 @@ from search.modes.scenarios.measure import (
 from search.modes.scenarios.moves import Move, Moves
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
 from search.modes.scenarios.timetables import Timetable
-from search.modes.scenarios.variants import Variants
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option, together
 from search.packed.operators import Operator, applicable
@@ -44,35 +41,30 @@ class Way(NamedTuple):
     opens: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Guide:
+class Guide(NamedTuple):
     """A plan for one scenario that says what is done while others are possible, too.
 
     Attributes:
-        scenario: its number.
+        line: the scenario's.
         remainder: the plan, its steps in order.
         phase: of the window at that time.
-        context: of the scenario's call.
-        variants: its actions.
     """
 
-    scenario: int
+    line: "Line"
     remainder: Remainder
     phase: int
-    context: SearchContext
-    variants: Variants
 
     def at(self, epoch: int) -> tuple[JointAction, tuple[int, ...], int]:
         """What robots begin by themselves in an epoch, what the human does, and the phase after it."""
-        packed = self.context.packed
+        packed, weight = self.line.context.packed, self.line.context.weights.team
         steps, of = self.remainder.steps, attrgetter("epoch")
         begun = steps[bisect_left(steps, epoch, key=of) : bisect_right(steps, epoch, key=of)]
         ops = [packed.op(step.action) for step in begun]
         robots = NOTHING
         for op in ops:
             if not op.agents & packed.human_bit and packed.counted(op.action):
-                robots = together(robots, as_option(op, self.context.weights.team(op)))
-        robots = robots._replace(actions=self.variants.shared(robots.actions))
+                robots = together(robots, as_option(op, weight(op)))
+        robots = robots._replace(actions=self.line.variants.shared(robots.actions))
         part = tuple(op.action for op in ops if op.agents & packed.human_bit)
         window = self.remainder.window
         if window is None or epoch < window.start:
@@ -90,7 +82,7 @@ class Line:
         self.variants = scenario.variants
         self._moves, self._acting = moves, moves.successors
         self._worths = worths
-        self._context = context
+        self.context = context
         self._steps, self._suffix = self.certain.steps, self.certain.suffix
         self._suffixes: dict[tuple[int, int, int], Sequence[tuple[Operator, JointAction]]] = {}
         self._horizon = scenario.horizon
@@ -101,7 +93,7 @@ class Line:
 
     def first(self) -> Member:
         """Before the first epoch."""
-        return Member(self.number, self._context.packed.init, FOLLOWING, 0, None, 0)
+        return Member(self.number, self.context.packed.init, FOLLOWING, 0, None, 0)
 
     # -- what may happen
 
@@ -156,7 +148,7 @@ class Line:
 
     def _rest(self, state: int) -> int:
         """A bound on what is left to pay, without windows."""
-        return self._worths.of_key(max(self._context.bound(state), self._context.team_bound(state)))
+        return self._worths.of_key(max(self.context.bound(state), self.context.team_bound(state)))
 
     def _planned(self, state: int, epoch: int) -> JointAction | None:
         """Rule 1; beyond the end of their plan they wait."""
@@ -186,7 +178,7 @@ class Line:
             yield Way(part, paid, Member(self.number, state, OVER, 0, tail, at.ahead), opens)
         least = paid + self._worths.epoch
         may_last = left and (not at.start or epoch - at.start + 1 < self._max_window) and least < most
-        if may_last and least + self._worths.of_key(self._context.bound(state)) < most:
+        if may_last and least + self._worths.of_key(self.context.bound(state)) < most:
             yield Way(part, paid, at._replace(state=state), opens)
 
     def worth(self, robots: JointAction) -> int:
@@ -205,7 +197,7 @@ class Line:
         """What is left of a suffix; it is put together when it is asked for first."""
         begun = tail[:3]
         if begun not in self._suffixes:
-            self._suffixes[begun] = self._context.followed(self._suffix.actions(*begun))
+            self._suffixes[begun] = self.context.followed(self._suffix.actions(*begun))
         return self._suffixes[begun][tail.done :]
 
     # -- what is left
@@ -222,7 +214,7 @@ class Line:
         if found is None or found.worth >= INFINITE_WORTH:
             return None
         found = found._replace(steps=tuple(sorted(found.steps)))
-        return Guide(self.number, found, at.phase, self._context, self.variants)
+        return Guide(self, found, at.phase)
 
     def raise_floor(self, way: Way, epoch: int, least: int) -> None:
         """Note that nothing less is left to pay before an epoch in which something is done."""
@@ -236,7 +228,7 @@ class Line:
                 return self._worths.of_key(self._suffix.key(*at.tail[:3], INFINITE_KEY))
             return sum(self._worths.of_key(part.weight) for _, part in self._suffix_steps(at.tail))
         if epoch == self._horizon:  # exact, whatever bound was handed on
-            done = at.phase == FOLLOWING and all(goal.holds(at.state) for goal in self._context.goals)
+            done = at.phase == FOLLOWING and all(goal.holds(at.state) for goal in self.context.goals)
             return self._worths.epoch if done else INFINITE_WORTH
         window, of_key = self._worths.epoch, self._worths.of_key
         known = self.certain.floor(at, epoch)
@@ -263,7 +255,7 @@ class Line:
             limit: what is worth as much or more is of no interest.
             deadline: what is there by then is taken.
         """
-        epoch, context, key = self._worths.epoch, self._context, self._worths.key
+        epoch, context, key = self._worths.epoch, self.context, self._worths.key
         if not asks_for_nothing_else(context) or least >= limit:
             return
         if limit <= 2 * epoch + self._worths.of_key(context.bound(context.packed.init)):

@@ -101,7 +101,6 @@ class PolicySearch:
         self._looked[group] = most
         if self._is_tabulated(group, wholly=single):
             self._leave_alone(group)
-            group.offer(self._known(group), None)
             return False
         deadline = self._deadline.part(_SHARE if first else share)
         least = [self._lines[m.scenario].least(m, epoch) for m in members]
@@ -124,9 +123,10 @@ class PolicySearch:
         return len(lines) == len(group.members) and all(line.is_tabulated(wholly=wholly) for line in lines)
 
     def _leave_alone(self, group: Group) -> None:
-        """Offer that nobody in a group is helped any more."""
+        """Offer that nobody in a group is helped any more, or what is known of the only one there."""
         worths = [self._alone(m, group.epoch) for m in group.members]
         group.offer(self._measure.value(group.members, worths), None)
+        group.offer(self._known(group), None)
 
     def _known(self, group: Group) -> int:
         """What the best plan that an ordinary call has found is worth, where one scenario is left."""
@@ -241,8 +241,7 @@ class PolicySearch:
                     self._look(at, most, _SHARE)
                     continue
                 self._leave_alone(at)
-                at.offer(self._known(at), None)
-                if followed is not None and followed.scenario not in {m.scenario for m in at.members}:
+                if followed is not None and followed.line.number not in {m.scenario for m in at.members}:
                     followed = self._guide(at, at.members[0].scenario, asks=asks)
                 if followed is None and not asks:
                     continue
@@ -271,7 +270,7 @@ class PolicySearch:
         ways = []
         for m in group.members:
             line = self._lines[m.scenario]
-            is_guided = guide is not None and m.scenario == guide.scenario
+            is_guided = guide is not None and line is guide.line
             found = line.ways(m, epoch, robots, only=part if is_guided else None)
             if is_guided:
                 wanted = (w for w in found if w.part.actions == part and w.after.phase == phase)
