@@ -115,7 +115,7 @@ class Human:
         asked = (i for i in actions if task.actions[i].participants == (task.human,))
         self.concern = self.packed.own_mask | self.packed.goal.mask
         self.concern |= union(asked_by(self.packed.op(i)) for i in asked)
-        self._looks: dict[tuple[int, int], Glance] = {}
+        self._looks: dict[tuple[int, Intention], Glance] = {}
 
     def start(self, plan: HumanPlan) -> Start:
         """The initial state, which they know, with a plan in mind."""
@@ -152,7 +152,7 @@ class Human:
 
     def decide(self, belief: int, intention: Intention) -> Glance:
         """Step 1: whether they keep their plan, make another, or wait."""
-        key = (belief & self.concern, intention.number)
+        key = (belief & self.concern, intention)
         if key not in self._looks:
             self._looks[key] = self._decide(belief, intention)
         return self._looks[key]
