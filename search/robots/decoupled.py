@@ -112,11 +112,9 @@ class Decoupled:
         own_facts = self._place_facts()
         for form in (*packed.joint_forms, *packed.other_forms):
             deadline.check()
-            begun = form
-            if self._going_on:
-                if self._is_elsewhere(form):
-                    return False
-                begun = form._replace(ops=[op for op in form.ops if op.action not in self._going_on])
+            if self._is_elsewhere(form):
+                return False
+            begun = form._replace(ops=[op for op in form.ops if op.action not in self._going_on])
             rest = self._without_walks(begun, own_facts)
             if not rest.ops:
                 continue
@@ -179,18 +177,12 @@ class Decoupled:
         return None if there == op.need & place else Move(there, len(ops), cost, ops)
 
     def _deed(self, form: Signature) -> CenterAction | None:
-        """None where the form leaves a place open, or asks for that of a robot that takes no part."""
-        at = []
-        for slot, (bit, place) in enumerate(zip(self.bits, self.fields, strict=True)):
-            if form.agents & bit:
-                if form.need_mask & place != place:
-                    return None
-                at.append((slot, place))
-            elif (form.need_mask | form.sets) & place:
-                return None
-        if form.forbids & self.mask:
+        """None where the form leaves a place open."""
+        pairs = enumerate(zip(self.bits, self.fields, strict=True))
+        at = tuple((slot, place) for slot, (bit, place) in pairs if form.agents & bit)
+        if form.forbids & self.mask or any(form.need_mask & place != place for _, place in at):
             return None
-        return CenterAction(form, form.need_mask & ~self.mask, tuple(at))
+        return CenterAction(form, form.need_mask & ~self.mask, at)
 
     def farthest(self, slot: int, here: int) -> int:
         """The most epochs from a place to another."""
