@@ -116,22 +116,17 @@ class Bidirectional:
         """
         state, rest = self._state, self.best
         ends, found = self._optimal_states(), list[int]()
+        rows = list(zip(self._problem.operators, self._problem.weights, strict=True))
         while rest:
-            number, state, weight = next(
-                (number, after, weight)
-                for number, after, weight in self._successors(state)
-                if rest - weight in ends and self._sets.contains(ends[rest - weight], after)
+            number, state, rest = next(
+                (number, after, rest - weight)
+                for number, (op, weight) in enumerate(rows)
+                if rest - weight in ends
+                and applicable(op, state)
+                and self._sets.contains(ends[rest - weight], after := state & op.keep | op.put)
             )
-            rest -= weight
             found.append(number)
         return found
-
-    def _successors(self, state: int) -> Iterator[tuple[int, int, int]]:
-        """Each operator that may be next, by its number, with the state after it and its weight."""
-        rows = zip(self._problem.operators, self._problem.weights, strict=True)
-        for number, (op, weight) in enumerate(rows):
-            if applicable(op, state):
-                yield number, state & op.keep | op.put, weight
 
     def _optimal_states(self) -> dict[int, Diagram]:
         """By what is left to the goal states with so much left: all of those on cheapest plans."""
