@@ -50,7 +50,7 @@ class Following:
 
     def start_of(self, human: Human) -> Start:
         """Where they are, what they believe, and what they go on with, for a human who is packed alike."""
-        return Start(self._state, self._belief, human.intentions.of(self.promise()))
+        return Start(self._state, self._belief, human.intends(self.promise()))
 
     def look(self, state: frozenset[int], habit: HumanPlan | None = None) -> None:
         """The person looks up.
@@ -62,18 +62,18 @@ class Following:
         human = self._human
         self._state = human.packed.pack(state)
         self._belief = human.eyes.look(self._belief, self._state)
-        plans = self.plans if habit is None else (human.intentions.of(habit), *self.plans)
+        plans = self.plans if habit is None else (human.intends(habit), *self.plans)
         self.plans = tuple(plan for plan in plans if human.works(self._belief, plan))
         if habit is not None and self.plans[:1] == plans[:1]:
             self.plans = plans[:1]
             return
         limit = min((human.keys.of_scaled(plan.cost) for plan in self.plans), default=INFINITE_KEY)
         if human.alone.key(self._belief, limit) < limit:  # nobody leaves a plan for one that is no cheaper
-            self.plans += (human.intentions.of(canonical(human.alone, self._belief)),)
+            self.plans += (human.intends(canonical(human.alone, self._belief)),)
 
     def promise(self) -> HumanPlan:
         """The plan that they go on with if nothing better turns up: the oldest as cheap as any, or none."""
-        oldest = min(self.plans, key=lambda plan: plan.cost, default=self._human.intentions.of(()))
+        oldest = min(self.plans, key=lambda plan: plan.cost, default=self._human.intends(()))
         return oldest.actions
 
     @property

@@ -99,7 +99,7 @@ class Replanner:
             prepared, Options(), Deadline(), human_model=self._human_model, actions=self._joint
         )
         self._expected = self._human.packed.pack(self._task.init)
-        self._intention = self._human.intentions.of(plan)
+        self._intention = self._human.intends(plan)
 
     def _packed(self, state: frozenset[int]) -> int:
         """A state, packed; where it does not fit what they know of, they begin anew in it."""
@@ -120,7 +120,7 @@ class Replanner:
         if self._dice is not None and look.replanned:
             graph = human.alone.plans(belief)
             assert graph is not None, "who replans has a plan"
-            look = look._replace(intention=human.intentions.of(graph.drawn(self._dice.choice)))
+            look = look._replace(intention=human.intends(graph.drawn(self._dice.choice)))
         self._expected, self._intention = belief, look.intention
         for step in moment.offers:
             for joint in map(human.packed.op, actions_named(task, step.action, step.agents)):

@@ -30,27 +30,22 @@ def nearby(encoding: PackedTask, places: Surroundings) -> Eyes:
     """The local human: they see what is where they are, or all where nothing is anywhere."""
     if not places.located:
         return Eyes(0, lambda _: encoding.all_ones)
-    near, naming = _Near(encoding, places), _naming(encoding, places)
-    facts = Eyes(near.depends, lambda positions: union(naming.get(name, 0) for name in near(positions)))
-    return SeesWork(encoding, near, facts) if encoding.task.due else facts
+    human, naming = encoding.task.agents[encoding.task.human], _naming(encoding, places)
+    located = [
+        (*bits, who, place)
+        for fact, (who, place) in places.located.items()
+        if (bits := encoding.fact_bits[fact]) is not None
+    ]
 
-
-class _Near:
-    """What is near the human, by the fields on which it depends: names, their place among them."""
-
-    def __init__(self, encoding: PackedTask, places: Surroundings) -> None:
-        self._human = encoding.task.agents[encoding.task.human]
-        self._located = [
-            (*bits, who, place)
-            for fact, (who, place) in places.located.items()
-            if (bits := encoding.fact_bits[fact]) is not None
-        ]
-        self.depends = union(mask for mask, *_ in self._located)
-
-    def __call__(self, positions: int) -> set[str]:
-        here = [(who, place) for mask, value, who, place in self._located if positions & mask == value]
-        at = {place for who, place in here if who == self._human}
+    def near(state: int) -> set[str]:
+        """Names of what is near the human, their place among them."""
+        here = [(who, place) for mask, value, who, place in located if state & mask == value]
+        at = {place for who, place in here if who == human}
         return at.union(who for who, place in here if place in at)
+
+    depends = union(mask for mask, *_ in located)
+    facts = Eyes(depends, lambda positions: union(naming.get(name, 0) for name in near(positions)))
+    return SeesWork(encoding, near, facts) if encoding.task.due else facts
 
 
 class SeesWork(Eyes):
@@ -63,7 +58,7 @@ class SeesWork(Eyes):
         facts: how they see all other facts.
     """
 
-    def __init__(self, encoding: PackedTask, near: _Near, facts: Eyes) -> None:
+    def __init__(self, encoding: PackedTask, near: Callable[[int], set[str]], facts: Eyes) -> None:
         task, clock = encoding.task, encoding.clock_bit
         self._facts, self._near, self._agents = facts, near, task.agents
         self._known = 1 << task.human | clock | sum(1 << person for person in task.script.people)
@@ -78,7 +73,7 @@ class SeesWork(Eyes):
 
     def look(self, belief: int, state: int) -> int:
         """See :class:`Eyes`."""
-        near = self._near(state & self._near.depends)
+        near = self._near(state)
         shown = self._known | sum(1 << i for i, name in enumerate(self._agents) if name in near)
         shown |= union(
             agents for mask, value, agents in self._work if state & mask == value and agents & shown

@@ -1,13 +1,13 @@
 """The human's state machine: what they decide when they look up (semantics 6, steps 1 and 2)."""
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from typing import NamedTuple
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask, TaskTables
 from search.human.individual_planner import canonical
 from search.modes.simulation.eyes import Eyes, as_told, nearby
-from search.modes.simulation.intention import Intention, Intentions
+from search.modes.simulation.intention import Intention
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option
 from search.packed.operators import Operator, applicable, asked_by, union
@@ -102,7 +102,6 @@ class Human:
         self.weights = self.context.weights
         self.keys = self.weights.keys
         self.alone = self.context.alone
-        self.intentions = Intentions(self.packed, self.keys, self.weights.human)
         self.sees_all = not local
         self.asleep = options.head_start
         if not local:
@@ -115,11 +114,27 @@ class Human:
         asked = (i for i in actions if task.actions[i].participants == (task.human,))
         self.concern = self.packed.own_mask | self.packed.goal.mask
         self.concern |= union(asked_by(self.packed.op(i)) for i in asked)
+        self._end = Intention()
+        self._intentions: dict[tuple[int, Intention], Intention] = {}  # by the first action, and what is left
         self._looks: dict[tuple[int, Intention], Glance] = {}
 
     def start(self, plan: HumanPlan) -> Start:
         """The initial state, which they know, with a plan in mind."""
-        return Start(self.packed.init, self.packed.init, self.intentions.of(plan))
+        return Start(self.packed.init, self.packed.init, self.intends(plan))
+
+    def intends(self, actions: Sequence[int]) -> Intention:
+        """The intention to do these actions, one after another."""
+        found = self._end
+        for action in reversed(actions):
+            key = action, found
+            if key not in self._intentions:
+                op = self.packed.op(action)
+                weight = self.weights.human[op.cost]
+                cost = found.cost + self.keys.scaled_cost(weight)
+                option, total = as_option(op, weight), found.weight + weight
+                self._intentions[key] = Intention(op, option, total, cost, found)
+            found = self._intentions[key]
+        return found
 
     def look(self, expected: int, state: int, intention: Intention, *, settled: bool) -> tuple[int, Glance]:
         """Step 1: what they believe after a look at the true state, and what they decide.
@@ -164,7 +179,7 @@ class Human:
         if best >= limit:
             return Glance(intention, kept, kept)
         plan = canonical(self.alone, belief)
-        return Glance(self.intentions.of(plan), kept, self.keys.scaled_cost(best))
+        return Glance(self.intends(plan), kept, self.keys.scaled_cost(best))
 
     def works(self, belief: int, intention: Intention) -> bool:
         """Whether a plan leads from what they believe to their goal, with robots idle."""

@@ -23,7 +23,7 @@ def _companion(task: Task) -> Companion:
 def _start(companion: Companion, task: Task) -> Start | None:
     plans = optimal_human_plans(PreparedTask(task), Deadline())
     init = companion.human.packed.init
-    return None if plans is None else Start(init, init, companion.human.intentions.of(plans.canonical()))
+    return None if plans is None else Start(init, init, companion.human.intends(plans.canonical()))
 
 
 def _in_a_corridor() -> tuple[Task, Companion, Start]:
