@@ -5,7 +5,6 @@ places that it may have come to, and what it has paid by then.
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import count
 from operator import itemgetter
@@ -44,24 +43,13 @@ _NONE: Final = _Label(INFINITE_WORTH)
 _Places = dict[Member, _Label]
 
 
-@dataclass(eq=False, slots=True)
-class _Sequence:
-    """What robots do by themselves up to an epoch, and where that leaves each scenario."""
+class _Sequence(NamedTuple):
+    """What robots do by themselves up to an epoch, what that is worth, and where it leaves each scenario."""
 
     epoch: int
     places: tuple[_Places, ...]
-    robots: JointAction
+    steps: tuple[Step, ...]
     spent: int
-    before: "_Sequence | None"
-
-    def steps(self) -> tuple[Step, ...]:
-        """What robots do by themselves."""
-        at: _Sequence | None = self
-        found = []
-        while at is not None:
-            found += [Step(at.epoch, action) for action in at.robots.actions]
-            at = at.before
-        return tuple(sorted(found))
 
 
 class SequenceSearch:
@@ -97,17 +85,15 @@ class SequenceSearch:
 
     def _offer(self, robots: dict[int, JointAction]) -> None:
         """Play a sequence against every scenario, if there is time."""
-        node, deadline = None, self._deadline.part(_OFFER)
-        for epoch in range(1, self._horizon + 1):
-            node = _Sequence(epoch, (), robots.get(epoch, NOTHING), 0, node)
+        deadline = self._deadline.part(_OFFER)
         try:
-            places = [self._best_beside(i, robots, deadline) for i in range(len(self._lines))]
+            places = tuple(self._best_beside(i, robots, deadline) for i in range(len(self._lines)))
         except LimitReachedError:
             self._deadline.check()
             return
-        if node is not None and all(places):
-            node.places = tuple(places)
-            self._complete(node)
+        if all(places):
+            steps = tuple(Step(epoch, action) for epoch, done in robots.items() for action in done.actions)
+            self._complete(_Sequence(self._horizon, places, steps, 0))
 
     def _best_beside(self, number: int, robots: dict[int, JointAction], deadline: Deadline) -> _Places:
         """Where the best that a scenario can do beside a sequence leads to; nowhere, if it is too dear."""
@@ -138,7 +124,7 @@ class SequenceSearch:
     def run(self) -> Iterator[None]:
         """Look for better sequences until there are none; yield for each; see :meth:`guided`."""
         tie, seen = count(), dict[object, int]()
-        root = _Sequence(0, tuple({line.first(): _Label(0)} for line in self._lines), NOTHING, 0, None)
+        root = _Sequence(0, tuple({line.first(): _Label(0)} for line in self._lines), (), 0)
         queue = [(self._bound(root), 0, next(tie), root)]
         while queue and queue[0][0] < self.upper:
             least, _, _, node = heappop(queue)
@@ -196,7 +182,8 @@ class SequenceSearch:
             if not places:
                 return None
             after.append(places)
-        return _Sequence(epoch, tuple(after), robots, node.spent + self._lines[0].worth(robots), node)
+        steps = (*node.steps, *(Step(epoch, action) for action in robots.actions))
+        return _Sequence(epoch, tuple(after), steps, node.spent + self._lines[0].worth(robots))
 
     def _bound(self, node: _Sequence) -> int:
         totals = [
@@ -226,7 +213,7 @@ class SequenceSearch:
                     label = label.before[1]
                 for number, (m, way) in enumerate(reversed(ways), start=1):
                     course.go_on(way, m, number)
-                course.steps += best.steps()
+                course.steps += best.steps
                 epoch = self._horizon - (0 if at.tail is None else at.tail.left)
             course.finish(line, at, epoch, certain=False)
             found[line.number] = course.played
