@@ -93,24 +93,19 @@ def solve_scenarios(
     yield best
 
 
+@dataclass(eq=False)
 class _ScenarioCall:
     """One call."""
 
-    def __init__(
-        self,
-        prepared: PreparedTask,
-        options: Options,
-        candidates: Sequence[Candidate],
-        horizon: int,
-        deadline: Deadline,
-    ) -> None:
-        self._prepared = prepared
-        self._given = candidates
-        self._horizon = horizon
-        self._options = options
-        self._deadline = deadline
-        self._candidates = _merged(candidates)
-        self._differ = any(one.own is not candidates[0].own for one in candidates)
+    prepared: PreparedTask
+    options: Options
+    given: Sequence[Candidate]
+    horizon: int
+    deadline: Deadline
+
+    def __post_init__(self) -> None:
+        self._candidates = _merged(self.given)
+        self._differ = any(one.own is not self.given[0].own for one in self.given)
         self._question: Question | None = None
         self._searches: list[SequenceSearch | PolicySearch] = []
         """Those that have begun."""
@@ -119,30 +114,30 @@ class _ScenarioCall:
 
     def improved(self) -> Iterator[None]:
         """Look for better policies until a limit comes; yield whenever there may be one."""
-        scenarios, deadline = self._scenarios(), self._deadline
+        scenarios, deadline = self._scenarios(), self.deadline
         context = scenarios[0].context
         given = [c.ahead for c in self._candidates if c.ahead is not None]
         amounts = (amount * context.keys.scale for pair in given for amount in pair)
-        measure = measure_of(self._options.risk, [c.weight for c in self._candidates], amounts)
+        measure = measure_of(self.options.risk, [c.weight for c in self._candidates], amounts)
         self._worths = Worths(context.keys, measure.parts)
         differing = scenarios if self._differ else scenarios[:1]
         moves = [Moves(one.context.successors(), self._worths) for one in differing]
         lines = [Line(s, i, moves[i % len(moves)], self._worths) for i, s in enumerate(scenarios)]
         known = (
             [line.certainly(line.first(), 0, deadline) for line in lines]
-            if self._options.risk == "regret"
+            if self.options.risk == "regret"
             else [(0, 0)] * len(lines)
         )
         self.is_exact = all(least == worth for least, worth in known)
         ahead = [self._worths.value(*pair) for pair in given] or [-least for least, _ in known]
         members = tuple(line.first()._replace(ahead=a) for line, a in zip(lines, ahead, strict=True))
-        question = Question(lines, members, measure, self._horizon, deadline)
+        question = Question(lines, members, measure, self.horizon, deadline)
         self._question = question
         self._idle = question.value([line.certain.idle(deadline) for line in lines])
         sequences = SequenceSearch(question)
         self._searches.append(sequences)
         yield from sequences.guided()
-        if self._options.policy == "watching":
+        if self.options.policy == "watching":
             self._searches.append(PolicySearch(question, sequences.upper))
         yield from self._searches[-1].run()
 
@@ -151,24 +146,24 @@ class _ScenarioCall:
 
         Where they have tasks that differ, with all facts of the shared one: robots may do the same in each.
         """
-        options = self._options.but(
-            horizon=self._horizon, time_limit=None, policy="watching", risk="mean", ties="fixed"
+        options = self.options.but(
+            horizon=self.horizon, time_limit=None, policy="watching", risk="mean", ties="fixed"
         )
-        facts = len(self._prepared.task.facts) if self._differ else None
+        facts = len(self.prepared.task.facts) if self._differ else None
         parts = [[one] for one in self._candidates] if self._differ else [self._candidates]
         found = []
         for part in parts:
-            prepared = part[0].own or self._prepared
+            prepared = part[0].own or self.prepared
             asked = asked_facts(prepared.task, (action for one in part for action in one.plan))
             asked |= frozenset(range(facts or 0))
             if options.preservation == "state":
                 asked |= human_facts(prepared.task)
             goals = [(one.goal, one.kept) for one in part]
-            for packed, one in zip(prepared.with_goals(goals, asked, self._deadline), part, strict=True):
-                context = SearchContext(packed, options, self._deadline)
+            for packed, one in zip(prepared.with_goals(goals, asked, self.deadline), part, strict=True):
+                context = SearchContext(packed, options, self.deadline)
                 variants = Variants(context, one.original, facts)
                 plain = prepared.with_goal(one.goal, one.kept)
-                found.append(Scenario(plain, context, one.plan, self._horizon, variants))
+                found.append(Scenario(plain, context, one.plan, self.horizon, variants))
         return found
 
     # -- the answer
@@ -191,7 +186,7 @@ class _ScenarioCall:
                 )
         bound = baseline
         if status != "optimal":  # net of the one epoch that every window has
-            window = self._options.window_weight if self._options.risk != "regret" else 0
+            window = self.options.window_weight if self.options.risk != "regret" else 0
             bound = min(baseline, max(Fraction(0), least - window)) if self.is_exact else Fraction(0)
         return self._told(status, baseline, (baseline, baseline, bound), saving_alone=baseline - idle)
 
@@ -200,8 +195,8 @@ class _ScenarioCall:
         if self._question is not None:
             alone = [line.certain.alone(line.first().state, 0) for line in self._question.lines]
             return self._worths.figures(self._question.value(alone))[1]
-        costs = [(c.weight, self._prepared.task.cost_of(c.shared)) for c in self._candidates]
-        if self._options.risk == "mean":
+        costs = [(c.weight, self.prepared.task.cost_of(c.shared)) for c in self._candidates]
+        if self.options.risk == "mean":
             return sum((weight * cost for weight, cost in costs), Fraction(0))
         return max(cost for _, cost in costs)
 
@@ -227,9 +222,9 @@ class _ScenarioCall:
         counted = [*(line.certain for line in lines), *self._searches]
         return Answer(
             status,
-            horizon=self._horizon,
+            horizon=self.horizon,
             steps=self._before_told_apart(happens) if happens else (),
-            goals=tuple(self._served(candidate, happens) for candidate in self._given),
+            goals=tuple(self._served(candidate, happens) for candidate in self.given),
             cost=cost,
             baseline=baseline,
             saving=saved(baseline, cost, opportunity=bool(happens)),
@@ -244,8 +239,8 @@ class _ScenarioCall:
 
     def _before_told_apart(self, happens: dict[int, Played]) -> tuple[Step, ...]:
         """What robots do by themselves as long as they can't tell any scenarios apart."""
-        task, horizon = self._prepared.task, self._horizon
-        if self._options.policy == "watching":
+        task, horizon = self.prepared.task, self.horizon
+        if self.options.policy == "watching":
             seen = [
                 {s.epoch: task.actions[s.action].name for s in self._begun(played.steps)}
                 for played in happens.values()
@@ -262,18 +257,18 @@ class _ScenarioCall:
     def _begun(self, steps: Iterable[Step]) -> tuple[Step, ...]:
         """The human's actions of some steps; they wait, or go on with these, in the other epochs."""
         assert self._question is not None, "something is known to happen"
-        task, begins = self._prepared.task, self._question.lines[0].variants.begins
+        task, begins = self.prepared.task, self._question.lines[0].variants.begins
         return tuple(
             s for s in steps if task.human in task.actions[s.action].participants and begins(s.action)
         )
 
     def _served(self, candidate: Candidate, happens: dict[int, Played]) -> ServedGoal:
         """What happens in a scenario."""
-        task = self._prepared.task
+        task = self.prepared.task
         number = self._candidates.index(candidate)
         as_planned = plan_steps(candidate.shared)
         found = happens.get(number, Played(as_planned, None))
-        discount = self._options.discount
+        discount = self.options.discount
         if happens and self._begun(found.steps) == self._begun(as_planned):
             found = Played(found.steps, None)  # a window in which they do as planned is none
         cost = sum((task.team_cost(task.actions[s.action], discount) for s in found.steps), Fraction(0))
