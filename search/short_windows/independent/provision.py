@@ -8,7 +8,6 @@ others change it, so what they pay for that adds up.
 """
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -26,12 +25,6 @@ Provision = dict[Value, int]
 """After how many epochs a value can have been set."""
 
 
-class _Change(NamedTuple):
-    op: Operator
-    needs: frozenset[Value]
-    sets: list[Value]
-
-
 def provisions(packed: PackedTask, steps: Sequence[Operator], deadline: Deadline) -> dict[int, Provision]:
     """By robot what it can set and after how many epochs, while the human follows their plan.
 
@@ -42,22 +35,21 @@ def provisions(packed: PackedTask, steps: Sequence[Operator], deadline: Deadline
     changes = []
     for op in deadline.each(packed.others):
         needs = frozenset(packed.assigned(op.need_mask, op.need))
-        sets = list(packed.assigned(packed.all_ones & ~op.keep, op.put))
-        changes.append(_Change(op, needs, sets))
+        changes.append((op.agents, needs, [*packed.assigned(packed.all_ones & ~op.keep, op.put)]))
     found: dict[int, Provision] = {}
     state = packed.init
     known = set(packed.assigned(packed.all_ones, state))
     for epoch, step in enumerate(steps, start=1):
         new: set[Value] = set()
         left = []
-        for change in deadline.each(changes):
-            if change.needs <= known:
-                provision = found.setdefault(change.op.agents, {})
-                for value in change.sets:
+        for robot, needs, sets in deadline.each(changes):
+            if needs <= known:
+                provision = found.setdefault(robot, {})
+                for value in sets:
                     provision.setdefault(value, epoch)
-                new.update(change.sets)
+                new.update(sets)
             else:
-                left.append(change)
+                left.append((robot, needs, sets))
         changes = left
         state = state & step.keep | step.put
         known.update(new, packed.assigned(packed.all_ones, state))
