@@ -11,13 +11,13 @@ from search.call.prepared_task import PreparedTask
 from search.modes.assistance.bounds.bound import joint_lower_bound
 from search.modes.assistance.game.game import Game
 from search.modes.assistance.game.rules import ChoiceRule, Mean
-from search.modes.assistance.game.solution import ZERO, Costs, GameSolution
+from search.modes.assistance.game.solution import ZERO, GameSolution
 from search.modes.assistance.solvers.lao_star import LaoStar
 from search.modes.assistance.writing import Writer
 from search.packed.cost_vector import INFINITE_KEY
 from search.strategies.first_answer import first_answer
 from serendipity.model.answers.answer import Answer, PolicyBounds, Status
-from serendipity.model.answers.policy import Policy
+from serendipity.model.answers.policy import Costs, Policy
 from serendipity.model.errors import LIMITS, limit_reason
 from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline

@@ -4,9 +4,9 @@ from contextlib import suppress
 
 from search.modes.assistance.game.game import NOOP, Game, Move
 from search.modes.assistance.game.rules import ChoiceRule
-from search.modes.assistance.game.solution import Costs, GameSolution
+from search.modes.assistance.game.solution import GameSolution
 from search.packed.cost_vector import INFINITE_KEY
-from serendipity.model.answers.policy import Decision, Floor, Policy, StateDelta
+from serendipity.model.answers.policy import Costs, Decision, Floor, Policy, StateDelta
 from serendipity.model.errors import LIMITS
 from serendipity.model.task.actions import NOOP as NOOP_NAME
 from serendipity.model.task.plans import Step

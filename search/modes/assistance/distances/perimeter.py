@@ -32,10 +32,7 @@ MAX_BITS: Final = 28
 """Bits of a place's number, which has to fit an ``int32``."""
 
 _WIDE_BITS: Final = 24
-"""Up to here a distance is wide."""
-
-_WIDE, _NARROW = 4, 2
-"""Bytes of a distance."""
+"""Up to here a distance has four bytes, beyond two."""
 
 _MOST_TOGETHER: Final = 64
 """Combinations of fields that share bits."""
@@ -108,7 +105,7 @@ class PackedPlaces:
     @property
     def item(self) -> int:
         """Bytes of a distance."""
-        return _WIDE if self.bits <= _WIDE_BITS else _NARROW
+        return 4 if self.bits <= _WIDE_BITS else 2
 
     def place(self, state: int) -> int:
         """The place of a state; -1 if it has none."""
@@ -197,7 +194,6 @@ class Perimeter:
     """Distances to the goal, as far as they were asked for.
 
     Args:
-        places: where states are.
         arcs: the transitions, of weights ``major << ACTIONS_BITS | minor``, which are compared in this order.
         goals: places of distance 0, each once.
     """
@@ -205,7 +201,7 @@ class Perimeter:
     def __init__(self, places: PackedPlaces, arcs: Sequence[Arc], goals: Places, deadline: Deadline) -> None:
         self._places = places
         self._deadline = deadline
-        wide = places.item == _WIDE
+        wide = places.item == 4
         self._minor_bits, major_bits = (14, 17) if wide else (8, 8)
         heaviest = max((arc.weight >> ACTIONS_BITS for arc in arcs), default=0)
         longest = max((arc.weight % (1 << ACTIONS_BITS) for arc in arcs), default=0)

@@ -5,8 +5,8 @@ from fractions import Fraction
 from typing import Any
 
 from search.modes.assistance.game.game import Game, Move
-from search.modes.assistance.game.solution import Costs
 from search.packed.cost_vector import INFINITE_KEY
+from serendipity.model.answers.policy import Costs
 
 Value = Any
 """An ``int`` of the game (robust), or a pair of exact costs (expected); ordered by ``<``."""

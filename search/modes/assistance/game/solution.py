@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Final, NamedTuple
 
-Costs = tuple[Fraction, Fraction]
-"""The prime's and the supporter's, compared in this order."""
+from serendipity.model.answers.policy import Costs
 
 ZERO: Final[Costs] = (Fraction(0), Fraction(0))
 

@@ -11,11 +11,12 @@ from collections.abc import Iterator
 
 from search.modes.assistance.game.game import Game
 from search.modes.assistance.game.rules import ChoiceRule, Value
-from search.modes.assistance.game.solution import MAX_FLOORS, Costs, GameSolution, PolicyEntry
+from search.modes.assistance.game.solution import MAX_FLOORS, GameSolution, PolicyEntry
 from search.modes.assistance.solvers.cycles import solve_all
 from search.modes.assistance.solvers.evaluate import Option, evaluate
 from search.modes.assistance.solvers.graph import Graph
 from search.packed.cost_vector import INFINITE_KEY
+from serendipity.model.answers.policy import Costs
 
 _MOST_BACKUPS = 1000
 _MOST_IDLE_PASSES = 20
