@@ -15,14 +15,49 @@ from search.modes.scenarios.measure import (
     Tail,
     Worths,
 )
-from search.modes.scenarios.moves import Move, Moves
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
 from search.modes.scenarios.timetables import Timetable
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option, together
 from search.packed.operators import Operator, applicable
+from search.packed.successor_generator import Successors
 from search.strategies.conditions import asks_for_nothing_else
 from serendipity.model.resources.deadline import Deadline
+
+
+class Move(NamedTuple):
+    """What the human does, joint actions included, what the epoch is worth, and the state after it."""
+
+    part: JointAction
+    worth: int
+    state: int
+
+
+class Moves:
+    """The moves of one task, for all scenarios that share it.
+
+    Scenarios that are not told apart are in one state, so each asks for the same moves, one after another.
+    """
+
+    def __init__(self, successors: Successors, worths: Worths) -> None:
+        self.successors = successors
+        self._worths = worths
+        self.fits = successors.due.fits
+        self._asked: tuple[int, JointAction] = (-1, NOTHING)
+        self._free: list[Move] = []
+
+    def free(self, state: int, beside: JointAction) -> Sequence[Move]:
+        """All that the human may do where they follow no plan."""
+        if self._asked != (state, beside):
+            parts = (part for part in self.successors.free(state) if self.fits(part, beside))
+            self._free = [self.together(state, part, beside) for part in parts]
+            self._asked = state, beside
+        return self._free
+
+    def together(self, state: int, part: JointAction, beside: JointAction) -> Move:
+        """What the human does, beside all that others do."""
+        done = together(part, beside)
+        return Move(part, self._worths.of_key(done.weight), self.successors.due.outcome(state, done))
 
 
 class Way(NamedTuple):
@@ -327,7 +362,6 @@ class Question(NamedTuple):
     Attributes:
         lines: the scenarios' epochs.
         members: all scenarios, before the first epoch.
-        measure: of worths.
     """
 
     lines: Sequence[Line]

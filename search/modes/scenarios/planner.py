@@ -8,9 +8,8 @@ from fractions import Fraction
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask
 from search.engine.paths import plan_steps
-from search.modes.scenarios.lines import Line, Question
+from search.modes.scenarios.lines import Line, Moves, Question
 from search.modes.scenarios.measure import INFINITE_WORTH, Worths, measure_of
-from search.modes.scenarios.moves import Moves
 from search.modes.scenarios.played import Played
 from search.modes.scenarios.policies import PolicySearch
 from search.modes.scenarios.remainder import Scenario
@@ -32,8 +31,6 @@ class Candidate:
     """What the human may want, and do; those are equal that differ in name and weight only.
 
     Attributes:
-        goal: their goal.
-        plan: their plan.
         weight: the probability, more than 0.
         name: for people.
         kept: what else has to hold in the end: robots see to it.

@@ -29,7 +29,6 @@ class PolicySearch:
     """The search for one call.
 
     Args:
-        question: what it is asked.
         known: of a policy that is known; one with a first choice of its own has to be better.
 
     Attributes:

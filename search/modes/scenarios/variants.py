@@ -14,7 +14,6 @@ class Variants:
     """Of one scenario.
 
     Args:
-        context: of its call.
         original: by action that of the shared task; empty where they are the same.
         facts: how many of the shared task tell states apart; None where all facts do.
     """

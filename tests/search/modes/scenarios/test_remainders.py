@@ -7,9 +7,8 @@ import pytest
 import serendipity
 from search import PreparedTask
 from search.call.context import SearchContext
-from search.modes.scenarios.lines import Line
+from search.modes.scenarios.lines import Line, Moves
 from search.modes.scenarios.measure import FOLLOWING, INFINITE_WORTH, INSIDE, Member, Worths
-from search.modes.scenarios.moves import Moves
 from search.modes.scenarios.remainder import Certain, Remainder, Scenario
 from search.modes.scenarios.variants import Variants
 from search.spaces.windowed import Windowed

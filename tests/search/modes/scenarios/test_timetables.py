@@ -10,9 +10,8 @@ from search import PreparedTask
 from search.call.context import SearchContext
 from search.kernel.library import library
 from search.modes.scenarios import Candidate
-from search.modes.scenarios.lines import Line
+from search.modes.scenarios.lines import Line, Moves
 from search.modes.scenarios.measure import FOLLOWING, Worths
-from search.modes.scenarios.moves import Moves
 from search.modes.scenarios.remainder import Scenario
 from search.modes.scenarios.variants import Variants
 from search.packed.joint_actions import NOTHING
