@@ -14,8 +14,7 @@ from itertools import combinations
 from typing import NamedTuple
 
 from search.human.individual_planner import canonical
-from search.modes.simulation.human import Human, Start
-from search.modes.simulation.intention import Intention
+from search.modes.simulation.human import Human, Intention, Start
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.operators import Operator, applicable
 from serendipity.model import Condition, HumanPlan, Options, Task

@@ -117,5 +117,4 @@ class Companion:
 
     def played(self, start: Start, steps: Sequence[Step], deadline: Deadline) -> Simulation:
         """What becomes of the robots' part of a plan; see :func:`.simulate`."""
-        self._clock.renew(deadline)
-        return Run(start, self.human, steps).play(None)
+        return Run(start, self.under(deadline), steps).play(None)

@@ -1,13 +1,14 @@
 """The human's state machine: what they decide when they look up (semantics 6, steps 1 and 2)."""
 
 from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 from search.call.context import SearchContext
 from search.call.prepared_task import PreparedTask, TaskTables
 from search.human.individual_planner import canonical
 from search.modes.simulation.eyes import Eyes, as_told, nearby
-from search.modes.simulation.intention import Intention
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.joint_actions import NOTHING, JointAction, as_option
 from search.packed.operators import Operator, applicable, asked_by, union
@@ -17,6 +18,40 @@ from serendipity.model.options import Options
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import HumanPlan
 from serendipity.model.task.visibility import Visible
+
+
+@dataclass(eq=False)
+class Intention:
+    """The rest of the human's current plan (``rho`` of semantics 6), one object for each sequence of actions.
+
+    Attributes:
+        op: the first action, packed; None at the end.
+        option: what it does; nothing at the end.
+        weight: key increment of all its actions.
+        cost: their cost, scaled.
+        after: the intention after it; None at the end.
+    """
+
+    op: Operator | None = None
+    option: JointAction = NOTHING
+    weight: int = 0
+    cost: int = 0
+    after: "Intention | None" = None
+
+    @property
+    def rest(self) -> "Intention":
+        """What remains after the first action."""
+        return self.after or self
+
+    @cached_property
+    def actions(self) -> tuple[int, ...]:
+        """Action ids, in order."""
+        found: list[int] = []
+        at = self
+        while at.op is not None:
+            found += at.option.actions
+            at = at.rest
+        return tuple(found)
 
 
 class Glance(NamedTuple):

@@ -4,8 +4,8 @@ from collections.abc import Collection, Iterable
 
 from search.call.prepared_task import PreparedTask
 from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
-from search.modes.simulation.human import Glance, Human, HumanStep
-from search.modes.simulation.intention import Intention
+from search.human.own_options import BesideScript
+from search.modes.simulation.human import Glance, Human, HumanStep, Intention
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due
 from search.packed.joint_actions import NOTHING, JointAction
@@ -49,7 +49,11 @@ class BesideOthers(IndividualPlanner):
 
 
 class HumanInTime(Human):
-    """One human in a task of single epochs, who is not up during the head start."""
+    """One human in a task of single epochs.
+
+    Args:
+        options: discount, weights, the human model, and the head start, in which they are not up.
+    """
 
     def __init__(
         self, prepared: PreparedTask, options: Options, deadline: Deadline, actions: Collection[int] = ()

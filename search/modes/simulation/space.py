@@ -12,8 +12,7 @@ from typing import NamedTuple
 
 from search.engine.best_first import Incumbent, Node
 from search.engine.dominance import ParetoFront
-from search.modes.simulation.human import Glance, Human, HumanStep, Start
-from search.modes.simulation.intention import Intention
+from search.modes.simulation.human import Glance, Human, HumanStep, Intention, Start
 from search.packed.successor_generator import Successors
 
 
