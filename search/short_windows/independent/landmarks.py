@@ -202,7 +202,6 @@ def left_to_pay(landmarks: Sequence[Landmark], rows: Rows) -> Amounts:
 
     Args:
         landmarks: of one state; the others differ from it in values only that were given then.
-        rows: the states.
     """
     tables: dict[int, NDArray[np.bool_]] = {}
     for number, landmark in enumerate(landmarks):

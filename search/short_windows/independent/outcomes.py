@@ -22,13 +22,6 @@ MOST_OUTCOMES: Final = 500_000
 
 _MOST_PAIRS: Final = 50_000_000
 
-Parts = NDArray[np.int32]
-"""Per outcome of all robots the places of those of each of them."""
-
-
-_Some = tuple[Rows, Amounts, Amounts, Parts]
-"""Some outcomes of robots together: rows, amounts, nets, parts."""
-
 
 class Outcomes(NamedTuple):
     """Differences in bits, each once at the least cost that robots pay for it."""
@@ -77,92 +70,90 @@ def outcomes(
     return Outcomes(found.rows[:, hopeful], found.amounts[hopeful])
 
 
-class Together:
-    """Outcomes of all robots together.
+class Together(NamedTuple):
+    """Outcomes of some robots together.
 
     Attributes:
-        found: what they leave behind together.
+        nets: amounts, less what outcomes save the human by themselves.
+        parts: per outcome the places of those of each robot.
+    """
+
+    rows: Rows
+    amounts: Amounts
+    nets: Amounts
+    parts: NDArray[np.int32]
+
+    def only(self, chosen: NDArray[Any] | slice) -> "Together":
+        """Some of them."""
+        return Together(self.rows[:, chosen], self.amounts[chosen], self.nets[chosen], self.parts[:, chosen])
+
+
+def joined(
+    apart: Sequence[Outcomes],
+    nets: Sequence[Amounts],
+    fields: Sequence[int],
+    most: int,
+    most_paid: int,
+    deadline: Deadline,
+) -> Together:
+    """Outcomes of all robots together, but for those whose nets add up to as much as ``most``.
 
     Raises:
         LimitReachedError: there are too many, or the deadline came.
     """
+    masks = [column(field, apart[0].rows.shape[0]) for field in fields]
+    best = [int(net.min(initial=0)) for net in nets]
+    numbered = (np.arange(len(net), dtype=np.int32)[None] for net in nets)
+    first, *rest = map(Together, *zip(*apart, strict=True), nets, numbered)
+    found = first.only(first.nets < most - sum(best[1:]))
+    for number, more in enumerate(rest, 2):
+        found = _both(found, more, masks, most - sum(best[number:]), most_paid, deadline)
+    return found
 
-    def __init__(
-        self,
-        apart: Sequence[Outcomes],
-        nets: Sequence[Amounts],
-        fields: Sequence[int],
-        most: int,
-        most_paid: int,
-        deadline: Deadline,
-    ) -> None:
-        self._deadline = deadline
-        self._most_paid = most_paid
-        self._fields = [column(field, apart[0].rows.shape[0]) for field in fields]
-        best = [int(net.min(initial=0)) for net in nets]
-        self.found, self._parts = apart[0], np.arange(len(apart[0].amounts), dtype=np.int32).reshape(1, -1)
-        self._nets = nets[0]
-        self._keep(self._nets < most - sum(best[1:]))
-        for number, more in enumerate(apart[1:], 1):
-            self._join(more, nets[number], most - sum(best[number + 1 :]))
 
-    def parts(self, place: int) -> list[int]:
-        """Places of each robot's own outcome, for one of all together."""
-        return [int(part) for part in self._parts[:, place]]
+def _both(
+    known: Together, more: Together, masks: Sequence[Rows], most: int, most_paid: int, deadline: Deadline
+) -> Together:
+    """Outcomes with those of one more robot."""
+    more = more.only(more.nets.argsort(kind="stable"))
+    ends = np.searchsorted(more.nets, most - known.nets)
+    if int(ends.sum()) > _MOST_PAIRS:
+        raise TooManyStatesError
+    mine, theirs = _mentioned(known.rows, masks), _mentioned(more.rows, masks)
+    none = known.only(slice(0))
+    batch = [none._replace(parts=np.concatenate([none.parts, none.parts[:1]]))]
+    size = 0
+    for i in ends.nonzero()[0]:
+        deadline.check()
+        end = int(ends[i])
+        fits = ~(theirs[:, :end] & mine[:, i : i + 1]).any(axis=0)
+        fits &= more.amounts[:end] < most_paid - known.amounts[i]
+        one, some = known.only(slice(i, i + 1)), more.only(np.flatnonzero(fits))
+        parts = np.concatenate([np.repeat(one.parts, len(some.nets), axis=1), some.parts])
+        rows, amounts, nets = one.rows | some.rows, one.amounts + some.amounts, one.nets + some.nets
+        batch.append(Together(rows, amounts, nets, parts))
+        size += len(nets)
+        if size > AT_ONCE:
+            batch, size = [_cheapest(batch, deadline)], 0
+    return _cheapest(batch, deadline)
 
-    def _keep(self, chosen: NDArray[Any]) -> None:
-        """Leave out all others."""
-        found = self.found
-        self.found = Outcomes(found.rows[:, chosen], found.amounts[chosen])
-        self._parts, self._nets = self._parts[:, chosen], self._nets[chosen]
 
-    def _join(self, more: Outcomes, nets: Amounts, most: int) -> None:
-        """One more robot; ``most``: where the sum of nets is as much, outcomes are left out."""
-        order = nets.argsort(kind="stable")
-        nets, rows, paid = nets[order], more.rows[:, order], more.amounts[order]
-        most_paid = self._most_paid
-        known, parts, known_nets = self.found, self._parts, self._nets
-        ends = np.searchsorted(nets, most - known_nets)
-        if int(ends.sum()) > _MOST_PAIRS:
-            raise TooManyStatesError
-        mine, theirs = self._mentioned(known.rows), self._mentioned(rows)
-        self._keep(np.zeros(0, dtype=np.intp))
-        self._parts = np.concatenate([self._parts, self._parts[:1]])
-        batch: list[_Some] = []
-        size = 0
-        for i in ends.nonzero()[0]:
-            self._deadline.check()
-            end = int(ends[i])
-            fits = ~(theirs[:, :end] & mine[:, i : i + 1]).any(axis=0)
-            fits &= paid[:end] < most_paid - known.amounts[i]
-            chosen = np.flatnonzero(fits)
-            places = order[chosen]
-            some = rows[:, chosen] | known.rows[:, i : i + 1], more.amounts[places] + known.amounts[i]
-            made_of = np.concatenate([np.repeat(parts[:, i : i + 1], len(chosen), axis=1), [places]])
-            batch.append((*some, nets[chosen] + known_nets[i], made_of))
-            size += len(chosen)
-            if size > AT_ONCE:
-                self._add(batch)
-                batch, size = [], 0
-        self._add(batch)
+def _cheapest(batch: Sequence[Together], deadline: Deadline) -> Together:
+    """What is put together, each once."""
+    every = Together(*(np.concatenate(some, axis=-1) for some in zip(*batch, strict=True)))
+    deadline.require(3 * every.rows.nbytes)
+    kept = cheapest(every.rows, every.amounts, deadline)
+    if len(kept) > MOST_OUTCOMES:
+        raise TooManyStatesError
+    return every.only(kept)
 
-    def _add(self, batch: Sequence[_Some]) -> None:
-        """Compare what is put together with what was found."""
-        found = [(*self.found, self._nets, self._parts), *batch]
-        every, paid, nets, parts = (np.concatenate(some, axis=-1) for some in zip(*found, strict=True))
-        self._deadline.require(3 * every.nbytes)
-        kept = cheapest(every, paid, self._deadline)
-        if len(kept) > MOST_OUTCOMES:
-            raise TooManyStatesError
-        self.found, self._parts = Outcomes(every[:, kept], paid[kept]), parts[:, kept].astype(np.int32)
-        self._nets = nets[kept]
 
-    def _mentioned(self, rows: Rows) -> Rows:
-        """The fields in which outcomes differ from what is there without any robot, whole."""
-        found = np.zeros_like(rows)
-        for field in self._fields:
-            found |= np.where((rows & field).any(axis=0), field, np.uint64(0))
-        return found
+def _mentioned(rows: Rows, masks: Sequence[Rows]) -> Rows:
+    """The fields in which outcomes differ from what is there without any robot, whole."""
+    found = np.zeros_like(rows)
+    for mask in masks:
+        found |= np.where((rows & mask).any(axis=0), mask, np.uint64(0))
+    return found
 
 
 def _least(rows: Rows, amounts: Amounts, deadline: Deadline) -> Outcomes:
@@ -182,7 +173,7 @@ def values(rows: Rows, fields: Collection[int]) -> set[Value]:
 class Remaining:
     """Outcomes, until it is known what they are worth."""
 
-    def __init__(self, found: Outcomes, base: int) -> None:
+    def __init__(self, found: Together, base: int) -> None:
         self._rows = found.rows ^ column(base, found.rows.shape[0])
         self._amounts = found.amounts
         self._least = found.amounts

@@ -54,8 +54,6 @@ def cheapest(
     """Places of a cheapest one of each different column, in the order of columns.
 
     Args:
-        rows: the columns.
-        amounts: of each.
         last: decides among equal amounts, the least first.
     """
     order = _sorted((amounts, *rows) if last is None else (last, amounts, *rows), deadline)

@@ -58,8 +58,6 @@ class _Act(NamedTuple):
     """One of the robot's operators, or of the human's.
 
     Attributes:
-        op: the operator.
-        amount: what it costs.
         needs: what it asks for.
         forbids: what it must not find.
     """

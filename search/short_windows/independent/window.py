@@ -9,7 +9,7 @@ from search.call.context import SearchContext
 from search.packed.cost_vector import ACTIONS_BITS, FAR, INFINITE_KEY
 from search.packed.operators import Operator, union
 from search.short_windows.independent.landmarks import Landmarks, left_to_pay
-from search.short_windows.independent.outcomes import Outcomes, Remaining, Together, outcomes, values
+from search.short_windows.independent.outcomes import Outcomes, Remaining, Together, joined, outcomes, values
 from search.short_windows.independent.provision import Value
 from search.short_windows.independent.rows import Rows, column, packed_state
 from search.short_windows.independent.timeline import RobotLayers, TooManyStatesError
@@ -88,11 +88,11 @@ class Window:
         nets = [apart.amounts - less for apart, less in zip(self._apart, saved, strict=True)]
         most, deadline = self._most(limit) - own, self._context.deadline
         try:
-            self._together = Together(self._apart, nets, self._fields, most, self._most_paid(), deadline)
+            self._together = joined(self._apart, nets, self._fields, most, self._most_paid(), deadline)
         except TooManyStatesError:
             self._least = max(0, own + sum(int(net.min(initial=0)) for net in nets))
             return
-        self._remaining = Remaining(self._together.found, self._base)
+        self._remaining = Remaining(self._together, self._base)
         self._remaining.learn(found)
 
     def _most(self, limit: int) -> int:
@@ -142,7 +142,7 @@ class Window:
         """What robots do epoch by epoch for something that they leave behind."""
         assert self._together is not None, "there is something"
         epochs: list[list[Operator]] = [[] for _ in range(self._epochs + 1)]
-        parts = self._together.parts(place)
+        parts = map(int, self._together.parts[:, place])
         for timeline, apart, shared, part in zip(
             self._timelines, self._apart, self._shared, parts, strict=True
         ):
