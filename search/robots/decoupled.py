@@ -132,15 +132,12 @@ class Decoupled:
 
     def _place_facts(self) -> list[set[int]]:
         """Per slot the facts of its place, and of how far what it does is."""
-        rests = [0] * len(self.fields)
-        for fact in self._packed.task.at_rest:
-            bits, free = self._packed.fact_bits[fact], self._packed.task.facts[fact]
-            for slot, robot in enumerate(self._packed.task.robots):
-                if bits is not None and free == f"free {self._packed.task.agents[robot]}":
-                    rests[slot] = bits[0]
-        packed = [(fact, bits[0]) for fact, bits in enumerate(self._packed.fact_bits) if bits is not None]
-        masks = (place | rest for place, rest in zip(self.fields, rests, strict=True))
-        return [{fact for fact, field in packed if field & mask} for mask in masks]
+        task = self._packed.task
+        packed = {fact: bits[0] for fact, bits in enumerate(self._packed.fact_bits) if bits is not None}
+        rests = {task.facts[fact]: packed[fact] for fact in task.at_rest if fact in packed}
+        each = zip(self.fields, task.robots, strict=True)
+        masks = (place | rests.get(f"free {task.agents[robot]}", 0) for place, robot in each)
+        return [{fact for fact, field in packed.items() if field & mask} for mask in masks]
 
     def _is_elsewhere(self, form: Signature) -> bool:
         """Whether ops mention the place of a robot that takes no part."""
