@@ -72,7 +72,6 @@ class ClassicalPlanner:
     """The kernel on one problem, with all that it has learnt.
 
     Attributes:
-        problem: what it is about.
         told: the same, as the kernel is told of it.
         handle: what the kernel knows it by.
         is_open: whether a limit came during the last :meth:`cheapest`, which can :meth:`go_on`.

@@ -30,7 +30,6 @@ class WindowOutcome:
     """The least costs of plans that fit one window.
 
     Attributes:
-        window: the window.
         human_cost: least undiscounted cost of what the human takes part in, or None
             where no plan fits the window.
         team_cost: least cost for the team, discounted, or None.

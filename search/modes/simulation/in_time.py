@@ -4,7 +4,6 @@ from collections.abc import Collection, Iterable
 
 from search.call.prepared_task import PreparedTask
 from search.human.individual_planner import FoundPlan, IndividualPlanner, Memory
-from search.human.own_options import BesideScript
 from search.modes.simulation.human import Glance, Human, HumanStep, Intention
 from search.packed.cost_vector import INFINITE_KEY
 from search.packed.due import Due
