@@ -60,6 +60,14 @@ def test_planted_bugs_are_refuted(name: str) -> None:
     assert seen.how == "refuted", f"{seen}; {_REMEDY}"
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("name", sorted(BY_NAME.keys() - {*QUICK}))
+def test_no_planted_bug_is_a_crash(name: str) -> None:
+    """As it would be where the code that it is planted in has changed."""
+    seen = fate(BY_NAME[name], 0)
+    assert seen.how != "crash", seen
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", BY_NAME)
 def test_every_planted_bug_is_refuted(name: str) -> None:

@@ -42,9 +42,9 @@ def _only_from_the_start(original: Any, self: Any, node: Any) -> Iterator[tuple[
         yield from original(self, node)
 
 
-def _late_end(original: Any, self: Any, node: Any, best: Any) -> None:
+def _late_end(original: Any, self: Any, node: Any, option: Any, best: Any) -> None:
     known = best.node
-    original(self, node, best)
+    original(self, node, option, best)
     if best.node is not known:
         best.end -= 1
 
