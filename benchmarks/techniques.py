@@ -17,13 +17,12 @@ from search.human.pattern_database import PatternDatabase
 from search.kernel.library import library
 
 KERNEL: Final = {
-    "intended effects": 1,
-    "landmarks handed down": 2,
-    "second LM-cut": 4,
-    "third LM-cut": 8,
-    "stubborn sets": 16,
-    "lookahead": 32,
-    "like fields": 64,
+    "landmarks handed down": 1,
+    "second LM-cut": 2,
+    "third LM-cut": 4,
+    "stubborn sets": 8,
+    "lookahead": 16,
+    "like fields": 32,
 }
 """By name what the kernel's ``leave_out`` takes, see ``values.h``."""
 

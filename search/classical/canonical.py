@@ -37,7 +37,7 @@ def canonical_plan(planner: ClassicalPlanner, state: int, deadline: Deadline) ->
             op = operators[number]
             after, amount = state & op.keep | op.put, left - planner.amount((number,))
             may_be = amount >= 0 and planner.bound(after, deadline) <= amount
-            if may_be and planner.cheapest(after, deadline, amount + 1, before=number) == amount:
+            if may_be and planner.cheapest(after, deadline, amount + 1) == amount:
                 rest = [number, *in_order(operators, planner.known_plan(after, deadline) or (), deadline)]
                 break
             refuted.add(number)

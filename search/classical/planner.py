@@ -129,25 +129,23 @@ class ClassicalPlanner:
         deadline: Deadline,
         limit: int = INFINITE_KEY,
         on_bound: Callable[[int], None] | None = None,
-        before: int = NONE,
     ) -> int:
         """The amount of a cheapest plan from a packed state; any value from ``limit`` on means "not below".
 
         Args:
             limit: what is dearer does not matter.
             on_bound: told now and then what no plan is cheaper than.
-            before: an operator that leads to the state: only such plans matter as go on from it optimally.
         """
-        self._asked, self._most, self._floor, self._before = state & self._mask, limit, 0, before
+        self._asked, self._most, self._floor = state & self._mask, limit, 0
         self._begin(deadline)
         return self.go_on(deadline, on_bound)
 
     def _begin(self, deadline: Deadline) -> None:
         assert self._asked is not None, "a question was asked"
-        kernel, planner, before = self._kernel, self.handle, self._before
+        kernel, planner = self._kernel, self.handle
         row, most = self.told.row(self._asked), self.problem.limit(self._most)
         self.is_open = False
-        self._allowed(lambda room: kernel.planner_begin(planner, row, before, most, room), deadline)
+        self._allowed(lambda room: kernel.planner_begin(planner, row, most, room), deadline)
         self.is_open = True
 
     def go_on(self, deadline: Deadline, on_bound: Callable[[int], None] | None = None) -> int:

@@ -45,7 +45,7 @@ static int a_star_new(AStar *s, const Problem *p, Relaxation *r, Lookahead *l) {
     s->row = malloc(6 * words * sizeof *s->row), s->applicable.at = malloc(((size_t)p->n_ops + 1) * sizeof(int32_t));
     if (s->row) s->asked = s->row + words, s->real = s->asked + words, s->like = s->real + words;
     if (s->row) s->other = s->like + words, s->target = s->other + words;
-    return s->row && s->applicable.at && evaluator_new(&s->evaluator, &r->problem, p) && stubborn_new(&s->stubborn, p);
+    return s->row && s->applicable.at && evaluator_new(&s->evaluator, &r->problem) && stubborn_new(&s->stubborn, p);
 }
 
 static void a_star_free(AStar *s) {
@@ -54,24 +54,21 @@ static void a_star_free(AStar *s) {
     free(s->open.at), free(s->applicable.at), free(s->closed.at), free(s->plan.at), free(s->spare.at), free(s->alike.at), free(s->row);
 }
 
-/* What is left from a node, at least, for an optimal plan that comes by it. */
-static Cost left_from(const Node *node) { return node->exact || node->onward < node->rest ? node->rest : node->onward; }
-
 /* Whether a node costs in all, at least, what its entry in the queue says. */
 static int is_up_to_date(const Node *node, Cost total) {
-    return left_from(node) < INFINITE_COST && node->spent + left_from(node) == total;
+    return node->rest < INFINITE_COST && node->spent + node->rest == total;
 }
 
 static void open_node(AStar *s, int32_t id) {
     Node *node = node_of(&s->table, id);
-    if (left_from(node) == INFINITE_COST) return;
-    Cost total = plus(node->spent, left_from(node));
+    if (node->rest == INFINITE_COST) return;
+    Cost total = plus(node->spent, node->rest);
     if (total >= s->limit || total == MOST_COST) {
         if (total >= s->limit) s->cut_off = 1;
         else s->unfit = 1;
         return;
     }
-    heap_push(&s->open, (Entry){total, left_from(node), id, s->serial++});
+    heap_push(&s->open, (Entry){total, node->rest, id, s->serial++});
 }
 
 static int first_first(const void *a, const void *b) { return *(const int32_t *)a - *(const int32_t *)b; }
@@ -196,39 +193,25 @@ static int finish(AStar *s, int outcome, Cost total) {
     return outcome;
 }
 
-/* `before`: the operator that an optimal plan begins with, and goes on with one from here; NONE: this is the first.  The limit
-   is INFINITE_COST, or at most MOST_COST. */
-static int a_star_begin(AStar *s, const Word *state, int32_t before, Cost limit, size_t allowed) {
+/* The limit is INFINITE_COST, or at most MOST_COST. */
+static int a_star_begin(AStar *s, const Word *state, Cost limit, size_t allowed) {
     s->open.count = s->closed.count = 0;
     s->least = 0;
     grant(&s->table, allowed);
     if (!reserve(&s->table, 1) || !heap_reserve(&s->open, 1, &s->table)) return MEMORY;
     copy_row(s, s->asked, state), copy_row(s, s->row, state);
-    int moved = represent(s->problem, &s->alike, s->row);
+    represent(s->problem, &s->alike, s->row);
     s->start = find(&s->table, s->row, NULL);
     Node *node = node_of(&s->table, s->start);
     s->limit = limit, s->cut_off = s->unfit = 0, s->serial = 0, s->has_plan = 0, s->nearest = INFINITE_COST;
     s->stamp++;
-    node->stamp = s->stamp, node->spent = 0, node->closed = 0, node->parent = NONE, node->op = before;
-    node->onward = moved ? SEVERAL : 0;
+    node->stamp = s->stamp, node->spent = 0, node->closed = 0, node->parent = NONE, node->op = NONE;
     open_node(s, s->start);
     return RUNNING;
 }
 
 /* Of equal entries the latest is expanded first, so the first operator comes last: plans are found near the canonical one. */
 static int later_first(const void *a, const void *b) { return *(const int32_t *)b - *(const int32_t *)a; }
-
-/* A node can be come by at the same cost by another operator; `moved`: it only stands for what that makes. */
-static void come_by(AStar *s, int32_t id, int32_t op, int moved) {
-    Node *node = node_of(&s->table, id);
-    if (node->closed || node->onward == SEVERAL || node->op == NONE) return;
-    Intentions *intentions = &s->evaluator.intentions;
-    const RelaxedProblem *x = &s->relaxation->problem;
-    if (!moved && (node->op == op || users_of(intentions, s->problem, x, node->op) == users_of(intentions, s->problem, x, op))) return;
-    int is_open = node->onward > node->rest;
-    node->onward = SEVERAL;
-    if (is_open) open_node(s, id);
-}
 
 static void expand(AStar *s, int32_t id) {
     const Problem *p = s->problem;
@@ -249,12 +232,9 @@ static void expand(AStar *s, int32_t id) {
         Node *after = node_of(&s->table, next);
         s->generated++;
         Cost spent = plus(node->spent, p->weight[op]);
-        if (after->stamp == s->stamp && after->spent <= spent) {
-            if (after->spent == spent) come_by(s, next, op, moved);
-            continue;
-        }
+        if (after->stamp == s->stamp && after->spent <= spent) continue;
         after->stamp = s->stamp, after->spent = spent, after->parent = id, after->op = op, after->closed = 0;
-        after->renamed = moved != 0, after->onward = moved ? SEVERAL : 0;
+        after->renamed = moved != 0;
         if (!after->exact) {
             Cost rest = node->rest - p->weight[op];
             Cost known = fresh ? rest_after(&s->evaluator, &s->relaxation->problem, op) : 0;
@@ -289,8 +269,6 @@ static int a_star_run(AStar *s, double seconds, size_t allowed) {
         if (!landmarks_reserve(&s->evaluator.lm_cut.landmarks, &s->table)) return MEMORY;
         if (node->evaluated < N_TURNS && is_up_to_date(node, entry.key))
             evaluate(&s->evaluator, p, s->relaxation, &s->table, node, state);
-        if (node->evaluated == N_TURNS && is_up_to_date(node, entry.key))
-            evaluate_onward(&s->evaluator, p, s->relaxation, node, state);
         if (!is_up_to_date(node, entry.key)) {
             heap_pop(&s->open);
             open_node(s, entry.item);

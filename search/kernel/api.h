@@ -52,8 +52,8 @@ API Planner *planner_new(const Spec *spec) {
 }
 
 /* Optimal search, from a state, below a limit: slice by slice until it is no longer RUNNING. */
-API int planner_begin(Planner *s, const Word *state, int32_t before, Cost limit, size_t allowed) {
-    return a_star_begin(&s->a_star, state, before, limit, allowed);
+API int planner_begin(Planner *s, const Word *state, Cost limit, size_t allowed) {
+    return a_star_begin(&s->a_star, state, limit, allowed);
 }
 /* Fields that are alike, class by class, each ends with NONE. */
 API int planner_alike(Planner *s, const int32_t *fields, int32_t count, size_t allowed) {

@@ -284,7 +284,7 @@ static Cost rest_from(Epochs *e, int32_t layer, const Word *state, int at_once) 
     int32_t id = met(&e->layers[layer], e->other);
     if (id == NONE) return NONE;
     const Node *node = node_of(&e->layers[layer], id);
-    return at_once ? node->onward : node->rest;
+    return at_once ? node->at_once : node->rest;
 }
 
 /* What a set makes of the state under the cursor; 0: no need to go on. */
@@ -430,7 +430,7 @@ static int epochs_go_back(Epochs *e, const int32_t *given, Cost limit, double se
             if (now() >= end) return RUNNING;
             Node *node = node_of(t, e->cursor);
             e->limit = limit > node->spent ? limit - node->spent : 0;
-            node->onward = e->least = e->limit < node->rest ? e->limit : node->rest;
+            node->at_once = e->least = e->limit < node->rest ? e->limit : node->rest;
             if (e->layer + 1 < e->n_layers) from_state(e, state_of(t, e->cursor), 0, given[e->layer]);
             node->rest = e->least;
         }

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <stdlib.h>
-#include "intended_effects.h"
 #include "landmarks.h"
 #include "lm_cut.h"
 #include "problem.h"
@@ -20,20 +19,19 @@ enum { ANEW = N_PRIORITIES, TRIALS = 500, SELDOM = 20 };
 
 typedef struct {
     LmCut lm_cut;
-    Intentions intentions;
-    /* how often LM-cut was asked, by turns and for an operator alone, said more than what was known, and was not asked */
-    int64_t asked[N_TURNS + 1], raised[N_TURNS + 1], skipped[N_TURNS + 1];
+    /* how often LM-cut was asked, by turns, said more than what was known, and was not asked */
+    int64_t asked[N_TURNS], raised[N_TURNS], skipped[N_TURNS];
     int64_t evaluated;
     const Word *rests_of; /* the state whose landmarks `rests` is about */
     Cost *rests;          /* per relaxed operator what is left after it; last: after those that are no relaxed ones */
 } Evaluator;
 
-static int evaluator_new(Evaluator *s, const RelaxedProblem *x, const Problem *p) {
-    return intentions_new(&s->intentions, p, x) && (s->rests = malloc(((size_t)x->n_ops + 1) * sizeof(Cost))) && lm_cut_new(&s->lm_cut, x);
+static int evaluator_new(Evaluator *s, const RelaxedProblem *x) {
+    return (s->rests = malloc(((size_t)x->n_ops + 1) * sizeof(Cost))) && lm_cut_new(&s->lm_cut, x);
 }
 
 static void evaluator_free(Evaluator *s) {
-    lm_cut_free(&s->lm_cut), intentions_free(&s->intentions), free(s->rests);
+    lm_cut_free(&s->lm_cut), free(s->rests);
 }
 
 /* Whether it is worth asking: one that seldom said more is asked now and then only. */
@@ -55,13 +53,6 @@ static void keep_rests(Evaluator *s, const Relaxation *r, const Word *state, Cos
     if (total > s->rests[x->n_ops]) s->rests[x->n_ops] = total;
 }
 
-/* What LM-cut has left says of plans that intend what the operator before does. */
-static void look_onward(Evaluator *s, const Problem *p, const Relaxation *r, Node *node, const Word *state, Cost total) {
-    if (left_out & INTENDED_EFFECTS || node->op == NONE || node->onward == SEVERAL) return;
-    Cost onward = with_intention(&s->intentions, p, r, node->op, state, total);
-    if (onward > node->onward) node->onward = onward;
-}
-
 /* What the next turn of LM-cut says of a node. */
 static void evaluate(Evaluator *s, const Problem *p, Relaxation *r, const Table *t, Node *node, const Word *state) {
     int32_t turn = node->evaluated++;
@@ -75,16 +66,6 @@ static void evaluate(Evaluator *s, const Problem *p, Relaxation *r, const Table 
     if ((node->exact = rest == INFINITE_COST)) return;
     node->landmarks = keep_set(&s->lm_cut.landmarks, &s->lm_cut.found, turn, node->landmarks);
     keep_rests(s, r, state, rest);
-    look_onward(s, p, r, node, state, rest);
-}
-
-/* The same for the operator that the best way to the node ends with, where this was not asked together with LM-cut. */
-static void evaluate_onward(Evaluator *s, const Problem *p, Relaxation *r, Node *node, const Word *state) {
-    if (left_out & INTENDED_EFFECTS || node->onward || node->op == NONE) return;
-    if (users_of(&s->intentions, p, &r->problem, node->op) < 0 || !pays(s, N_TURNS)) return;
-    s->evaluated++, s->asked[N_TURNS]++;
-    look_onward(s, p, r, node, state, lm_cut(&s->lm_cut, r, p, state, 0, set_of(&s->lm_cut.landmarks, node->landmarks, 0), NONE));
-    if (node->onward > node->rest) s->raised[N_TURNS]++;
 }
 
 /* What is known to be left after an operator, from the state that was evaluated last. */

@@ -11,7 +11,6 @@
      epochs, epoch_ways                    states epoch by epoch, with agents at a time; how each is come by
      a_star, greedy_search                 the searches
      learning, evaluation, stubborn_sets   what A* learns of states; bounds of nodes; which operators it leaves out
-     intended_effects                      operators that optimal plans need after others
      lm_cut, relaxed_plan                  bounds and first steps from the delete relaxation: LM-cut, FF
      landmarks                             what LM-cut has found of states, for those after them
      relaxation, relaxed_problem           the problem without deletes, explored from a state

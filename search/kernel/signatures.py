@@ -10,7 +10,7 @@ SIGNATURES: Final = {
     "leave_out": (None, [c_int]),
     "planner_new": (c_void_p, [c_void_p]),
     "planner_free": (None, [c_void_p]),
-    "planner_begin": (c_int, [c_void_p, c_char_p, c_int32, c_int64, c_size_t]),
+    "planner_begin": (c_int, [c_void_p, c_char_p, c_int64, c_size_t]),
     "planner_alike": (c_int, [c_void_p, c_void_p, c_int32, c_size_t]),
     "planner_run": (c_int, [c_void_p, c_double, c_size_t]),
     "planner_begin_greedy": (c_int, [c_void_p, c_char_p, c_size_t]),

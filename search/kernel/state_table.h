@@ -11,11 +11,11 @@
 #include "lists.h"
 #include "values.h"
 
-enum { SEVERAL = -1, CHUNK_BITS = 12, CHUNK = 1 << CHUNK_BITS };
+enum { CHUNK_BITS = 12, CHUNK = 1 << CHUNK_BITS };
 
 typedef struct {
     Cost spent, rest; /* spent in the search `stamp`; rest: no plan from here is cheaper */
-    Cost onward;      /* no optimal plan that comes by `op` is cheaper from here; 0: not known; SEVERAL: of more than one */
+    Cost at_once;     /* of epochs: no way that leaves something behind at once is cheaper from here */
     int64_t landmarks; /* where its last set is, or NONE, see landmarks.h */
     int32_t parent, op;
     uint32_t stamp;

@@ -20,8 +20,7 @@ typedef int64_t Cost;
 enum { RUNNING, FOUND, NOT_BELOW, HOPELESS, MEMORY, UNFIT };
 
 /* What A* can be told to leave out, added up, so that it is seen what each is good for; answers stay. */
-enum { INTENDED_EFFECTS = 1, HANDED_DOWN = 2, SECOND_CUTS = 4, THIRD_CUTS = 8, STUBBORN_SETS = 16, LOOKAHEAD = 32 };
-enum { LIKE_FIELDS = 64 };
+enum { HANDED_DOWN = 1, SECOND_CUTS = 2, THIRD_CUTS = 4, STUBBORN_SETS = 8, LOOKAHEAD = 16, LIKE_FIELDS = 32 };
 static int left_out;
 
 /* A sum of costs that are MOST_COST at most. */

@@ -165,8 +165,9 @@ def test_a_state_of_many_sets_is_left_when_the_time_for_it_is_up() -> None:
             actions[f"use_{robot}_{choice} h"] = f"on_{robot}_{choice} -> done_{choice % 8} @ 1"
     agents = " ".join(["h", *(f"r{i}" for i in range(robots))])
     task = build(agents=agents, goal=" ".join(f"done_{i}" for i in range(8)), actions=actions)
-    context = SearchContext(PreparedTask(task), ONE_EPOCH.but(discount="9/10"), Deadline(0.3))
-    optimal = context.canonical_plan()
+    prepared, options = PreparedTask(task), ONE_EPOCH.but(discount="9/10")
+    optimal = SearchContext(prepared, options, Deadline()).canonical_plan()
+    context = SearchContext(prepared, options, Deadline(0.3))
     incumbent = Incumbent(INFINITE_KEY - 1)
     progress = Progress()
     with suppress(LimitReachedError):
