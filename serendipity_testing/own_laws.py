@@ -140,12 +140,17 @@ def _told(answer: Result) -> dict[str, Any]:
 def _same_rank(task: Task, found: Result, expected: Result) -> Result:
     """``found``, with the expected plan where its own is another one of the same rank (semantics 3.1).
 
-    A session keeps variables that a fresh call doesn't find, which may decide between the two.
+    A session keeps variables that a fresh call doesn't find, which may decide between the two.  Where goals
+    are shared, ties of one objective are settled as far as the search got (semantics, Decisions).
     """
-    one, other = ((each.cost, each.window, len(each.plan or ())) for each in (found, expected))
-    if one != other or check(task, found).refuted is not None:
+    shared = _is_shared(task)
+
+    def rank(each: Result) -> tuple[object, ...]:
+        return (each.objective, each.cost) if shared else (each.cost, each.window, len(each.plan or ()))
+
+    if rank(found) != rank(expected) or check(task, found).refuted is not None:
         return found
-    return _with(found, expected, "plan", "agent_costs", "realised")
+    return _with(found, expected, "plan", "window", "agent_costs", "realised")
 
 
 def _faults(call: PlanCall, early: Result, final: Result) -> Iterator[str]:

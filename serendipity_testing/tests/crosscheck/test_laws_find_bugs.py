@@ -114,3 +114,9 @@ def test_bugs_are_found(bug: Callable[[Patch], None], monkeypatch: Patch) -> Non
         f" for which {law!r} finds nothing without the bug, and something with it"
     )
     assert found.law == law
+
+
+def test_ties_of_one_objective_are_no_disagreement() -> None:
+    """A session's window began an epoch earlier than a fresh call's, where goals are shared."""
+    laws = {"session": LAWS["session"]}
+    assert compare(random_call(5002), {"search": JUDGES["search"]}, laws) is None
