@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 import serendipity
@@ -251,6 +251,7 @@ def test_a_limit_leaves_topics_out() -> None:
 
 
 @pytest.mark.long
+@settings(suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])  # few calls have help
 @given(st.integers(0, 10**6), st.sampled_from(["0.5", "0.9"]))
 def test_what_hinges_on_robots_is_what_happens_otherwise(seed: int, discount: str) -> None:
     """Without robots it is the answer with idle robots, and no turn is for nothing."""
