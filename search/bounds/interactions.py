@@ -50,6 +50,7 @@ class Interactions:
         self.mask = mask
         self.needs: list[Need] = []
         self._ids: dict[Need, int] = {}
+        self._kinds: dict[tuple[int, int, int, object], tuple[int, int, bool]] = {}
         self._packed = packed
         self.outside = packed.outside
         self._indices: list[tuple[OperatorIndex[Operator], dict[int, list[Seen]]]]
@@ -78,10 +79,16 @@ class Interactions:
         return [self._project(op) for op in chain(*groups, index.always)]
 
     def _project(self, op: Operator) -> Seen:
+        form = op.need_mask, op.keep, op.agents, op.forbidden
+        kind = self._kinds.get(form)
+        if kind is None:
+            interaction = self._packed.involves_others(op.agents, self._packed.mentioned(op))
+            kind = self._kinds[form] = op.need_mask & self.mask, op.need_mask & self.outside, interaction
+        need_mask, asked, interaction = kind
         mask, number = self.mask, -1
-        if self._packed.involves_others(op.agents, self._packed.mentioned(op)):
-            need = Need(op.need_mask & self.outside, op.need & self.outside)
+        if interaction:
+            need = Need(asked, op.need & self.outside)
             number = self._ids.setdefault(need, len(self.needs))
             if number == len(self.needs):
                 self.needs.append(need)
-        return Seen(op.need_mask & mask, op.need & mask, op.keep, op.put & mask, op.cost, number)
+        return Seen(need_mask, op.need & mask, op.keep, op.put & mask, op.cost, number)

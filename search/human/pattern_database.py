@@ -121,6 +121,11 @@ def translated(bound: PatternDatabase, plain: PackedTask, packed: PackedTask) ->
     return PatternDatabase(mask, distances)
 
 
+def steps_in(own: PatternDatabase) -> PatternDatabase:
+    """The numbers of actions in what :func:`own_projection` finds."""
+    return PatternDatabase(own.mask, {at: own_actions(cost) for at, cost in own.distances.items()})
+
+
 def human_steps(packed: PackedTask, graph: Projected, deadline: Deadline) -> PatternDatabase:
     """The least number of the human's actions to their goal, in the same variables."""
     counted = {

@@ -11,6 +11,7 @@ from search.human.pattern_database import (
     human_steps,
     own_projection,
     partial_graph,
+    steps_in,
     whole_graph,
 )
 from search.packed.packed_task import PackedTask
@@ -44,7 +45,10 @@ class HumanTables:
         self.alone = KeptTable(lambda deadline: alone_projection(packed, deadline))
         self.graph: KeptTable[Projected] = graph
         self.projection: KeptTable[PatternDatabase] = projection
-        self.steps = KeptTable(lambda deadline: human_steps(packed, graph(deadline), deadline))
+        if len(packed.costs) == 1:  # every action costs the same: the cheapest way is the shortest
+            self.steps = KeptTable(lambda deadline: steps_in(projection(deadline)))
+        else:
+            self.steps = KeptTable(lambda deadline: human_steps(packed, graph(deadline), deadline))
 
     def memory(self, *, strict: bool) -> Memory:
         """What calls have found out about the human alone; interference matters beside a script only."""

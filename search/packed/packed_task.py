@@ -76,6 +76,7 @@ class PackedTask:
     ) -> None:
         self.task = task
         self.human_bit = 1 << task.human
+        self._agents: dict[tuple[int, ...], int] = {}
         relevant, useful = relevant_to_goals(task, extra, deadline, (*kept, *deeds_of(task), *_priced(task)))
         self.useful = useful
         self.fact_bits: list[tuple[int, int] | None] = [None] * len(task.facts)
@@ -335,7 +336,9 @@ class PackedTask:
         action = self.task.actions[action_id]
         need_mask, need, forbidden = self._literals(action.pre, action.neg)
         keep, put = self.effect(action_id)
-        agents = sum([1 << agent for agent in action.participants])
+        agents = self._agents.get(action.participants)
+        if agents is None:
+            agents = self._agents[action.participants] = sum(1 << agent for agent in action.participants)
         cost = self._cost_index[action.cost.as_integer_ratio()]
         return Operator(need_mask, need, keep, put, forbidden, action_id, agents, cost)
 
