@@ -37,9 +37,6 @@ _MUCH_WORK: Final = 100_000_000
 _SYMBOLIC_SHARE: Final = 0.5
 """What of the time that is left it may take."""
 
-NONE: Final = -1
-"""No operator."""
-
 _SOON: Final = 0.05
 """Seconds in which a known plan is put together where a limit has come."""
 

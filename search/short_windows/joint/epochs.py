@@ -4,17 +4,20 @@ import ctypes
 from array import array
 from collections import defaultdict
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from search.call.context import SearchContext
 from search.classical.encoded_problem import EncodedProblem, memory_for
 from search.classical.like_fields import Exchange, like_fields, told
-from search.classical.planner import FOUND, NONE, RUNNING, SLICE, ClassicalPlanner, with_memory
+from search.classical.planner import FOUND, RUNNING, SLICE, ClassicalPlanner, with_memory
 from search.classical.problem import ClassicalProblem
 from search.packed.operators import Operator, union
 from serendipity.model.errors import LimitReachedError
 from serendipity.model.resources.deadline import Deadline
 from serendipity.model.task.task import Task
+
+_NONE: Final = -1
+"""No operator."""
 
 
 class Leaving(NamedTuple):
@@ -130,7 +133,7 @@ class Epochs:
 
     def end_all(self, limit: int, most: int, deadline: Deadline) -> bool:
         """Go through such an epoch; arguments, and what is said, as for :meth:`advance`."""
-        return self._run(NONE, limit, most, deadline)
+        return self._run(_NONE, limit, most, deadline)
 
     def go_back(self, limit: int, deadline: Deadline) -> None:
         """Find out what is left from all states, once all epochs were gone through, under no lower limits."""
@@ -148,7 +151,7 @@ class Epochs:
             at_once: if something is left behind by the next epoch.
         """
         found = self._kernel.epochs_rest(self._epochs, epochs, self._told.row(state), at_once)
-        return None if found == NONE else int(found)
+        return None if found == _NONE else int(found)
 
     def end(self, leaving: Leaving) -> int:
         """The packed state that is left behind, in the fields that matter to what follows."""
@@ -165,7 +168,7 @@ class Epochs:
         )
         sets: list[list[Operator]] = [[]]
         for number in found[: count - 1]:  # a set may be empty
-            if number == NONE:
+            if number == _NONE:
                 sets.append([])
             else:
                 sets[-1].append(self._operators[number])
@@ -216,7 +219,7 @@ def _alike(
 
     fields = [field for field, _ in after.problem.fields]
     later = {fields[one]: alike[0] for alike in after.alike(deadline) for one in alike}
-    later |= dict.fromkeys({field for field, _ in problem.fields} - {*fields}, NONE)
+    later |= dict.fromkeys({field for field, _ in problem.fields} - {*fields}, _NONE)
     found = defaultdict[Hashable, list[int]](list)
     for number, alike in enumerate(like_fields(problem, deadline, allows)):
         for one in alike:
