@@ -21,6 +21,21 @@ _NO_PLAN: Final = (10, 11, 12)
 """Exit codes of Fast Downward's that say that there is no plan; others use them, too."""
 
 
+def program_words(text: str, option: str) -> list[str]:
+    """The words of a command line, as a shell splits it; there is no shell.
+
+    Raises:
+        UsageError: it can't be split, or there is no such program; ``option`` is what it was given for.
+    """
+    try:
+        words = shlex.split(text)
+    except ValueError as error:
+        raise UsageError(f"{option}: {error}") from None
+    if not words or shutil.which(words[0]) is None:
+        raise UsageError(f"{option}: there is no program '{''.join(words[:1])}'")
+    return words
+
+
 class Command:
     """A command line that plans.
 
@@ -38,14 +53,7 @@ class Command:
     """
 
     def __init__(self, text: str) -> None:
-        try:
-            self._words = shlex.split(text)
-        except ValueError as error:
-            raise UsageError(f"judge-command: {error}") from None
-        if not self._words or shutil.which(self._words[0]) is None:
-            raise UsageError(
-                f"judge-command: there is no program '{text.split(maxsplit=1)[0] if text else ''}'"
-            )
+        self._words = program_words(text, "judge-command")
         if not any(f"{{{place}}}" in word for word in self._words for place in _PLACES):
             self._words += [f"{{{place}}}" for place in _PLACES]
 

@@ -2,8 +2,6 @@
 
 import json
 import queue
-import shlex
-import shutil
 import subprocess
 import threading
 import urllib.request
@@ -11,7 +9,8 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, Final
 
-from serendipity.model import Deadline, LimitReachedError, UsageError
+from serendipity.model import Deadline, LimitReachedError
+from serendipity_testing.judges.commands import program_words
 from serendipity_testing.league.protocol import AnswerError, Ask, Observation
 
 _PATIENCE: Final = 60.0
@@ -82,12 +81,7 @@ class Process:
     """
 
     def __init__(self, text: str) -> None:
-        try:
-            self._words = shlex.split(text)
-        except ValueError as error:
-            raise UsageError(f"helper: {error}") from None
-        if not self._words or shutil.which(self._words[0]) is None:
-            raise UsageError(f"helper: there is no program '{''.join(self._words[:1])}'")
+        self._words = program_words(text, "helper")
         self._running: subprocess.Popen[str] | None = None
 
     def __call__(self, observation: Observation) -> Any:

@@ -202,6 +202,7 @@ def test_places_of_files_are_filled_in(tmp_path: Path) -> None:
         (by_name, "up:deep-thought", "engine 'deep-thought': expected one of"),
         (by_command, "no-such-program -x", "there is no program 'no-such-program'"),
         (by_command, "", "there is no program"),
+        (by_command, "  ", "there is no program ''"),
         (by_command, "cat '", "No closing quotation"),
     ],
 )
